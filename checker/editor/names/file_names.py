@@ -1,0 +1,94 @@
+"""Which names one file holds, by what kind of file it is."""
+
+from __future__ import annotations
+
+from checker.base.files import NotReadable
+from checker.editor.names.launch_names import launch_names
+from checker.editor.names.mention import FileNames
+from checker.editor.names.python_names import PythonNames
+from checker.editor.names.robot_names import RobotNames
+from checker.editor.names.ruby_names import ruby_names, ruby_values
+from checker.editor.names.sdf_names import SdfNames
+from checker.editor.names.xacro_names import PREFIX, XacroNames
+from checker.editor.names.yaml_names import yaml_names
+from checker.expand.ros2_launch.python.launch_file import parsed
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
+from checker.source.yaml import read_yaml
+
+XML = (".sdf", ".world", ".urdf", ".xacro", ".srdf", ".launch", ".xml", ".gazebo")
+YAML = (".yaml", ".yml", ".rviz")
+SUFFIXES = (*XML, *YAML, ".rb", ".py")
+SIZE_LIMIT = 3_000_000
+"""Bytes; a larger file is not read."""
+
+
+def holds_names(path: str, size: int) -> bool:
+    """Whether a file of a package may hold names."""
+    name = path.lower()
+    if size > SIZE_LIMIT or not name.endswith(SUFFIXES) or name.endswith("package.xml"):
+        return False
+    is_launch = name.endswith((".launch.py", "_launch.py")) or "launch/" in name
+    return is_launch or not name.endswith(".py")
+
+
+def file_names(package: Package, path: str, source: SourceText) -> FileNames:
+    """Return the names of a file."""
+    lower = path.lower()
+    if lower.endswith(YAML):
+        document = read_yaml(source)
+        if document.root is None:
+            fault = document.faults[0].message if document.faults else ""
+            return FileNames(source, "yaml", fault=fault)
+        return FileNames(source, "yaml", tuple(yaml_names(document.root)))
+    if lower.endswith(".rb"):
+        return FileNames(source, "ruby", tuple(ruby_names(source)), values=ruby_values(source))
+    if lower.endswith(".py"):
+        return _python(source)
+    return _xml(package.xml(path), source)
+
+
+def _python(source: SourceText) -> FileNames:
+    tree = parsed(source)
+    if isinstance(tree, str):
+        return FileNames(source, "python", fault=tree)
+    found = PythonNames(source, tree)
+    return FileNames(source, "python", tuple(found.names), values=frozenset(found.values))
+
+
+def _xml(document: XmlDocument | XmlFault | NotReadable, source: SourceText) -> FileNames:
+    """Return the names of an XML file by its outermost element."""
+    if isinstance(document, XmlFault):
+        return FileNames(source, "xml", fault=document.message)
+    if isinstance(document, NotReadable):
+        return FileNames(source, "xml", fault=document.reason)
+    tag = document.root.tag
+    if tag == "launch":
+        return FileNames(source, "launch", tuple(launch_names(document)))
+    if tag not in ("sdf", "robot", "gazebo", "model", "world"):
+        return FileNames(source, "other")
+    is_robot = tag == "robot"
+    sdf = None if is_robot else SdfNames(document)
+    names = sdf.names if sdf else RobotNames(document).names
+    included = sdf.included if sdf else []
+    values: frozenset[str] = frozenset()
+    parameters: frozenset[str] = frozenset()
+    if PREFIX in source.text or "${" in source.text or "$(" in source.text:
+        xacro = XacroNames(document)
+        names, included = [*names, *xacro.names], [*included, *xacro.included]
+        values, parameters = frozenset(xacro.values), frozenset(xacro.parameters)
+    return FileNames(
+        source,
+        _robot_format(source.file) if is_robot else "sdf",
+        tuple(names),
+        tuple(included),
+        values,
+        parameters,
+        sdf.model if sdf else document.root.get("name") or "",
+    )
+
+
+def _robot_format(path: str) -> str:
+    return "srdf" if path.lower().endswith((".srdf", ".srdf.xacro")) else "robot"

@@ -1,0 +1,95 @@
+"""Parts of an XML text that an editor may fold: elements and comments over several lines.
+
+The text is scanned as it stands, so that folds stay while it is being written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from enum import StrEnum
+
+from checker.base.record import Record
+from checker.source.text import SourceText
+
+_MARKUP = re.compile(
+    r"<!--(?P<comment>)|<!\[CDATA\[(?P<data>)|<\?(?P<instruction>)"
+    # No value holds `<`, so that no tag is looked for beyond the next one.
+    r"""|<(?P<end>/?)(?P<name>[^\s<>/!?"'=]{1,200})"""
+    r"""(?:[^<>"']|"[^"<]*+"|'[^'<]*+')*+>"""
+)
+_CLOSING = {"comment": "-->", "data": "]]>", "instruction": "?>"}
+LIMIT = 50_000
+"""Folds of one file."""
+
+
+class FoldKind(StrEnum):
+    """What is folded."""
+
+    ELEMENT = "element"
+    COMMENT = "comment"
+
+
+class Fold(Record):
+    """Lines that can be folded.
+
+    Attributes:
+        start_line: The line that stays, from 1.
+        end_line: The last line that is hidden; the end tag of an element stays.
+        kind: What they are.
+    """
+
+    start_line: int
+    end_line: int
+    kind: FoldKind
+
+
+def folds_of(source: SourceText) -> tuple[Fold, ...]:
+    """Return what can be folded in an XML text, by first line, the outer before the inner."""
+    found: dict[tuple[int, int], Fold] = {}
+    for start, end, kind in _regions(source.text):
+        first, last = source.position(start)[0], source.position(end)[0]
+        if first < last and len(found) < LIMIT:
+            found.setdefault((first, -last), Fold(first, last, kind))
+    return tuple(found[key] for key in sorted(found))
+
+
+def _regions(text: str) -> Iterator[tuple[int, int, FoldKind]]:
+    """Yield the offsets of what may be folded: its first character, and one on its last line.
+
+    An end tag closes the innermost element of its name, and all that is open in it; one that
+    closes nothing is passed over.
+    """
+    open_tags: list[tuple[str, int]] = []
+    names: Counter[str] = Counter()
+    at = 0
+    while match := _MARKUP.search(text, at):
+        at = match.end()
+        if match.lastgroup in _CLOSING:
+            end = text.find(_CLOSING[match.lastgroup], at)
+            at = len(text) if end < 0 else end + 1
+            if match.lastgroup == "comment" and end >= 0:
+                yield match.start(), end, FoldKind.COMMENT
+        elif not match["end"]:
+            name = match["name"]
+            if match.group().endswith("/>"):
+                yield match.start(), match.end() - 1, FoldKind.ELEMENT
+            else:
+                open_tags.append((name, match.start()))
+                names[name] += 1
+        elif names[match["name"]]:
+            start = _closed(open_tags, names, match["name"])
+            # The line in front of the end tag, unless something else is on the end tag's own.
+            line_start = text.rfind("\n", 0, match.start()) + 1
+            is_alone = not text[line_start : match.start()].strip()
+            yield start, line_start - 1 if is_alone else match.start(), FoldKind.ELEMENT
+
+
+def _closed(open_tags: list[tuple[str, int]], names: Counter[str], name: str) -> int:
+    """Close the innermost element of a name; return where it starts."""
+    while True:
+        closed, start = open_tags.pop()
+        names[closed] -= 1
+        if closed == name:
+            return start

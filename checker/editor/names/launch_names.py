@@ -1,0 +1,89 @@
+"""Names in launch files in XML: arguments, topics, and what is given to nodes."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.editor.names.mention import TOPIC_ONLY, NameKind, Role, WrittenName
+from checker.editor.names.plugin_names import written
+from checker.editor.names.topics import is_topic, topic_key
+from checker.editor.names.values import LENGTH_LIMIT, names_in, words_in
+from checker.source.text import Located
+from checker.source.xml import Element, XmlDocument
+
+ARGUMENT = (NameKind.ARGUMENT,)
+_NAMED = re.compile(r"\$\((?:arg|var)\s+([A-Za-z_]\w*)\s*\)")
+_EVALUATED = re.compile(r"\$\(eval\s+(.{0,2000}?)\)(?=\s*$|[^()]*$)", re.DOTALL)
+_IDENTIFIER = re.compile(r"(?<![\w.])[A-Za-z_]\w*")
+
+
+def launch_names(document: XmlDocument) -> Iterator[WrittenName]:
+    """Yield the names of a launch file."""
+    for element in document.elements:
+        yield from _of_element(element)
+
+
+def _of_element(element: Element) -> Iterator[WrittenName]:
+    tag = element.tag
+    if tag in ("arg", "let"):
+        yield from _argument(element)
+    for name in element.attributes:
+        text = written(element.attribute(name))
+        if text is None:
+            continue
+        yield from named_arguments(text.value, text.span.start)
+        if name in ("if", "unless", "name", "pkg", "type", "exec", "file", "ns", "namespace"):
+            continue
+        if tag == "remap":
+            yield from _remapped(text)
+        else:
+            yield from _given(element, name, text)
+    if tag == "rosparam" and (text := written(element.text)) is not None:
+        yield from words_in(text.value, text.span.start)
+
+
+def _argument(element: Element) -> Iterator[WrittenName]:
+    """Yield an argument that is declared, set, or passed to a file that is included."""
+    text = written(element.attribute("name"))
+    if text is None or not text.value:
+        return
+    above = element.parent
+    files: tuple[str, ...] = ()
+    role = Role.DEFINES
+    if above is not None and above.tag == "include":
+        files = (posixpath.basename(above.get("file") or ""),)
+        role = Role.MAY_NAME
+    yield WrittenName(ARGUMENT, text.value, text.span.start, text.span.end, role, files)
+
+
+def named_arguments(value: str, start: int) -> Iterator[WrittenName]:
+    """Yield the arguments in `$(arg x)`, `$(var x)` and `$(eval …)` of a text."""
+    if "$(" not in value or len(value) > LENGTH_LIMIT:
+        return
+    for match in _NAMED.finditer(value):
+        at, end = start + match.start(1), start + match.end(1)
+        yield WrittenName(ARGUMENT, match[1], at, end, Role.NAMES)
+    for evaluated in _EVALUATED.finditer(value):
+        for match in _IDENTIFIER.finditer(evaluated[1]):
+            at = start + evaluated.start(1) + match.start()
+            if match[0] not in ("arg", "var", "and", "or", "not", "if", "else"):
+                yield WrittenName(ARGUMENT, match[0], at, at + len(match[0]), Role.MAY_NAME)
+
+
+def _remapped(text: Located[str]) -> Iterator[WrittenName]:
+    if is_topic(text.value):
+        key, own = topic_key(text.value)
+        start = text.span.start
+        end = start + len(text.value)
+        yield WrittenName(TOPIC_ONLY, key, start + own, end, Role.MAY_NAME)
+
+
+def _given(element: Element, name: str, text: Located[str]) -> Iterator[WrittenName]:
+    """Yield what an attribute of a node, parameter or argument may name."""
+    key = name
+    if name in ("value", "default"):
+        key = posixpath.basename(element.get("name") or "")
+    words = name in ("args", "command", "ros_args", "cmd")
+    yield from names_in(text.value, text.span.start, key, words=words)

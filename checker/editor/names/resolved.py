@@ -1,0 +1,235 @@
+"""What the names of all files mention: each is looked up where its file says it may be."""
+
+from __future__ import annotations
+
+import posixpath
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+
+from checker.base.record import Record
+from checker.editor.names.expressions import is_composed, is_computed, may_come_to
+from checker.editor.names.included_files import Scopes
+from checker.editor.names.mention import (
+    FRAMES,
+    FileNames,
+    Mention,
+    NameKind,
+    Role,
+    WrittenName,
+)
+
+Key = tuple[NameKind, str, str]
+"""Kind, scope and full name of a thing."""
+Links = Mapping[str, tuple[str | None, ...]]
+
+_DEPTH = 8
+"""Models in models that a name is followed through."""
+_DESCRIBING = ("sdf", "robot")
+
+
+def key_of(mention: Mention) -> Key:
+    """Return what mentions of one thing have in common."""
+    return mention.kind, mention.scope, mention.name
+
+
+class ComposedDefinition(Record):
+    """A thing whose name is composed, and what its expressions may come to."""
+
+    mention: Mention
+    values: frozenset[str]
+
+    def may_be(self, name: str) -> bool:
+        """Whether the thing may have a name."""
+        return may_come_to(self.mention.name, name, self.values)
+
+
+class Lookup:
+    """Finds what names mention.
+
+    Attributes:
+        mentions: Of the package's own files, and the definitions in siblings.
+        composed: Definitions whose names are composed, by kind.
+    """
+
+    def __init__(self, files: Mapping[str, FileNames], links: Links, scopes: Scopes) -> None:
+        """Look up all names of the files.
+
+        Args:
+            files: By path.
+            links: By path, the paths of the files that it includes.
+            scopes: What the things of each file belong to.
+        """
+        self._files, self._links, self._scopes = files, links, scopes
+        self._defined: set[Key] = set()
+        self._scopes_of: dict[tuple[NameKind, str], list[str]] = defaultdict(list)
+        self._sensors: dict[str, list[Key]] = defaultdict(list)
+        self.composed: dict[NameKind, list[ComposedDefinition]] = defaultdict(list)
+        self.mentions: list[Mention] = []
+        for path, name in self._written():
+            if name.role is Role.DEFINES:
+                self._define(path, name)
+        for path, name in self._written():
+            self.mentions += self._mentions(path, name)
+
+    def _written(self) -> Iterator[tuple[str, WrittenName]]:
+        for path, file in self._files.items():
+            is_own = not path.startswith("../")
+            for name in file.names:
+                if is_own or name.role is Role.DEFINES:
+                    yield path, name
+
+    def _scope(self, kind: NameKind, path: str) -> str:
+        """Return what a thing that a file makes belongs to."""
+        if kind is NameKind.TOPIC:
+            return ""
+        if kind in (NameKind.MACRO, NameKind.PROPERTY, NameKind.ARGUMENT):
+            return self._scopes.xacro[path]
+        return self._scopes.robots.get(path, "")
+
+    def _define(self, path: str, name: WrittenName) -> None:
+        kind = name.kinds[0]
+        scope = self._scope(kind, path)
+        if is_composed(name.name):
+            mention = Mention(kind, name.name, scope, path, name.start, name.end, True)
+            values = self._scopes.values.get(self._scopes.xacro[path], frozenset())
+            self.composed[kind].append(ComposedDefinition(mention, values))
+        key = (kind, scope, name.name)
+        if key in self._defined:
+            return
+        self._defined.add(key)
+        self._scopes_of[kind, name.name].append(scope)
+        if kind is NameKind.SENSOR:
+            self._sensors[name.name.rpartition("::")[2]].append(key)
+
+    def _mentions(self, path: str, name: WrittenName) -> Iterator[Mention]:
+        """Yield what a written name mentions; more than one thing where that is open."""
+        defines = name.role is Role.DEFINES
+        if defines:
+            keys = [(name.kinds[0], self._scope(name.kinds[0], path), name.name)]
+        elif name.kinds == (NameKind.TOPIC,):
+            yield from self._topics(path, name)
+            return
+        else:
+            keys = list(dict.fromkeys(self._keys(path, name)))
+            if not keys and name.role is Role.STATES:
+                last = name.name.rpartition("::")[2]
+                keys, defines = [(NameKind.FRAME, "", last)], True
+            elif not keys:
+                keys = self._open(path, name)
+        for kind, scope, full in keys:
+            yield Mention(kind, full, scope, path, name.start, name.end, defines)
+
+    def _keys(self, path: str, name: WrittenName) -> Iterator[Key]:
+        describes = self._files[path].format in _DESCRIBING
+        if name.kinds == (NameKind.ARGUMENT,):
+            yield from self._arguments(path, name)
+        elif describes:
+            yield from self._in_file(path, name.name, name.kinds, name.role)
+        else:
+            yield from self._anywhere(name)
+
+    def _in_file(
+        self, path: str, name: str, kinds: tuple[NameKind, ...], role: Role, depth: int = 0
+    ) -> Iterator[Key]:
+        """Yield what a name means in a file, or in the models that it includes."""
+        found = [*self._own(path, name, kinds)]
+        if found:
+            yield from found if role is Role.MAY_NAME else found[:1]
+        elif depth < _DEPTH:
+            for target, rest, model in self._models(path, name):
+                if not rest:
+                    yield NameKind.MODEL, self._scope(NameKind.MODEL, target), model
+                elif target != path:
+                    yield from self._in_file(target, rest, kinds, role, depth + 1)
+
+    def _own(self, path: str, name: str, kinds: tuple[NameKind, ...]) -> Iterator[Key]:
+        """Yield the things of a file that have a name."""
+        for kind in kinds:
+            scope = self._scope(kind, path)
+            if (kind, scope, name) in self._defined:
+                yield kind, scope, name
+            elif kind is NameKind.SENSOR:
+                yield from (it for it in self._sensors.get(name, ()) if it[1] == scope)
+
+    def _models(self, path: str, name: str) -> Iterator[tuple[str, str, str]]:
+        """Yield the files of included models that a name leads to, with what is left of it.
+
+        Nothing is left of the name of a model that only its own file names.
+        """
+        file = self._files[path]
+        for included, target in zip(file.included, self._links[path], strict=True):
+            if target is None or target not in self._files or included.by_xacro:
+                continue
+            model = self._files[target].model
+            named = included.name[-2:] not in ("", "::")
+            inside = included.name if named or included.merged else included.name + model
+            if name == inside and not named and not included.merged:
+                yield target, "", model
+            prefix = inside if included.merged else f"{inside}::"
+            if name.startswith(prefix) and name != prefix:
+                yield target, name.removeprefix(prefix), model
+
+    def _anywhere(self, name: WrittenName) -> Iterator[Key]:
+        """Yield what a name means that tells of no robot: a thing of any of the package."""
+        parts = name.name.split("::")
+        for start in range(min(len(parts), _DEPTH)):
+            full = "::".join(parts[start:])
+            found = [
+                (kind, scope, full)
+                for kind in name.kinds
+                for scope in self._scopes_of.get((kind, full), ())
+            ]
+            if NameKind.SENSOR in name.kinds:
+                found += self._sensors.get(full, ())
+            if found:
+                yield from found
+                return
+
+    def _arguments(self, path: str, name: WrittenName) -> Iterator[Key]:
+        """Yield the arguments of launch and xacro files that a name means."""
+        kind = NameKind.ARGUMENT
+        scopes = self._scopes_of.get((kind, name.name), [])
+        own = self._scopes.xacro[path]
+        if name.role is Role.NAMES:
+            chosen = [own] if own in scopes else scopes if len(scopes) == 1 else []
+        elif name.files:
+            named = {
+                self._scopes.xacro[it] for it in self._files if posixpath.basename(it) in name.files
+            }
+            chosen = [scope for scope in scopes if scope in named]
+        elif self._files[path].format in ("launch", "robot", "sdf"):
+            chosen = [own] if own in scopes else []
+        else:
+            chosen = scopes
+        yield from ((kind, scope, name.name) for scope in chosen)
+
+    def _topics(self, path: str, name: WrittenName) -> Iterator[Mention]:
+        """Yield the topic of a name, or the one that it is published below: `scan/points`."""
+        kind = NameKind.TOPIC
+        own = name.name.removeprefix("model/*/").removeprefix("*/")
+        shown = name.name[: len(name.name) - len(own)]
+        steps = own.split("/")
+        for count in range(len(steps), 0, -1):
+            part = "/".join(steps[:count])
+            if (kind, "", shown + part) in self._defined:
+                end = name.end if count == len(steps) else name.start + len(part)
+                yield Mention(kind, shown + part, "", path, name.start, end)
+                return
+
+    def _open(self, path: str, name: WrittenName) -> list[Key]:
+        """Return what a name means of which no definition is written out."""
+        kind = name.kinds[0]
+        describes = self._files[path].format in _DESCRIBING
+        own = self._scope(kind, path)
+        if name.role is not Role.MAY_NAME:
+            return [(kind, own if describes else "", name.name)]
+        for kind in name.kinds:
+            for definition in self.composed.get(kind, ()):
+                scope = definition.mention.scope
+                if (not describes or scope == own) and definition.may_be(name.name):
+                    return [(kind, scope, name.name)]
+        if is_composed(name.name) and not is_computed(name.name):
+            return [(name.kinds[0], own, name.name)] if describes else []
+        if name.kinds == FRAMES and not describes:
+            return [(NameKind.FRAME, "", name.name)]
+        return []

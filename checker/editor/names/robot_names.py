@@ -1,0 +1,114 @@
+"""Names in URDF, also in the elements that xacro makes, and in SRDF: links, joints, sensors."""
+
+from __future__ import annotations
+
+import re
+
+from checker.editor.names.expressions import EXPRESSION, is_computed
+from checker.editor.names.mention import (
+    FRAMES,
+    JOINT_ONLY,
+    LINK_ONLY,
+    SENSOR_ONLY,
+    NameKind,
+    Role,
+    WrittenName,
+)
+from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.source.text import Located
+from checker.source.xml import Element, XmlDocument
+
+_LINK_OR_JOINT = (NameKind.LINK, NameKind.JOINT)
+_REFERRING = {
+    ("parent", "link"): LINK_ONLY,
+    ("child", "link"): LINK_ONLY,
+    ("mimic", "joint"): JOINT_ONLY,
+    ("gazebo", "reference"): _LINK_OR_JOINT,
+    ("virtual_joint", "child_link"): LINK_ONLY,
+    ("virtual_joint", "parent_frame"): FRAMES,
+    ("passive_joint", "name"): JOINT_ONLY,
+    ("chain", "base_link"): LINK_ONLY,
+    ("chain", "tip_link"): LINK_ONLY,
+    ("end_effector", "parent_link"): LINK_ONLY,
+    ("disable_collisions", "link1"): LINK_ONLY,
+    ("disable_collisions", "link2"): LINK_ONLY,
+    ("enable_collisions", "link1"): LINK_ONLY,
+    ("enable_collisions", "link2"): LINK_ONLY,
+    ("disable_default_collisions", "link"): LINK_ONLY,
+    ("link_sphere_approximation", "link"): LINK_ONLY,
+}
+"""Attributes that name a link or joint, by tag."""
+_BY_TAG = {"link": NameKind.LINK, "joint": NameKind.JOINT}
+_ELSEWHERE = frozenset({"transmission", "ros2_control", "group", "group_state", "actuator"})
+"""Elements in which a `<joint name="…">` names one that is defined elsewhere."""
+_ROBOT = re.compile(rf"/?(?:{EXPRESSION.pattern})/(?=[^/]+\Z)")
+
+
+class RobotNames:
+    """The reading of one file.
+
+    Attributes:
+        names: What is written, as it is found.
+    """
+
+    def __init__(self, document: XmlDocument) -> None:
+        """Read all of it."""
+        self.names: list[WrittenName] = []
+        self._is_srdf = document.source.file.lower().endswith((".srdf", ".srdf.xacro"))
+        self._walk(document.root, "", self._is_srdf)
+
+    def _walk(self, element: Element, reference: str, elsewhere: bool) -> None:
+        """Read what is in an element.
+
+        Args:
+            element: Any.
+            reference: What the `<gazebo>` around it refers to.
+            elsewhere: Whether joints in it are defined elsewhere.
+        """
+        for child in element.children:
+            tag = child.tag
+            self._attributes(child, reference, elsewhere)
+            if tag == "plugin":
+                self.names += plugin_names(child, "")
+            elif tag == "sensor" and not elsewhere:
+                self._sensor(child, reference)
+            elif tag == "gazebo":
+                self._walk(child, child.get("reference") or "", True)
+            elif child.children:
+                self._walk(child, reference, elsewhere or tag in _ELSEWHERE)
+            elif tag == "param" and child.get("name") == "mimic":
+                self._name(written(child.text), JOINT_ONLY, Role.NAMES)
+
+    def _attributes(self, element: Element, reference: str, elsewhere: bool) -> None:
+        tag = element.tag
+        for name in element.attributes:
+            kinds = _REFERRING.get((tag, name))
+            if kinds is not None:
+                self._name(written(element.attribute(name)), kinds, Role.NAMES)
+            elif name == "name" and tag in _BY_TAG:
+                role = Role.NAMES if elsewhere else Role.DEFINES
+                self._name(written(element.attribute(name)), (_BY_TAG[tag],), role)
+            elif name == "name" and tag == "virtual_joint":
+                self._name(written(element.attribute(name)), JOINT_ONLY, Role.DEFINES)
+        if elsewhere and tag == "sensor" and not self._is_srdf:
+            parent = element.parent
+            if parent is not None and parent.tag == "ros2_control":
+                self._name(written(element.attribute("name")), SENSOR_ONLY, Role.MAY_NAME)
+            else:
+                self._sensor(element, reference)
+
+    def _sensor(self, element: Element, reference: str) -> None:
+        name = written(element.attribute("name"))
+        if name is not None and not is_computed(name.value):
+            span = name.span
+            full = f"{reference}::{name.value}" if reference else name.value
+            self.names.append(WrittenName(SENSOR_ONLY, full, span.start, span.end, Role.DEFINES))
+        self.names += sensor_names(element, "")
+
+    def _name(self, text: Located[str] | None, kinds: tuple[NameKind, ...], role: Role) -> None:
+        if text is not None and text.value not in RESERVED:
+            start, name = text.span.start, text.value
+            if before := _ROBOT.match(name):
+                # `$(arg name)/base_link` is the link that the model calls base_link.
+                start, name = start + before.end(), name[before.end() :]
+            self.names.append(WrittenName(kinds, name, start, text.span.end, role))

@@ -1,0 +1,163 @@
+"""Names in an SDF file: models, links, joints, frames, sensors and topics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.editor.names.expressions import is_computed
+from checker.editor.names.mention import (
+    JOINT_ONLY,
+    LINK_ONLY,
+    MODEL_ONLY,
+    PARTS,
+    Included,
+    NameKind,
+    Role,
+    WrittenName,
+)
+from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.values import scoped_names
+from checker.source.text import Located
+from checker.source.xml import Element, XmlDocument
+
+_OWN = "::__model__"
+_REFERRING = ("relative_to", "attached_to", "expressed_in", "canonical_link", "placement_frame")
+_TEXTS = {
+    "placement_frame": PARTS,
+    "gripper_link": LINK_ONLY,
+    "palm_link": LINK_ONLY,
+    "gearbox_reference_body": LINK_ONLY,
+}
+_KINDS = {"link": NameKind.LINK, "joint": NameKind.JOINT, "frame": NameKind.FRAME}
+
+
+class SdfNames:
+    """The reading of one file.
+
+    Attributes:
+        names: What is written, as it is found.
+        included: Models that are included.
+        model: Name of the file's model.
+    """
+
+    def __init__(self, document: XmlDocument) -> None:
+        """Read all of it."""
+        self.names: list[WrittenName] = []
+        self.included: list[Included] = []
+        self.model = ""
+        self._walk(document.root, "", "")
+
+    def _walk(self, element: Element, prefix: str, part: str) -> None:
+        """Read what is in an element.
+
+        Args:
+            element: Any.
+            prefix: Of the model around it: empty, or `robot::`.
+            part: Full name of the link or joint around it.
+        """
+        for child in element.children:
+            tag = child.tag
+            if child.attributes:
+                self._attributes(child, prefix)
+            if tag == "model":
+                self._walk(child, self._model(child, prefix), "")
+            elif tag == "include":
+                self._include(child, prefix)
+            elif tag in _KINDS:
+                self._part(child, prefix)
+                self._walk(child, prefix, f"{prefix}{child.get('name') or ''}")
+            elif tag == "sensor":
+                self._sensor(child, prefix, part)
+            elif tag == "plugin":
+                self.names += plugin_names(child, prefix)
+            else:
+                self._text(child, prefix)
+                if child.children:
+                    self._walk(child, prefix, part)
+
+    def _define(
+        self, kind: NameKind, name: Located[str] | None, full: str, role: Role = Role.DEFINES
+    ) -> None:
+        if name is not None and name.value not in RESERVED and "::" not in name.value:
+            span = name.span
+            self.names.append(WrittenName((kind,), full, span.start, span.end, role))
+
+    def _model(self, element: Element, prefix: str) -> str:
+        """Note a model; return the prefix of what is in it."""
+        name = written(element.attribute("name"))
+        value = element.get("name") or ""
+        self._define(NameKind.MODEL, name, prefix + value)
+        above = element.parent
+        is_first = not self.model and above is not None and above.tag == "sdf"
+        if is_first:
+            self.model = value
+        return prefix if is_first else f"{prefix}{value}::"
+
+    def _include(self, element: Element, prefix: str) -> None:
+        """Note a model that is included; without a name of its own, it has that of its file."""
+        name, uri = element.child("name"), element.child("uri")
+        text = written(name.text) if name is not None else None
+        value = text.value if text is not None else ""
+        if text is not None:
+            self._define(NameKind.MODEL, text, prefix + value)
+        if uri is not None:
+            merged = (element.get("merge") or "").strip() in ("true", "1")
+            self.included.append(
+                Included(uri.text.value, prefix if merged else prefix + value, merged)
+            )
+        inside = f"{prefix}{value}::" if value else prefix
+        for child in element.children:
+            if child.attributes and child.tag == "pose":
+                self._attributes(child, prefix)
+            if child.tag == "plugin":
+                self.names += plugin_names(child, inside)
+            elif child.tag == "placement_frame":
+                self._refer(written(child.text), inside, PARTS)
+
+    def _part(self, element: Element, prefix: str) -> None:
+        name = written(element.attribute("name"))
+        if name is not None and not is_computed(name.value):
+            self._define(_KINDS[element.tag], name, prefix + name.value)
+
+    def _sensor(self, element: Element, prefix: str, part: str) -> None:
+        name = written(element.attribute("name"))
+        if name is not None and not is_computed(name.value):
+            full = f"{part}::{name.value}" if part else prefix + name.value
+            self._define(NameKind.SENSOR, name, full)
+        self.names += sensor_names(element, prefix)
+        for child in element.descendants():
+            if child.attributes:
+                self._attributes(child, prefix)
+            if child.tag == "plugin":
+                self.names += plugin_names(child, prefix)
+
+    def _attributes(self, element: Element, prefix: str) -> None:
+        for name in element.attributes:
+            if name in _REFERRING or (name == "frame" and element.tag == "pose"):
+                self._refer(written(element.attribute(name)), prefix, PARTS)
+            elif name == "joint" and element.tag == "mimic":
+                self._refer(written(element.attribute(name)), prefix, JOINT_ONLY)
+
+    def _text(self, element: Element, prefix: str) -> None:
+        kinds = _TEXTS.get(element.tag)
+        above = element.parent
+        if element.tag in ("parent", "child") and above is not None and above.tag == "joint":
+            kinds = PARTS
+        elif element.tag == "frame_id":
+            kinds = MODEL_ONLY if above is not None and above.tag == "include" else PARTS
+        if kinds is not None and not element.children:
+            self._refer(written(element.text), prefix, kinds)
+
+    def _refer(self, text: Located[str] | None, prefix: str, kinds: tuple[NameKind, ...]) -> None:
+        self.names += referred(text, prefix, kinds)
+
+
+def referred(
+    text: Located[str] | None, prefix: str, kinds: tuple[NameKind, ...]
+) -> Iterator[WrittenName]:
+    """Yield what a text of SDF names, which is looked up in the model around it."""
+    if text is None or text.value in RESERVED:
+        return
+    name = text.value.removesuffix(_OWN)
+    of_model = MODEL_ONLY if name != text.value else kinds
+    yield from scoped_names(name, text.span.start, of_model, Role.NAMES, prefix)

@@ -1,0 +1,44 @@
+"""How topics are compared: without what stands for the robot's name."""
+
+from __future__ import annotations
+
+import re
+
+from checker.editor.names.expressions import EXPRESSION
+
+_MODEL = re.compile(r"(?:world/[^/]+/)?model/([^/]+)/")
+_WORD = re.compile(r"[A-Za-z0-9_./~*${}()# -]+")
+DERIVED = "camera_info"
+"""A camera publishes it beside its own topic."""
+
+
+def topic_key(topic: str) -> tuple[str, int]:
+    """Return what topics are compared by, and where their own part begins.
+
+    `/model/X1/odom` and `/model/#{_name}/odom` are `model/*/odom`; `$(arg name)/scan` is `*/scan`.
+    The own part of both is what follows the name. A leading slash means nothing to Gazebo.
+    """
+    start = len(topic) - len(topic.lstrip("/"))
+    if of_model := _MODEL.match(topic, start):
+        return f"model/*/{topic[of_model.end() :]}", of_model.end()
+    first = EXPRESSION.match(topic, start)
+    if first and topic[first.end() : first.end() + 1] == "/":
+        return f"*/{topic[first.end() + 1 :]}", first.end() + 1
+    return topic[start:], start
+
+
+def is_topic(text: str) -> bool:
+    """Whether a text may be a topic."""
+    own = text.strip("/")
+    return bool(own) and "//" not in text and _WORD.fullmatch(text) is not None
+
+
+def own_part(key: str) -> str:
+    """Return the part of a key that can be changed."""
+    return key.removeprefix("model/*/").removeprefix("*/")
+
+
+def info_topic(key: str) -> str:
+    """Return the key of the `camera_info` beside a topic."""
+    folder, slash, _ = key.rpartition("/")
+    return f"{folder}{slash}{DERIVED}"
