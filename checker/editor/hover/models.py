@@ -1,0 +1,36 @@
+"""What a hover says of a robot, a nested model and a frame."""
+
+from __future__ import annotations
+
+from checker.base.words import count
+from checker.editor.figures import number, pose
+from checker.editor.hover.card import card, code
+from checker.model.components import Frame, Model
+from checker.model.locomotion.drive import NO_DRIVE, drive_name
+from checker.model.robot import Robot
+
+
+def robot_card(robot: Robot, note: str = "") -> str:
+    """Return what is known of a robot as a whole, as Markdown."""
+    parts = [count(len(robot.links), "link"), count(len(robot.joints), "joint")]
+    parts += [count(len(robot.sensors), "sensor"), count(len(robot.all_plugins), "plugin")]
+    mass = f"not known: {robot.unweighed}" if robot.unweighed else f"{number(robot.mass)} kg"
+    drive = drive_name(robot.plugins)
+    rows = [("mass", mass), ("holds", ", ".join(parts))]
+    rows.append(("moves by", "" if drive == NO_DRIVE else drive))
+    return card(f"**robot** {code(robot.name.value)}", rows, note)
+
+
+def frame_card(robot: Robot, frame: Frame | Model, note: str = "") -> str:
+    """Return what is known of a frame or a nested model, as Markdown."""
+    rows = []
+    if isinstance(frame, Frame):
+        kind = "frame"
+        rows.append(("attached to", code(frame.attached_to) if frame.attached_to else "the model"))
+    else:
+        kind = "model"
+        uri = frame.included_from
+        rows.append(("included from", code(uri.value) if uri is not None else ""))
+    place = robot.pose_of(frame.scoped_name)
+    rows.append(("place", f"{pose(place)} in the model" if place is not None else "not known"))
+    return card(f"**{kind}** {code(frame.scoped_name)}", rows, note)
