@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import statistics
 from functools import partial
 from pathlib import Path
@@ -12,11 +13,14 @@ from hypothesis import given, strategies
 
 from checker.editor.completion.completion import completions_at
 from checker.editor.completion.item import Completion, CompletionKind
+from checker.editor.completion.snippet import sdf_element
 from checker.editor.language import place_of
 from checker.editor.schema import schema_type
 from checker.engine.subject import Subject
+from checker.model.sdf.schema import VERSIONS, sdf_root
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument, parse_xml
+from tests.each import of_each
 from tests.editor.packages import CARET, offered, subject_of, text_of, written
 from tests.effort import examples, seconds, slowness
 from tests.real_packages import CORPUS, MODERN, named_folder, needs
@@ -263,6 +267,30 @@ def test_hardware_of_ros2_control_is_offered(arm: Subject) -> None:
     assert "mock_components/GenericSystem" in items
     joint = _xacro(arm, f"<ros2_control name='c' type='system'><joint name='a'><{CARET}")
     assert {"command_interface", "state_interface"} <= joint.keys()
+
+
+# Snippets.
+
+
+def _filled(snippet: str) -> str:
+    """Return what an editor writes where nothing is filled in."""
+    text = re.sub(r"\$\{\d+:((?:\\.|[^}])*)\}", r"\1", snippet)
+    return re.sub(r"\\([$}\\])", r"\1", re.sub(r"(?<!\\)\$\d+", "", text))
+
+
+@of_each("version", VERSIONS)
+def test_elements_of_sdf_are_well_formed_and_state_what_they_must(version: str) -> None:
+    waiting, seen = [sdf_root(version)], 0
+    while waiting and seen < 800:
+        kind = waiting.pop()
+        seen += 1
+        waiting += kind.children.values()
+        document = parse_xml(SourceText("a.sdf", f"<{_filled(sdf_element(kind))}"))
+        assert isinstance(document, XmlDocument), kind.name
+        needed = {name for name, (_, _, needed) in kind.attributes.items() if needed == "1"}
+        assert needed == document.root.attributes.keys(), kind.name
+        wanted = {it.name for it in kind.required_children if it.value_type and not kind.value_type}
+        assert {it.tag for it in document.root.children} == wanted, kind.name
 
 
 # Any text at all.

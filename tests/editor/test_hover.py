@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, strategies
 
+from checker.base import extras
 from checker.base.extras import PHYSICS
 from checker.editor.figures import number
 from checker.editor.hover.hover import hover_at
@@ -232,6 +233,48 @@ def test_a_file_that_is_missing_is_said_to_be(tmp_path: Path) -> None:
     model = f"<sdf version='1.9'><model name='m'><link name='a'>{shape}</link></model></sdf>"
     subject = written(tmp_path / "rover", {"model.sdf": model})
     assert "does not exist" in shown(subject, "model.sdf", uri)
+
+
+def test_a_mesh_is_not_read_without_physics(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = extras._is_found
+    monkeypatch.setattr(extras, "_is_found", lambda it: it != "numpy" and found(it))
+    uri = "meshes/a.stl"
+    shape = f"<visual name='c'><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>"
+    model = f"<sdf version='1.9'><model name='m'><link name='a'>{shape}</link></model></sdf>"
+    subject = written(tmp_path / "rover", {"model.sdf": model, uri: "solid nobody knows"})
+    text = shown(subject, "model.sdf", uri)
+    assert "Not read: `pip install 'subt-check[physics]'`." in text
+    assert "18 bytes" in text
+
+
+def test_tags_of_xacro_and_what_they_include_are_told(husky: Subject) -> None:
+    path = "urdf/husky.urdf.xacro"
+    assert "Declares an argument" in shown(husky, path, "<xacro:arg", 5)
+    assert "value: `0.512`" in shown(husky, path, 'name="wheelbase"')
+    needle = "$(find husky_description)/urdf/wheel.xacro"
+    assert "macros: `husky_wheel`" in shown(husky, path, needle, len(needle) - 2)
+
+
+def test_an_included_model_tells_what_it_adds(tmp_path: Path) -> None:
+    arm = "<sdf version='1.9'><model name='arm'><link name='wrist'/></model></sdf>"
+    include = "<include merge='true'><uri>model://arm</uri></include>"
+    model = f"<sdf version='1.9'><model name='m'><link name='base'/>{include}</model></sdf>"
+    written(tmp_path / "arm", {"model.sdf": arm, "model.config": "<model/>"})
+    subject = written(tmp_path / "rover", {"model.sdf": model, "model.config": "<model/>"})
+    text = shown(subject, "model.sdf", "model://arm")
+    assert "`../arm/model.sdf`" in text
+    assert "1 link, 0 joints" in text
+
+
+def test_hardware_of_ros2_control_is_told(tmp_path: Path) -> None:
+    hardware = "<hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
+    control = f"<ros2_control name='c' type='system'>{hardware}</ros2_control>"
+    subject = written(
+        tmp_path / "arm", {"urdf/arm.urdf": f"<robot name='a'><link name='b'/>{control}</robot>"}
+    )
+    assert "jazzy" in shown(subject, "urdf/arm.urdf", "mock_components/GenericSystem")
 
 
 def test_urdf_has_its_own_table(husky: Subject) -> None:

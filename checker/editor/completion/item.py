@@ -11,7 +11,7 @@ from checker.editor.completion.snippet import escaped
 from checker.editor.language import Place, place_of
 from checker.editor.plugin_facts import PluginFacts, plugin_facts
 from checker.editor.target import schema_version
-from checker.editor.xacro_names import XacroNames, xacro_names
+from checker.editor.xacro_names import PREFIX, XacroNames, xacro_names
 from checker.editor.xml_context import Context as XmlPlace
 from checker.editor.xml_context import OpenElement, Where
 from checker.engine.subject import Subject
@@ -205,7 +205,7 @@ class Request(Record, eq=False, dict=True):
     @property
     def below_plugin(self) -> tuple[str, ...]:
         """The tags between that plugin and the caret."""
-        tags = self.xml.tags
+        tags = tuple(tag for tag in self.xml.tags if not tag.startswith(PREFIX))
         at = len(tags) - list(reversed(tags)).index("plugin") if "plugin" in tags else len(tags)
         return tags[at:]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from checker.base.words import count, plain, shortened
-from checker.report.markdown_text import escaped
+from checker.rulebook.pages import escaped
 
 _CODE_LIMIT = 200
 """Characters of a name or value that are shown."""
@@ -23,7 +23,7 @@ def code(text: str) -> str:
 
 def words(text: str) -> str:
     """Return words of a file or a table, in which Markdown marks nothing."""
-    return escaped(shortened(text, _CODE_LIMIT))
+    return escaped(shortened(plain(text), _CODE_LIMIT))
 
 
 def card(title: str, rows: Iterable[tuple[str, str]], note: str = "") -> str:

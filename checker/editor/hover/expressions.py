@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterator
 
 from checker.base.record import Record
+from checker.base.resources import table
 from checker.base.words import shortened
 from checker.editor.hover.card import card, code, names, words
 from checker.editor.hover.pointed import Pointed
 from checker.editor.robot_parts import RobotParts
 from checker.editor.xacro_names import PREFIX, TAGS, Macro, XacroNames, macro_around
 from checker.editor.xml_context import Where
+from checker.expand.xacro.files import ROOT, local_path, path_of
+from checker.package.package import Package
 from checker.source.text import Span
-from checker.source.xml import Element
+from checker.source.xml import Element, XmlDocument
 
 _TOKEN = re.compile(r"\$\{[^}]*\}|\$\([^)]*\)")
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_FIND = re.compile(r"\$\(find\s{1,8}([\w.-]{1,200})\s{0,8}\)")
 _COMMAND = re.compile(r"\$\((arg|find)\s+([\w.-]+)\s*\)")
 
 
@@ -110,7 +115,30 @@ def tag_card(element: Element, known: XacroNames) -> str | None:
         return macro_card(macro)
     if name == "call" and (macro := known.macros.get(element.get("macro") or "")) is not None:
         return macro_card(macro)
-    return None
+    _, meaning = table("xml_meanings")["xacro"][name]
+    rows = []
+    if name == "property" and (found := known.properties.get(stated)) is not None:
+        rows.append(("value", code(found.value) if found.value else "elements"))
+    return card(f"{code(f'<{element.tag}>')}: {meaning}", rows)
+
+
+def include_card(package: Package, element: Element) -> str | None:
+    """Return the file that a `<xacro:include>` names, as Markdown; None where it is computed."""
+    name = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", element.get("filename") or "")
+    if "$" in name or not name:
+        return None
+    folder = posixpath.dirname(path_of(package, element.source.file))
+    path = local_path(package, posixpath.join(folder, name))
+    title = f"**file** {code(path or name)}"
+    if path is None or not package.exists(path):
+        return card(title, [], "It is not available.")
+    macros = [macro.name for macro in XacroNames(_documents(package, path)).macros.values()]
+    return card(title, [("macros", names(macros))])
+
+
+def _documents(package: Package, path: str) -> tuple[XmlDocument, ...]:
+    document = package.xml(path)
+    return (document,) if isinstance(document, XmlDocument) else ()
 
 
 def macro_card(macro: Macro) -> str:

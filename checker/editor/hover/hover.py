@@ -6,14 +6,20 @@ from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import count
-from checker.editor.hover.card import names
+from checker.editor.hover.card import card, code, names, words
 from checker.editor.hover.elements import element_card
-from checker.editor.hover.expressions import Expression, expression_at, expression_card, tag_card
+from checker.editor.hover.expressions import (
+    Expression,
+    expression_at,
+    expression_card,
+    include_card,
+    tag_card,
+)
 from checker.editor.hover.joints import joint_card
 from checker.editor.hover.links import link_card
 from checker.editor.hover.meshes import file_card
 from checker.editor.hover.models import frame_card, robot_card
-from checker.editor.hover.plugins import parameter_card, plugin_card
+from checker.editor.hover.plugins import hardware_card, parameter_card, plugin_card
 from checker.editor.hover.pointed import Pointed, ancestry, pointed_at
 from checker.editor.hover.sensors import sensor_card
 from checker.editor.language import place_of
@@ -25,8 +31,9 @@ from checker.editor.xml_context import Where
 from checker.engine.subject import Subject
 from checker.model.components import Joint, Link, Plugin, Sensor
 from checker.model.robot import Robot
+from checker.model.sdf.includes import ModelIncludes, included_model
+from checker.model.sdf.reader import read_robot
 from checker.rule import Context
-from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 _FILE_TAGS = ("uri", "albedo_map", "normal_map", "roughness_map", "metalness_map")
@@ -87,16 +94,23 @@ class _Search:
     def _of_expression(self, expression: Expression) -> Iterator[Hover]:
         parts = robot_parts(self.subject, self.path)
         text = expression_card(expression, self.pointed, self.names, parts)
-        if text is not None:
-            yield Hover(text, expression.start, expression.end)
+        if text is None:
+            return
+        if not self.pointed.element.tag.startswith(PREFIX) and (part := self._of_parts()):
+            text = f"{text}\n\n---\n\n{part}"
+        yield Hover(text, expression.start, expression.end)
 
     def _text(self) -> str | None:
         element = self.pointed.element
-        if element.tag.startswith(PREFIX):
-            return tag_card(element, self.names) if self.pointed.where is Where.TAG else None
+        if element.tag.startswith(PREFIX) and not _names_file(self.pointed):
+            return self._of_xacro()
         if _names_file(self.pointed):
             return self._of_file()
         return self._of_parts() or self._of_plugin() or self._of_schema()
+
+    def _of_xacro(self) -> str | None:
+        is_name = self.pointed.where is Where.TAG or self.pointed.attribute in ("name", "macro")
+        return tag_card(self.pointed.element, self.names) if is_name else None
 
     def _of_parts(self) -> str | None:
         """Return what is known of the part that is pointed at, or that is named there."""
@@ -125,7 +139,10 @@ class _Search:
 
     def _of_file(self) -> str | None:
         element, attribute = self.pointed.element, self.pointed.attribute
-        uri: Located[str] | None = None
+        if element.tag == "uri" and element.parent is not None and element.parent.tag == "include":
+            return self._of_include(element.parent)
+        if element.tag.startswith(PREFIX):
+            return include_card(self.subject.package, element)
         if "$" in self.pointed.value:
             copies = robot_parts(self.subject, self.path).copies_of(element)
             element = next(copies, element)
@@ -133,6 +150,16 @@ class _Search:
                 return None
         uri = element.attribute(attribute) if attribute else element.text
         return None if uri is None else file_card(self.subject, uri, _scale(element))
+
+    def _of_include(self, element: Element) -> str:
+        """Return what is known of the model that an `<include>` puts in."""
+        described = robot_parts(self.subject, self.path).of(element)
+        if described:
+            return self._card(described[0])
+        found = included_model(element, ModelIncludes(self.subject.package))
+        if isinstance(found, str):
+            return card(f"**include** {code(self.pointed.value)}", [], f"{words(found)}.")
+        return robot_card(read_robot(found, ModelIncludes(self.subject.package)))
 
     def _kinds(self) -> Sequence[NameKind]:
         plugin = _plugin_around(self.pointed.element)
@@ -157,6 +184,8 @@ class _Search:
     def _of_plugin(self) -> str | None:
         element, pointed = self.pointed.element, self.pointed
         plugin = _plugin_around(element)
+        if pointed.where is Where.TEXT and pointed.tags[-2:] == ("hardware", "plugin"):
+            return hardware_card(pointed.value)
         if plugin is None:
             of_plugin = pointed.where is Where.TAG or pointed.attribute in ("name", "filename")
             is_one = element.tag == "plugin" and of_plugin and element.get("filename") is not None
@@ -190,7 +219,7 @@ def _names_file(pointed: Pointed) -> bool:
     if pointed.where is Where.TEXT:
         return pointed.element.tag in _FILE_TAGS
     named = pointed.where is Where.VALUE and pointed.attribute == "filename"
-    return named and pointed.element.tag in ("mesh", "texture")
+    return named and pointed.element.tag in ("mesh", "texture", f"{PREFIX}include")
 
 
 def _scale(element: Element) -> tuple[float, ...]:

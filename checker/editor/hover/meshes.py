@@ -50,14 +50,14 @@ def _mesh_card(
     found = _mesh(subject, uri, entry)
     rows = [*_figures(found, scale)] if isinstance(found, Mesh) else []
     rows.append(("file", size(entry.size)))
-    note = f"Not read: {words(found)}." if isinstance(found, str) else ""
+    note = f"Not read: {found}." if isinstance(found, str) else ""
     if isinstance(found, MeshFault):
         note = f"{posixpath.basename(path)} {words(found.reason)}."
     return card(f"**mesh** {code(path)}", rows, note)
 
 
 def _mesh(subject: Subject, uri: Located[str], entry: FileEntry) -> Mesh | MeshFault | str:
-    """Return what a mesh file holds, or why it is not read: a hover does not wait for long."""
+    """Return what a mesh file holds, or in Markdown why it is not read: a hover waits not long."""
     robots = subject.robots if isinstance(subject.robots, tuple) else ()
     for meshes in (robot.meshes for robot in robots):
         if isinstance(meshes, PackageMeshes) and _names(meshes, uri):
@@ -70,7 +70,7 @@ def _mesh(subject: Subject, uri: Located[str], entry: FileEntry) -> Mesh | MeshF
     if (known := alone.known(uri)) is not None:
         return known
     if not PHYSICS.is_installed:
-        return PHYSICS.remedy
+        return code(PHYSICS.remedy)
     if entry.size > READ_AT_ONCE:
         return f"a file of {size(entry.size)} is read when the package is checked"
     return alone.of(uri)

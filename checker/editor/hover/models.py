@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from checker.base.words import count
 from checker.editor.figures import number, pose
 from checker.editor.hover.card import card, code
@@ -31,6 +33,17 @@ def frame_card(robot: Robot, frame: Frame | Model, note: str = "") -> str:
         kind = "model"
         uri = frame.included_from
         rows.append(("included from", code(uri.value) if uri is not None else ""))
+        rows.append(("file", code(frame.definition.source.file) if uri is not None else ""))
+        rows += _contents(robot, frame)
     place = robot.pose_of(frame.scoped_name)
     rows.append(("place", f"{pose(place)} in the model" if place is not None else "not known"))
-    return card(f"**{kind}** {code(frame.scoped_name)}", rows, note)
+    return card(f"**{kind}** {code(frame.name.value)}", rows, note)
+
+
+def _contents(robot: Robot, model: Model) -> Iterator[tuple[str, str]]:
+    """Yield what a nested model adds to the robot; a merged one has no names of its own."""
+    inside = {element.node for element in model.definition.children}
+    links = [link for link in robot.links if link.element.node in inside]
+    joints = [joint for joint in robot.joints if joint.element.node in inside]
+    yield "holds", f"{count(len(links), 'link')}, {count(len(joints), 'joint')}"
+    yield "mass", f"{number(sum(link.mass for link in links))} kg"

@@ -37,7 +37,8 @@ def _rows(facts: PluginFacts, element: Element, target: Context) -> Iterator[tup
     last = (element.get("name") or "").rpartition("::")[2]
     yield "is", DRIVE_CLASSES.get(last, "")
     yield "library", f"{code(facts.library)} of {words(facts.title)}"
-    yield "classes", names(facts.classes)
+    is_title = facts.classes == (element.get("name"),)
+    yield "classes", "" if is_title else names(facts.classes)
     yield "in", ", ".join(map(words, facts.releases))
     labels = table("gazebo_plugins")["releases"]
     if facts.releases and target.release in labels:
@@ -88,6 +89,17 @@ def _as_known(parameter: Parameter) -> str:
         if parameter.words
         else code(parameter.path)
     )
+
+
+def hardware_card(name: str) -> str | None:
+    """Return what is known of a hardware component of ros2_control; None where nothing is."""
+    known = table("ros2_control_hardware")["plugins"]
+    entry = next((it for it in known if it["name"] == name), None)
+    if entry is None:
+        return None
+    rows = [("kind", words(entry["kind"])), ("package", code(entry["package"]))]
+    rows += [("in", ", ".join(entry["distros"])), ("note", words(entry.get("note", "")))]
+    return card(f"**hardware** {code(name)}", rows)
 
 
 def parameter_card(plugin: Element, path: str, value: str, target: Context) -> str | None:

@@ -18,8 +18,8 @@ from checker.model.sensing.camera import Camera
 from checker.model.sensing.lidar import Lidar, Scan
 from checker.model.sensing.noise import Noise
 
-_TOPICS = 4
-"""Topics of one sensor that are shown."""
+_SHOWN = 3
+"""Topics of one sensor, and sizes of pictures, that are shown."""
 
 
 def sensor_card(subject: Subject, robot: Robot, sensor: Sensor, note: str = "") -> str:
@@ -56,7 +56,7 @@ def _figures(device: Device) -> Iterator[str]:
     if isinstance(rows := values.get("rows"), int):
         yield count(rows, "row")
     if sizes := values.get("image_sizes"):
-        yield ", ".join(f"{width} × {height}" for width, height in sizes[:_TOPICS])
+        yield ", ".join(f"{width} × {height}" for width, height in sizes[:_SHOWN])
     for name, title in (("hfov_deg", "horizontal"), ("vfov_deg", "vertical")):
         field = values.get(name)
         if isinstance(field, list) and len(field) == 2:
@@ -123,5 +123,5 @@ def _topics(robot: Robot, sensor: Sensor) -> str:
     topics = [topic for topic in known if sensor.topic.stated or unlike not in topic]
     if not topics and sensor.topic.stated:
         topics = [sensor.topic.value]
-    shown = ", ".join(map(code, dict.fromkeys(topics[:_TOPICS])))
+    shown = ", ".join(map(code, dict.fromkeys(topics[:_SHOWN])))
     return shown if sensor.topic.stated or not shown else f"{shown} by default"
