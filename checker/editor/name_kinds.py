@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 
 from checker.base.resources import table
+from checker.editor.xacro_names import PREFIX
 
 
 class NameKind(StrEnum):
@@ -59,7 +60,7 @@ def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[N
         attribute: Its name; empty for a text.
         plugin: Class of the plugin around it, its last word.
     """
-    tags = [tag for tag in tags if not tag.startswith("xacro:")]
+    tags = [tag for tag in tags if not tag.startswith(PREFIX)]
     if not tags:
         return ()
     if "plugin" in tags[:-1]:

@@ -50,8 +50,8 @@ class MacroParameter(Record):
             return "required"
         if self.default.startswith(_FROM_OUTSIDE):
             rest = self.default[1:].removeprefix("|")
-            return "the property of the caller" + (f", else `{rest}`" if rest else "")
-        return f"default `{self.default}`"
+            return "the property of the caller" + (f", else {rest}" if rest else "")
+        return f"default {self.default}"
 
 
 class Macro(Record, eq=False):

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+import random
+import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, strategies
+from markdown_it import MarkdownIt
 
 from checker.base import extras
 from checker.base.extras import PHYSICS
@@ -16,7 +20,9 @@ from checker.editor.hover.links import principal_moments
 from checker.editor.hover.rule_pages import rule_page_markdown
 from checker.engine.subject import Subject
 from checker.rulebook.discovery import all_rules
+from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
+from tests.each import of_each
 from tests.editor.packages import shown, subject_of, text_of, written
 from tests.real_packages import CORPUS, MODERN, named_folder, needs
 
@@ -153,6 +159,30 @@ def test_a_text_that_is_not_well_formed_says_nothing(tmp_path: Path) -> None:
     assert hover_at(subject, "absent.sdf", 3) is None
 
 
+_HOSTILE = "x` ![p](http://example.org/p.png) ```"
+
+
+@of_each("where", ["link name", "joint type", "plugin name", "sensor type", "macro params"])
+def test_no_picture_is_fetched_for_what_a_file_says(tmp_path_factory: Any, where: str) -> None:
+    said = dict.fromkeys(("link name", "joint type", "plugin name", "sensor type"), "a")
+    said |= {where: _HOSTILE}
+    if where == "macro params":
+        macro = f"<xacro:macro name='m' params='a:={_HOSTILE.replace(' ', '')}'/><xacro:m/>"
+        text = f"<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>{macro}</robot>"
+        path, needle = "urdf/r.urdf.xacro", "<xacro:m/>"
+    else:
+        sensor = f"<sensor name='s' type='{said['sensor type']}'/>"
+        link = f"<link name='{said['link name']}'>{sensor}</link>"
+        joint = f"<joint name='j' type='{said['joint type']}'><parent>world</parent></joint>"
+        plugin = f"<plugin name='{said['plugin name']}' filename='f'/>"
+        text = f"<sdf version='1.9'><model name='m'>{link}{joint}{plugin}</model></sdf>"
+        path, needle = "model.sdf", f"<{where.split(maxsplit=1)[0]} name"
+    subject = written(tmp_path_factory.mktemp("hostile"), {path: text})
+    html = MarkdownIt().render(shown(subject, path, needle, 3))
+    assert "<img" not in html
+    assert "<a " not in html
+
+
 def test_markdown_in_names_stays_text(tmp_path: Path) -> None:
     model = '<sdf version="1.9"><model name="m"><link name="a`b [x](y)"/></model></sdf>'
     subject = written(tmp_path / "rover", {"model.sdf": model})
@@ -175,6 +205,36 @@ def test_principal_moments_keep_the_invariants(moments: list[float], products: l
     assert math.isclose(a + b + c, ixx + iyy + izz, rel_tol=1e-9)
     assert math.isclose(a * b + b * c + c * a, squares, rel_tol=1e-6, abs_tol=1e-6)
     assert math.isclose(a * b * c, determinant, rel_tol=1e-5, abs_tol=1e-5)
+
+
+_NUMBER = re.compile(r"(?<=[> ])-?\d+(?:\.\d+)?(?=[< ])")
+_ODD = ("nan", "inf", "-inf", "1e999", "", "-0", "1e308", "abc", "0", "1e-320")
+
+
+@given(seed=strategies.integers(0, 10_000))
+def test_odd_numbers_make_no_hover_fail(samples: Path, seed: int) -> None:
+    dice = random.Random(seed)  # noqa: S311 - what to change
+    whole = subject_of(samples / "subtcheck_buggy_sensor_config_1")
+    text = _NUMBER.sub(
+        lambda it: dice.choice(_ODD) if dice.random() < 0.5 else it[0],
+        text_of(whole, "model.sdf"),
+    )
+    changed = whole.package.with_texts({"model.sdf": SourceText("model.sdf", text)})
+    subject = Subject(changed)
+    for _ in range(20):
+        hover = hover_at(subject, "model.sdf", dice.randrange(len(text)))
+        assert hover is None or hover.markdown
+
+
+@of_each(
+    "case",
+    [
+        *((0.0, "0"), (1 / 3, "0.3333"), (12500, "12500"), (12345.6, "12346"), (1e-5, "1e-05")),
+        *((1e20, "1.000e+20"), (-2.5, "-2.5"), (math.inf, "inf")),
+    ],
+)
+def test_numbers_have_four_digits(case: tuple[float, str]) -> None:
+    assert number(case[0]) == case[1]
 
 
 # xacro: what a macro makes, and what an expression comes to.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from checker.editor.card import code, words
 from checker.editor.completion.item import Completion, CompletionKind, Request
 from checker.editor.completion.snippet import Snippet
 from checker.editor.xacro_names import PREFIX, Macro, MacroParameter, parameters_of
@@ -106,13 +107,13 @@ def tags(request: Request) -> Iterator[Completion]:
         text = f"{PREFIX}{name}{first}{inside}"
         yield request.element(PREFIX + name, text, detail="xacro", rank=8)
     for macro in request.names.macros.values():
-        words = "\n".join(f"- `{it.name}`: {it.words}" for it in macro.parameters)
+        told = "\n".join(f"- {code(it.name)}: {words(it.words)}" for it in macro.parameters)
         yield request.element(
             PREFIX + macro.name,
             _call(macro),
             kind=CompletionKind.MACRO,
             detail=macro.element.source.file,
-            documentation=words,
+            documentation=told,
             rank=6,
         )
 

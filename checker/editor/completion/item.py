@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import StrEnum
 from functools import cached_property
+from html import escape
 
 from checker.base.record import Record
 from checker.editor.completion.snippet import escaped
@@ -100,7 +101,7 @@ class Request(Record, eq=False, dict=True):
         Args:
             label: What the list shows.
             kind: What it is.
-            insert: The text; the label where it is None.
+            insert: The text; the label, as XML writes it, where it is None.
             detail: A few words beside the label.
             documentation: Markdown.
             rank: 0 comes first, 9 last.
@@ -108,7 +109,7 @@ class Request(Record, eq=False, dict=True):
             start: Where the text that goes begins, if not at the start of the word.
         """
         begin = self.xml.start if start is None else start
-        text = label if insert is None else insert
+        text = escape(label, quote=False) if insert is None else insert
         sort = f"{rank}{label}"
         return Completion(
             label, kind, detail, documentation, text, begin, self.xml.end, is_snippet, sort
@@ -211,8 +212,12 @@ class Request(Record, eq=False, dict=True):
 
 
 def by_rank(items: Iterable[Completion]) -> tuple[Completion, ...]:
-    """Return items as a list shows them; of two with one label, the first."""
+    """Return items as a list shows them; of two with one label, the first.
+
+    What a list cannot show, such as a name with a line break, is left out.
+    """
     unique: dict[str, Completion] = {}
     for item in items:
-        unique.setdefault(item.label, item)
+        if item.label and item.label.isprintable():
+            unique.setdefault(item.label, item)
     return tuple(sorted(unique.values(), key=lambda item: item.sort))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from checker.editor.card import card, code, names
 from checker.editor.figures import number
-from checker.editor.hover.card import card, code, names
 from checker.editor.language import Place
 from checker.editor.meanings import (
     Meaning,

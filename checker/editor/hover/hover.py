@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import count
-from checker.editor.hover.card import card, code, names, words
+from checker.editor.card import card, code, names, words
 from checker.editor.hover.elements import element_card
 from checker.editor.hover.expressions import (
     Expression,

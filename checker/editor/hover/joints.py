@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from checker.editor.card import card, code, words
 from checker.editor.figures import angle, limit, number, numbers, span_of
-from checker.editor.hover.card import card, code
 from checker.model.components import Axis, Joint
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
@@ -22,7 +22,7 @@ def joint_card(robot: Robot, joint: Joint, note: str = "") -> str:
         rows += _axis(joint, axis, title)
     rows.append(("copies", ", ".join(code(it.value) for it in joint.mimics)))
     rows.append(("moved by", _driver(robot, joint)))
-    title = f"**{joint.type.value or 'joint'} joint** {code(joint.scoped_name)}"
+    title = f"**{words(joint.type.value)} joint** {code(joint.scoped_name)}"
     return card(title, rows, note)
 
 

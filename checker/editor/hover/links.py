@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from checker.base.words import count
+from checker.editor.card import card, code, names, words
 from checker.editor.figures import number, numbers, pose
-from checker.editor.hover.card import card, code, names
 from checker.model.components import Inertial, Link
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
@@ -111,7 +111,7 @@ def _in_words(chain: Sequence[Tie]) -> str:
 
 
 def _joint(tie: Tie) -> str:
-    return f"{code(tie.joint.name.value)} ({tie.joint.type.value or 'no type'})"
+    return f"{code(tie.joint.name.value)} ({words(tie.joint.type.value) or 'no type'})"
 
 
 def _contents(link: Link) -> str:

@@ -6,8 +6,8 @@ import posixpath
 from collections.abc import Iterator
 
 from checker.base.extras import PHYSICS
+from checker.editor.card import card, code, words
 from checker.editor.figures import number, numbers, size
-from checker.editor.hover.card import card, code, words
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault
 from checker.model.robot import Robot
@@ -52,7 +52,7 @@ def _mesh_card(
     rows.append(("file", size(entry.size)))
     note = f"Not read: {found}." if isinstance(found, str) else ""
     if isinstance(found, MeshFault):
-        note = f"{posixpath.basename(path)} {words(found.reason)}."
+        note = f"{code(posixpath.basename(path))} {words(found.reason)}."
     return card(f"**mesh** {code(path)}", rows, note)
 
 

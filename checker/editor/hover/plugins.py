@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.base.resources import table
-from checker.editor.hover.card import card, code, names, words
+from checker.editor.card import card, code, names, words
 from checker.editor.plugin_facts import Parameter, PluginFacts, plugin_facts
 from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.plugin_library import library_stem, release_label

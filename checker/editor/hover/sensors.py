@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from checker.base.parts import NotAvailable
 from checker.base.words import count
+from checker.editor.card import card, code, words
 from checker.editor.figures import angle, number
-from checker.editor.hover.card import card, code, words
 from checker.engine.subject import Subject
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device

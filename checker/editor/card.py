@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from checker.base.words import count, plain, shortened
@@ -9,6 +10,7 @@ from checker.rulebook.pages import escaped
 
 _CODE_LIMIT = 200
 """Characters of a name or value that are shown."""
+_BACKTICKS = re.compile(r"`+")
 _MOST = 8
 """Names of a list that are shown."""
 
@@ -18,7 +20,7 @@ def code(text: str) -> str:
     text = shortened(plain(text.strip()), _CODE_LIMIT) or " "
     fence = "``" if "`" in text else "`"
     space = " " if "`" in text else ""
-    return f"{fence}{space}{text.replace('``', '` `')}{space}{fence}"
+    return f"{fence}{space}{_BACKTICKS.sub('`', text)}{space}{fence}"
 
 
 def words(text: str) -> str:
