@@ -78,7 +78,12 @@ def words_of_urdf(path: str, attribute: str) -> list[str]:
 
 @cache
 def urdf_attributes(path: str) -> dict[str, AttributeSpec]:
-    """Return the attributes of an element of URDF, by its path below `<robot>`."""
+    """Return the attributes of an element of URDF.
+
+    Args:
+        path: Below `<robot>`. In a macro it may begin anywhere: then the last tag alone counts.
+    """
+    path = _known(path)
     beside = table("xml_meanings")["beside"].get(path, {"attributes": ()})
     known = {name: AttributeSpec() for name in beside["attributes"]}
     specified = table("urdf_spec")["elements"].get(path, {})
@@ -90,9 +95,9 @@ def urdf_children(path: str) -> tuple[str, ...]:
     """Return the elements that may stand below one of URDF, those that have to first.
 
     Args:
-        path: Below `<robot>`; `robot` for the robot itself.
+        path: As of `urdf_attributes`; `robot` for the robot itself.
     """
-    spec = table("urdf_spec")
+    path, spec = _known(path), table("urdf_spec")
     needed = list(spec["needs"].get(path, ()))
     if path in ("link/visual/geometry", "link/collision/geometry"):
         needed += spec["shapes"]
@@ -104,7 +109,21 @@ def urdf_children(path: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*needed, *beside, *below]))
 
 
+def _known(path: str) -> str:
+    """Return the path of the tables that a path in a macro stands for, else itself."""
+    known = _paths()
+    if path in known:
+        return path
+    end = f"/{path.rpartition('/')[2]}"
+    return next((it for it in known if it.endswith(end)), path)
+
+
 @cache
 def _paths() -> tuple[str, ...]:
-    named = (it for it in table("xml_meanings")["beside"] if it != "_")
-    return (*table("urdf_spec")["elements"], *named)
+    """Return the paths of all elements that the tables know, those around others too."""
+    named = [it for it in table("xml_meanings")["beside"] if it != "_"]
+    paths = [*table("urdf_spec")["elements"], *named]
+    steps = (path.split("/") for path in paths)
+    return tuple(
+        dict.fromkeys("/".join(step[:end]) for step in steps for end in range(1, len(step) + 1))
+    )

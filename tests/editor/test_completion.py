@@ -132,6 +132,7 @@ def test_attributes_and_their_words(rover: Subject) -> None:
 def test_the_part_that_a_sensor_asks_for_comes_first(rover: Subject) -> None:
     items = _sdf(rover, _in_link(f"<sensor name='a' type='gpu_lidar'><{CARET}"))
     assert next(iter(items)) == "lidar"
+    assert "gz_frame_id" in items
 
 
 def test_values_of_texts(rover: Subject) -> None:
@@ -232,7 +233,8 @@ def test_elements_and_attributes_of_urdf(arm: Subject) -> None:
 
 def test_gazebo_tags_hold_sdf(arm: Subject) -> None:
     items = _xacro(arm, f"<gazebo reference='palm'><{CARET}")
-    assert "sensor" in items
+    assert {"sensor", "mu1", "material", "selfCollide"} <= items.keys()
+    assert "plugin" in _xacro(arm, f"<gazebo><{CARET}")
     assert "camera" in _xacro(arm, f"<gazebo reference='palm'><sensor name='a' type=\"{CARET}\"")
     assert "palm" in _xacro(arm, f'<gazebo reference="{CARET}"')
 
@@ -242,6 +244,17 @@ def test_macros_are_called_with_what_they_need(arm: Subject) -> None:
     assert items["xacro:finger"].insert.startswith('xacro:finger prefix="$1">')
     assert "xacro:if" in items
     assert {"prefix", "length"} == _xacro(arm, f"<xacro:finger {CARET}").keys()
+
+
+def test_what_stands_in_a_macro_is_known_by_its_own_tags(arm: Subject) -> None:
+    start = '<xacro:macro name="m" params="size">'
+    assert "xyz" in _xacro(arm, f"{start}<origin {CARET}")
+    assert {"mass", "inertia"} <= _xacro(arm, f"{start}<inertial><{CARET}").keys()
+    block = _xacro(arm, f'<xacro:finger prefix="a"><{CARET}')["origin"]
+    assert block.insert == 'origin xyz="$1" rpy="$2"/>'
+    assert "origin" in _xacro(
+        arm, f'<xacro:macro name="m" params="*origin"><xacro:insert_block name="{CARET}"/>'
+    )
 
 
 def test_expressions_offer_properties_arguments_and_packages(arm: Subject) -> None:

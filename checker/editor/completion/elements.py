@@ -17,7 +17,7 @@ from checker.editor.meanings import (
 from checker.editor.schema import schema_type
 from checker.editor.xml_context import tags_behind
 from checker.model.sdf.schema import ElementType
-from checker.model.sensing.kind import sensor_type
+from checker.model.sensing.kind import frame_ids, sensor_type
 
 _ONCE = ("0", "1")
 _OLD = "-1"
@@ -58,7 +58,7 @@ def _of_gazebo(request: Request) -> Iterator[Completion]:
     """Yield what a `<gazebo>` tag of URDF may hold: SDF, and short names for what is deep in it."""
     around = ("sdf", "model", "link") if request.refers else ("sdf", "model")
     yield from _of_sdf(request, around)
-    shorts = {**short_tags("joint"), **short_tags("link")} if request.refers else {}
+    shorts = {**short_tags("joint"), **short_tags("link"), "material": ()} if request.refers else {}
     for tag, path in shorts.items():
         words = meaning_of("sdf", path).words if path else ""
         detail = "/".join(path)
@@ -71,6 +71,8 @@ def _of_sdf(request: Request, around: Sequence[str]) -> Iterator[Completion]:
         return
     present = _present(request)
     meant = _part_of_sensor(request)
+    if kind.name == "sensor":
+        yield from _frame_ids(request)
     for tag, child in kind.children.items():
         if tag in present and child.occurs in _ONCE:
             continue
@@ -84,6 +86,15 @@ def _of_sdf(request: Request, around: Sequence[str]) -> Iterator[Completion]:
         detail = " ".join(filter(None, (child.value_type, meaning.unit)))
         text = meaning.words + (f"\n\nDefault: `{child.default}`" if child.default else "")
         yield request.element(tag, sdf_element(child), detail=detail, documentation=text, rank=rank)
+
+
+def _frame_ids(request: Request) -> Iterator[Completion]:
+    """Yield the elements of a sensor that name the frame of its messages, those that are read."""
+    known = frame_ids(request.target.release)
+    for rank, tag in enumerate(known.read if known is not None else ()):
+        words = meaning_of("sdf", (*request.around.tags, tag)).words
+        snippet = f"{tag}>$1</{tag}>"
+        yield request.element(tag, snippet, documentation=words, rank=min(5 + rank, 9))
 
 
 def _part_of_sensor(request: Request) -> str:

@@ -101,6 +101,11 @@ def tags(request: Request) -> Iterator[Completion]:
     """Yield xacro's own tags, and the calls of macros."""
     if not request.is_xacro:
         return
+    innermost = request.xml.innermost
+    called = innermost.tag.removeprefix(PREFIX) if innermost is not None else ""
+    macro = request.names.macros.get(called)
+    if macro is not None and any(it.block and "origin" in it.name for it in macro.parameters):
+        yield request.element("origin", 'origin xyz="$1" rpy="$2"/>', detail=called, rank=0)
     for name, stated in _ATTRIBUTES.items():
         first = Snippet().attributes([(it, "") for it in stated[:2] if it not in ("ns", "default")])
         inside = f">\n  $0\n</{PREFIX}{name}>" if name in _INSIDE else "/>"

@@ -43,7 +43,7 @@ def element_card(
     else:
         kind = schema_type(place.tags, version)
         rows = [] if kind is None else [*_sdf_rows(kind, place, attribute, target)]
-    if not rows and meaning == Meaning():
+    if not any(text for _, text in rows) and meaning == Meaning():
         return None
     shown = code(f"<{written}>")
     title = f"**attribute** {code(attribute)} of {shown}" if attribute else shown
