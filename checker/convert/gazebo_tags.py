@@ -53,6 +53,21 @@ _EVERY_SHAPE = frozenset({"visual", "collision"})
 _FALSE = ("0", "false")
 
 
+def short_tags(reference: str) -> Mapping[str, tuple[str, ...]]:
+    """Return the short tags of `<gazebo>` and the SDF that each stands for, as a path.
+
+    Args:
+        reference: What it refers to: `link`, `joint`, or nothing for the model. Paths of a link's
+            begin with `link` or `collision`.
+    """
+    if reference == "joint":
+        return {**_JOINT, **dict.fromkeys(_LUMPING, ())}
+    if not reference:
+        return {tag: (tag,) for tag in _WHOLE}
+    of_link = {tag: ("link", *paths[0]) for tag, paths in _LINK.items()}
+    return of_link | {tag: ("collision", *path) for tag, path in _COLLISION.items()}
+
+
 class Setting(Record, eq=False):
     """A value to be written at a path below an element of the result.
 

@@ -33,10 +33,14 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
     written: SourceText
 
     @cached_property
+    def origins(self) -> Sequence[Element | None]:
+        """The element that each element of the document is a copy of, in document order."""
+        return _origins(self.answer, self.gathered)
+
+    @cached_property
     def _emitted(self) -> EmittedText:
         """The text in pieces; most robots are without fault, and nobody asks for a place."""
-        origins = _origins(self.answer, self.gathered)
-        pieces = tuple(_pieces(self.plain, origins, self.written))
+        pieces = tuple(_pieces(self.plain, self.origins, self.written))
         return EmittedText(self.file, self.text, origin=self.written.whole(), pieces=pieces)
 
     @property

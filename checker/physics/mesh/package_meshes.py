@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from checker.base.background import Background
 from checker.base.cache import NO_CACHE, Cache
+from checker.base.child_process import NONSENSE
 from checker.base.child_server import Server
 from checker.base.extras import PHYSICS
 from checker.base.files import NotReadable, read_bytes
@@ -80,6 +81,20 @@ class PackageMeshes(Record, eq=False, dict=True):
             return place
         key = self._keys[place]
         return key if isinstance(key, MeshFault) else (place, key)
+
+    def known(self, uri: Located[str]) -> Mesh | MeshFault | None:
+        """Return what is known of a file without reading it; None where nothing is."""
+        if "_by_address" in self.__dict__:
+            return self._by_address.get(_address(uri), _UNKNOWN)
+        content = self.content(uri)
+        if isinstance(content, MeshFault):
+            return content
+        file, key = content
+        kept = self.cache.get("facts", key)
+        try:
+            return None if kept is None else self._placed(key, {key: read_from_json(kept)}, file)
+        except NONSENSE:
+            return None
 
     def begin(self) -> None:
         """Begin to read what is not known yet; `of` waits for it."""

@@ -1,0 +1,1 @@
+"""What an editor shows of the thing under the pointer, as Markdown."""

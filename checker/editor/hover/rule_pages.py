@@ -1,0 +1,29 @@
+"""The page of a rule, as the hover of one of its findings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from urllib.parse import quote
+
+from checker.report.sarif import RULE_PAGES
+from checker.rule import Rule
+from checker.rulebook.options import told_options
+from checker.rulebook.pages import anchor, escaped, parse_page
+
+
+def rule_page_markdown(rule: Rule) -> str:
+    """Return a rule's page: what is wrong, why, what to do, its source and its options."""
+    return "\n\n".join(_blocks(rule))
+
+
+def _blocks(rule: Rule) -> Iterator[str]:
+    page = parse_page(rule.page)
+    yield f"**{rule.id} {rule.name}**: {escaped(page.title)}."
+    for label, text in (("", page.why), ("Fix: ", page.fix), ("Source: ", page.source)):
+        if text:
+            yield f"**{label.strip()}** {escaped(text)}" if label else escaped(text)
+    options = told_options(rule)
+    if options:
+        lines = (f"- `{it.name}` = `{it.default}`: {escaped(it.words)}" for it in options)
+        yield "\n".join((f"**Options**, below `[rules.{rule.id}]`:", "", *lines))
+    yield f"[{rule.id} in the rule book]({RULE_PAGES}/{quote(rule.group)}.md#{quote(anchor(rule))})"

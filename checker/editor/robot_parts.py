@@ -1,0 +1,159 @@
+"""Which parts of which robots an element of a file describes, and parts by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+
+from checker.base.parts import NotAvailable
+from checker.base.record import Record
+from checker.editor.name_kinds import NameKind
+from checker.engine.subject import Subject
+from checker.expand.xacro.expanded import ExpandedText
+from checker.model.components import Frame, Joint, Link, Model, Part, Plugin, Sensor
+from checker.model.robot import Robot
+from checker.model.sdf.includes import ModelIncludes
+from checker.model.sdf.reader import read_sdf
+from checker.model.urdf.reader import read_urdf
+from checker.source.xml import Element, XmlDocument
+
+NamedPart = Robot | Link | Joint | Frame | Model | Sensor | Plugin
+
+
+class RobotPart(Record, eq=False):
+    """A part and the robot that it belongs to."""
+
+    robot: Robot
+    part: NamedPart
+
+
+class RobotParts(Record, eq=False, dict=True):
+    """The parts of robots by the elements that a person wrote.
+
+    Attributes:
+        robots: Those that count.
+    """
+
+    robots: tuple[Robot, ...]
+
+    def of(self, element: Element) -> Sequence[RobotPart]:
+        """Return the parts that an element describes: several where a macro is called again."""
+        return self._by_element.get(element, ())
+
+    @cached_property
+    def _by_element(self) -> Mapping[Element, Sequence[RobotPart]]:
+        parts: dict[Element, list[RobotPart]] = {}
+        for robot in self.robots:
+            written = self._written(robot)
+            for part in parts_of(robot):
+                element = written.get(part.element, part.element)
+                parts.setdefault(element, []).append(RobotPart(robot, part))
+        return parts
+
+    def copies_of(self, element: Element) -> Iterator[Element]:
+        """Yield what xacro made of an element; nothing for one that xacro did not read."""
+        for robot in self.robots:
+            for copy, origin in self._written(robot).items():
+                if origin is element:
+                    yield copy
+
+    @staticmethod
+    def _written(robot: Robot) -> Mapping[Element, Element]:
+        """Return the element that each of a robot's is a copy of, where xacro made it."""
+        source = robot.document.source
+        if not isinstance(source, ExpandedText):
+            return {}
+        pairs = zip(robot.document.elements, source.origins, strict=True)
+        return {copy: origin for copy, origin in pairs if origin is not None}
+
+    def named(
+        self, name: str, kinds: Iterable[NameKind], scopes: Sequence[str] = ("",)
+    ) -> RobotPart | None:
+        """Return the part that has a name; the first of the kinds that has one.
+
+        Args:
+            name: As written.
+            kinds: What it may be.
+            scopes: What may stand in front of it in a scoped name, the likeliest first.
+        """
+        for kind in kinds:
+            for robot in self.robots:
+                known = _by_name(robot, kind)
+                for scope in scopes:
+                    if (part := known.get(scope + name)) is not None:
+                        return RobotPart(robot, part)
+        return None
+
+    def names(self, kind: NameKind) -> Iterator[tuple[str, RobotPart]]:
+        """Yield the scoped names of all parts of a kind."""
+        for robot in self.robots:
+            for name, part in _by_name(robot, kind).items():
+                yield name, RobotPart(robot, part)
+
+
+def parts_of(robot: Robot) -> Iterator[NamedPart]:
+    """Yield a robot and its named parts."""
+    yield robot
+    yield from robot.links
+    yield from robot.joints
+    yield from robot.frames
+    yield from robot.models
+    yield from robot.sensors
+    yield from robot.all_plugins
+
+
+def _by_name(robot: Robot, kind: NameKind) -> Mapping[str, NamedPart]:
+    match kind:
+        case NameKind.LINK:
+            return robot.links_by_name
+        case NameKind.JOINT:
+            return robot.joints_by_name
+        case NameKind.SENSOR:
+            return {sensor.name.value: sensor for sensor in reversed(robot.sensors)}
+        case NameKind.FRAME:
+            others: tuple[Frame | Model, ...] = (*robot.models, *robot.frames)
+            return {part.scoped_name: part for part in others}
+
+
+def robot_parts(subject: Subject, path: str) -> RobotParts:
+    """Return the parts of the robots that a file of a package is about.
+
+    Args:
+        subject: The package.
+        path: Of the file. A model that is none of the package's robots is read by itself; a file
+            that describes no part of any robot is about all of them.
+    """
+    robots = (*package_robots(subject),)
+    document = subject.package.xml(path)
+    if not isinstance(document, XmlDocument):
+        return RobotParts(robots)
+    own = tuple(robot for robot in robots if _is_about(robot, document))
+    return RobotParts(own or _read(subject, document) or robots)
+
+
+def package_robots(subject: Subject) -> Iterator[Robot]:
+    """Yield the robots of a package, those of its worlds, and those that RViz is shown."""
+    robots, worlds = subject.robots, subject.worlds
+    yield from () if isinstance(robots, NotAvailable) else robots
+    for world in () if isinstance(worlds, NotAvailable) else worlds:
+        yield from world.models
+    if isinstance(robots, NotAvailable) or robots[0].format == "sdf":
+        descriptions = subject.urdf.descriptions
+        if not isinstance(descriptions, NotAvailable):
+            yield from (description.robot for description in descriptions)
+
+
+def _is_about(robot: Robot, document: XmlDocument) -> bool:
+    """Say whether a robot has parts that a document describes."""
+    source = robot.document.source
+    if isinstance(source, ExpandedText):
+        return any(it is not None and it.document is document for it in source.origins)
+    parts: tuple[Part, ...] = (robot, *robot.links, *robot.joints, *robot.plugins)
+    return any(part.element.document is document for part in parts)
+
+
+def _read(subject: Subject, document: XmlDocument) -> tuple[Robot, ...]:
+    if document.root.tag == "sdf":
+        return tuple(read_sdf(document, ModelIncludes(subject.package)))
+    is_xacro = "xmlns:xacro" in document.source.text
+    return (read_urdf(document),) if document.root.tag == "robot" and not is_xacro else ()

@@ -1,0 +1,158 @@
+"""What xacro files define: macros with their parameters, properties and arguments."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.expand.xacro.files import Gathered, path_of
+from checker.package.package import Package
+from checker.source.xml import Element, XmlDocument
+
+PREFIX = "xacro:"
+TAGS = (
+    *("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro"),
+    *("property", "unless"),
+)
+"""xacro's own tags, without the prefix."""
+_SUFFIXES = (".xacro", ".urdf", ".xml")
+_PARAMETER = re.compile(
+    r"""(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})
+    (?::?=(?P<default>(?:\^\|?)?(?:'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{0,500})))?""",
+    re.VERBOSE,
+)
+_PARAMETERS_LIMIT = 10_000
+"""Characters; real macros have a fiftieth of that."""
+_FROM_OUTSIDE = "^"
+
+
+class MacroParameter(Record):
+    """A parameter of a macro.
+
+    Attributes:
+        name: Without its stars.
+        default: As written; None for a parameter that a call has to state.
+        block: `*` for an element that the call contains, `**` for its content; else empty.
+    """
+
+    name: str
+    default: str | None
+    block: str
+
+    @property
+    def words(self) -> str:
+        """What a call may leave out, or has to give."""
+        if self.block:
+            return "an element inside the call"
+        if self.default is None:
+            return "required"
+        if self.default.startswith(_FROM_OUTSIDE):
+            rest = self.default[1:].removeprefix("|")
+            return "the property of the caller" + (f", else {rest}" if rest else "")
+        return f"default {self.default}"
+
+
+class Macro(Record, eq=False):
+    """A macro and where it is defined."""
+
+    name: str
+    parameters: tuple[MacroParameter, ...]
+    element: Element
+
+
+class Property(Record, eq=False):
+    """A property: its value as written, empty for a block of elements."""
+
+    name: str
+    value: str
+    element: Element
+
+
+class Argument(Record, eq=False):
+    """An argument: its default as written, None without one."""
+
+    name: str
+    default: str | None
+    element: Element
+
+
+class XacroNames(Record, eq=False, dict=True):
+    """What a file and those around it define; the file's own first, then what it includes.
+
+    Attributes:
+        documents: The files, the likeliest first.
+    """
+
+    documents: tuple[XmlDocument, ...]
+
+    @cached_property
+    def macros(self) -> Mapping[str, Macro]:
+        """Macros by name, without the prefix."""
+        macros: dict[str, Macro] = {}
+        for element in self._all("macro"):
+            name = (element.get("name") or "").removeprefix(PREFIX)
+            macros.setdefault(
+                name, Macro(name, parameters_of(element.get("params") or ""), element)
+            )
+        return macros
+
+    @cached_property
+    def properties(self) -> Mapping[str, Property]:
+        """Properties by name; of two, the first."""
+        found: dict[str, Property] = {}
+        for element in self._all("property"):
+            name = element.get("name") or ""
+            value = element.get("value") or element.get("default") or ""
+            found.setdefault(name, Property(name, value, element))
+        return found
+
+    @cached_property
+    def arguments(self) -> Mapping[str, Argument]:
+        """Arguments by name; of two, the first."""
+        found: dict[str, Argument] = {}
+        for element in self._all("arg"):
+            name = element.get("name") or ""
+            found.setdefault(name, Argument(name, element.get("default"), element))
+        return found
+
+    def _all(self, tag: str) -> Iterator[Element]:
+        for document in self.documents:
+            if PREFIX in document.source.text:
+                yield from (it for it in document.elements if it.tag == PREFIX + tag)
+
+
+def xacro_names(package: Package, path: str) -> XacroNames:
+    """Return what a file can use.
+
+    Args:
+        package: That it is in.
+        path: Of the file. What it includes counts, and all other xacro files of the package: one
+            that includes this file may define what it uses.
+    """
+    gathered = Gathered(package)
+    gathered.follow([path_of(package, path)])
+    others = (entry.path for entry in package.index.with_suffix(*_SUFFIXES) if entry.is_file)
+    gathered.follow([path_of(package, other) for other in others])
+    return XacroNames(tuple(gathered.documents.values()))
+
+
+def parameters_of(text: str) -> tuple[MacroParameter, ...]:
+    """Return the parameters that the attribute `params` of a macro names."""
+    return tuple(
+        MacroParameter(match["name"], match["default"], match["block"])
+        for match in _PARAMETER.finditer(text[:_PARAMETERS_LIMIT])
+    )
+
+
+def macro_around(element: Element) -> Macro | None:
+    """Return the macro that an element is written in; None outside of all."""
+    at: Element | None = element
+    while at is not None and at.tag != f"{PREFIX}macro":
+        at = at.parent
+    return (
+        None
+        if at is None
+        else Macro(at.get("name") or "", parameters_of(at.get("params") or ""), at)
+    )
