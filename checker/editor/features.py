@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 
 from checker.editor import actions, commands
+from checker.editor.assistance import completions, hover
 from checker.editor.documents import opened
 from checker.editor.lenses import lenses_of
+from checker.editor.navigation import Navigator, folds, outline
 from checker.editor.server import Server, real_folders
 
 _WATCHED = [lsp.FileSystemWatcher(glob_pattern="**/*")]
@@ -18,6 +21,9 @@ def register(server: Server) -> None:
     _follow_documents(server)
     _add_actions(server)
     _add_lenses(server)
+    _add_names(server)
+    _add_outlines(server)
+    _add_assistance(server)
     commands.register(server)
 
 
@@ -110,3 +116,93 @@ def _add_lenses(server: Server) -> None:
         if known is None:
             return []
         return await server.read(lambda: lenses_of(*known, server.columns))
+
+
+def _add_names(server: Server) -> None:
+    async def navigator(uri: str) -> Navigator | None:
+        known = await server.state_of(uri)
+        if known is None:
+            return None
+        document, state = known
+        index = await server.read(lambda: server.session.names(state))
+        return Navigator(index, document, server.columns) if index is not None else None
+
+    @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+    async def _(params: lsp.DefinitionParams) -> list[lsp.Location]:
+        names = await navigator(params.text_document.uri)
+        return await server.read(lambda: names.definitions(params.position)) if names else []
+
+    @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
+    async def _(params: lsp.ReferenceParams) -> list[lsp.Location]:
+        names = await navigator(params.text_document.uri)
+        made = params.context.include_declaration
+        if names is None:
+            return []
+        return await server.read(lambda: names.references(params.position, definitions=made))
+
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    async def _(params: lsp.PrepareRenameParams) -> lsp.Range | None:
+        names = await navigator(params.text_document.uri)
+        return await server.read(lambda: names.range(params.position)) if names else None
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    async def _(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+        names = await navigator(params.text_document.uri)
+        if names is None:
+            raise refused("the file is not part of a package that can be read")
+        documents = list(server.session.documents.values())
+        new = params.new_name
+        done = await server.read(lambda: names.renamed(params.position, new, documents))
+        if isinstance(done, str):
+            raise refused(done)
+        return done
+
+
+def refused(reason: str) -> JsonRpcException:
+    """Return the answer that an editor shows as the reason why it cannot do something."""
+    return JsonRpcException(f"cannot rename: {reason}", lsp.LSPErrorCodes.RequestFailed)
+
+
+def _add_outlines(server: Server) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    async def _(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+        known = await server.state_of(params.text_document.uri)
+        if known is None or known[1].checked is None:
+            return []
+        document, checked = known[0], known[1].checked
+
+        def outlined() -> list[lsp.DocumentSymbol]:
+            package = server.session.legible(checked).package
+            return outline(package, document, server.columns)
+
+        return await server.read(outlined)
+
+    @server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
+    def _(params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+        document = server.session.documents.get(params.text_document.uri)
+        return folds(document) if document is not None and document.is_xml else []
+
+
+def _add_assistance(server: Server) -> None:
+    session = server.session
+
+    @server.feature(lsp.TEXT_DOCUMENT_HOVER)
+    async def _(params: lsp.HoverParams) -> lsp.Hover | None:
+        known = await server.state_of(params.text_document.uri)
+        if known is None or known[1].checked is None:
+            return None
+        state, columns, at = known[1], server.columns, params.position
+        return await server.read(lambda: hover(session, known[0], state, at, columns))
+
+    triggers = ["<", " ", '"', "'", "/", ">", ":", "{", "$", "("]
+
+    @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(triggers))
+    async def _(params: lsp.CompletionParams) -> lsp.CompletionList | None:
+        known = await server.state_of(params.text_document.uri)
+        if known is None or known[1].checked is None:
+            return None
+        checked, columns, at = known[1].checked, server.columns, params.position
+        snippets = server.takes_snippets
+        return await server.read(
+            lambda: completions(session, known[0], checked, at, columns, snippets=snippets)
+        )

@@ -66,6 +66,13 @@ class Server(LanguageServer):
             if isinstance(pause := options.get("debounce"), int | float):
                 self._pause = min(max(float(pause) / 1000.0, 0.0), 5.0)
 
+    @property
+    def takes_snippets(self) -> bool:
+        """Whether the client can fill in places of a text that it completes."""
+        document = self.client_capabilities.text_document
+        items = document.completion.completion_item if document and document.completion else None
+        return bool(items and items.snippet_support)
+
     async def read(self, work: Callable[[], T]) -> T:
         """Have the thread that reads packages do something."""
         return await asyncio.get_running_loop().run_in_executor(self._reader, work)

@@ -15,7 +15,9 @@ from checker.editor.check import Checked
 from checker.editor.documents import Document, overlay_of
 from checker.editor.measured import Measured
 from checker.editor.memory_cache import MemoryCache
+from checker.editor.names.index import NameIndex, names_of
 from checker.editor.units import Unit, Units
+from checker.engine.subject import Subject
 from checker.expand.xacro.expansion import xacro_server
 from checker.finding import Place
 from checker.fix.rounds import Judge
@@ -100,6 +102,8 @@ class Session:
         self._states: dict[Key, State] = {}
         self._settings: dict[Key, Settings | Problem] = {}
         self._good: dict[Path, OverlayText] = {}
+        self._legible: tuple[Checked, Subject] | None = None
+        self._names: dict[Key, NameIndex] = {}
 
     def close(self) -> None:
         """End the processes."""
@@ -195,30 +199,45 @@ class Session:
             self._states[key] = state = replace(state, measured=measured)
         return state
 
-    def legible(self, checked: Checked) -> Package:
+    def legible(self, checked: Checked) -> Subject:
         """Return a package in which files that are no XML just now have their last good text."""
+        if self._legible is None or self._legible[0] is not checked:
+            self._legible = checked, self._with_good_texts(checked)
+        return self._legible[1]
+
+    def _with_good_texts(self, checked: Checked) -> Subject:
         package = checked.package
         bad = {
-            each.path: good
-            for path, each in self._in_package(package)
-            if isinstance(package.xml(path), XmlFault) and (good := self._good.get(each.path))
+            document.path: self._good[document.path]
+            for path, document in self._xml_in(package)
+            if document.path in self._good and isinstance(package.xml(path), XmlFault)
         }
         if not bad:
-            return package
+            return checked.subject
         overlay = Overlay({**package.workspace.overlay.texts, **bad})
-        return package.in_workspace(package.workspace.with_overlay(overlay))
+        good = package.in_workspace(package.workspace.with_overlay(overlay))
+        return checked.subject.of(good)
+
+    def names(self, state: State) -> NameIndex | None:
+        """Return the names of a package; of files that have not changed they are kept."""
+        if state.checked is None:
+            return None
+        package, known = self.legible(state.checked).package, self._names.get(state.unit.key)
+        if known is None or known.package is not package:
+            self._names[state.unit.key] = known = names_of(package, known)
+        return known
 
     def _note_good_texts(self, package: Package) -> None:
-        for path, document in self._in_package(package):
-            if _is_xml(path) and isinstance(package.xml(path), XmlDocument):
+        for path, document in self._xml_in(package):
+            if isinstance(package.xml(path), XmlDocument):
                 self._good[document.path] = OverlayText(document.text, document.encoding)
 
-    def _in_package(self, package: Package) -> Iterator[tuple[str, Document]]:
-        """Yield the open files of a package, by their paths in it."""
+    def _xml_in(self, package: Package) -> Iterator[tuple[str, Document]]:
+        """Yield the open XML files of a package, by their paths in it."""
         for document in list(self.documents.values()):
-            if document.path.is_relative_to(package.root):
+            if document.is_xml and document.path.is_relative_to(package.root):
                 path = document.path.relative_to(package.root).as_posix()
-                if _is_xml(path) and package.exists(path):
+                if package.exists(path):
                     yield path, document
 
     def _renew_processes(self) -> None:
@@ -242,7 +261,3 @@ def location_of(package: Package, place: Place) -> Path | None:
     """Return where the file of a place lies on disk; None for the package as a whole."""
     entry = package.resolve(place.file) if place.file else None
     return entry.location if entry is not None and entry.is_file else None
-
-
-def _is_xml(path: str) -> bool:
-    return not path.lower().endswith((".rb", ".py", ".yaml", ".yml", ".md", ".txt", ".toml"))

@@ -180,6 +180,10 @@ class Subject(Record, eq=False, dict=True):
 
         return PhysicsParts(self)
 
+    def of(self, package: Package) -> Subject:
+        """Return the same of another state of the package."""
+        return replace(self, package=package, _provided={})
+
     def robots_of(self, other: Package) -> tuple[Robot, ...] | NotAvailable:
         """Return the robots of another package, to compare with."""
         subject = Subject(other)

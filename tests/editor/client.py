@@ -30,9 +30,18 @@ def client() -> Client:
     """Return a client that takes what a server wants to be told of."""
     made = Client()
     made.feature(lsp.CLIENT_REGISTER_CAPABILITY)(lambda _: None)
-    made.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: made.take(params))
-    made.feature(lsp.WINDOW_SHOW_MESSAGE)(lambda params: made.messages.append(params))
-    made.feature(lsp.WINDOW_LOG_MESSAGE)(lambda params: made.log_messages.append(params))
+
+    @made.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+    def _(params: lsp.PublishDiagnosticsParams) -> None:
+        made.take(params)
+
+    @made.feature(lsp.WINDOW_SHOW_MESSAGE)
+    def _(params: lsp.ShowMessageParams) -> None:
+        made.messages.append(params)
+
+    @made.feature(lsp.WINDOW_LOG_MESSAGE)
+    def _(params: lsp.LogMessageParams) -> None:
+        made.log_messages.append(params)
 
     @made.feature(lsp.WINDOW_SHOW_DOCUMENT)
     def _(params: lsp.ShowDocumentParams) -> lsp.ShowDocumentResult:
@@ -152,6 +161,18 @@ class Editor:
             )
         )
         return [each for each in found or () if isinstance(each, lsp.CodeAction)]
+
+    def where(self, path: Path, needle: str, into: int = 0) -> dict[str, Any]:
+        """Return a file and the position of a text in it, as requests take them."""
+        text = self.text(path)
+        offset = text.index(needle) + into
+        line = text.count("\n", 0, offset)
+        before = text[text.rfind("\n", 0, offset) + 1 : offset]
+        position = lsp.Position(line, len(before.encode("utf-16-le")) // 2)
+        return {
+            "text_document": lsp.TextDocumentIdentifier(path.as_uri()),
+            "position": position,
+        }
 
     def applied(self, edit: lsp.WorkspaceEdit | None) -> dict[str, str]:
         """Return the texts that an edit changes, as they are then."""
