@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import re
 import statistics
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -386,6 +387,28 @@ class TestModern:
     def test_completion_at_any_cut_is_quick(self) -> None:
         taken = _cut_anywhere(_paths(MODERN, ".sdf", ".xacro", ".urdf"), examples(200))
         assert statistics.median(taken) < 0.05 * slowness()
+
+    def test_elements_of_robots_of_today_are_offered(self) -> None:
+        offered_ones = [
+            element.tag in labels
+            for subject, path in _paths(MODERN, ".sdf", ".xacro", ".urdf")
+            for element, labels in _deleted(subject, path)
+        ]
+        assert len(offered_ones) > 100
+        assert sum(offered_ones) > 0.95 * len(offered_ones)
+
+
+def _deleted(subject: Subject, path: str) -> Iterator[tuple[Element, set[str]]]:
+    """Yield elements of a robot with what is offered where each was."""
+    document = subject.package.xml(path)
+    if not isinstance(document, XmlDocument) or document.root.tag not in ("robot", "sdf"):
+        return
+    text = document.source.text
+    for element in document.elements[1::9]:
+        span = element.whole_span
+        rest = f"{text[: span.start]}<{text[span.end :]}"
+        items = completions_at(subject, path, rest, span.start + 1)
+        yield element, {item.label for item in items}
 
 
 def _check_deletions(subject: Subject, path: str) -> int:

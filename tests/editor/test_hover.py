@@ -24,6 +24,7 @@ from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
 from tests.each import of_each
 from tests.editor.subjects import shown, subject_of, text_of, written
+from tests.effort import limited
 from tests.real_packages import CORPUS, MODERN, named_folder, needs
 
 _MODEL = """<?xml version="1.0"?>
@@ -205,6 +206,15 @@ def test_principal_moments_keep_the_invariants(moments: list[float], products: l
     assert math.isclose(a + b + c, ixx + iyy + izz, rel_tol=1e-9)
     assert math.isclose(a * b + b * c + c * a, squares, rel_tol=1e-6, abs_tol=1e-6)
     assert math.isclose(a * b * c, determinant, rel_tol=1e-5, abs_tol=1e-5)
+
+
+@of_each("unit", ["${", "$(", "${a ", "a ", "`"])
+def test_hostile_values_take_linear_time(tmp_path_factory: Any, unit: str) -> None:
+    value = unit * (200_000 // len(unit))
+    text = f"<robot name='r' xmlns:xacro='u'><link name='{value}'/></robot>"
+    subject = written(tmp_path_factory.mktemp("hostile"), {"urdf/r.urdf.xacro": text})
+    with limited(5.0):
+        hover_at(subject, "urdf/r.urdf.xacro", text.index(value) + len(value) // 2)
 
 
 _NUMBER = re.compile(r"(?<=[> ])-?\d+(?:\.\d+)?(?=[< ])")

@@ -18,7 +18,9 @@ from checker.package.package import Package
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 
-_TOKEN = re.compile(r"\$\{[^}]*\}|\$\([^)]*\)")
+_TOKEN = re.compile(r"\$\{[^}]{0,1000}\}|\$\([^)]{0,1000}\)")
+_LENGTH = 1010
+"""Characters that an expression may have."""
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _FIND = re.compile(r"\$\(find\s{1,8}([\w.-]{1,200})\s{0,8}\)")
 _COMMAND = re.compile(r"\$\((arg|find)\s+([\w.-]+)\s*\)")
@@ -43,7 +45,8 @@ def expression_at(pointed: Pointed, offset: int) -> Expression | None:
     if pointed.where not in (Where.VALUE, Where.TEXT):
         return None
     span = pointed.span
-    for match in _TOKEN.finditer(span.source.text, span.start, span.end):
+    start, end = max(span.start, offset - _LENGTH), min(span.end, offset + _LENGTH)
+    for match in _TOKEN.finditer(span.source.text, start, end):
         if match.start() <= offset <= match.end():
             found = _NAME.finditer(span.source.text, match.start(), match.end())
             word = next((it[0] for it in found if it.start() <= offset <= it.end()), "")
