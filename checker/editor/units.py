@@ -64,7 +64,7 @@ class Units:
         """Yield what may be opened to find a file, what the user has opened first."""
         yield from (folder for folder in self.folders if file.is_relative_to(folder))
         try:
-            yield from changed_packages([file], file.parent)
+            yield from (file.parent / each for each in changed_packages([file], file.parent))
         except UnreadableInput:  # a folder
             return
         if file.name.lower().endswith(_LONE):
