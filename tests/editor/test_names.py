@@ -236,6 +236,63 @@ def test_a_topic_of_the_model_is_compared_without_its_name(rover: Package) -> No
     assert "/model/$(arg name)/velocity@" in after["launch/topics.launch"]
 
 
+def test_a_topic_has_the_namespace_of_its_plugin_in_front(tmp_path: Path) -> None:
+    model = """<sdf version="1.6"><model name="m"><link name="l"/><plugin name="a::Motor">
+<robotNamespace>model/m</robotNamespace><commandSubTopic>speed</commandSubTopic></plugin>
+</model></sdf>"""
+    ruby = """<plugin name="Motor"><robotNamespace>model/#{_name}</robotNamespace>
+<commandSubTopic>speed</commandSubTopic></plugin>"""
+    launch = """<launch><arg name="m" default="/model/$(arg name)"/>
+<node args="/model/$(arg name)/speed@a]b other"><remap from="speed" to="x"/></node></launch>"""
+    files = {"model.sdf": model, "launch/a.rb": ruby, "launch/a.launch": launch}
+    after = renamed(package_of(tmp_path, files), "topic", "model/*/speed", "turns")
+    assert "<commandSubTopic>turns<" in after["model.sdf"]
+    assert "<commandSubTopic>turns<" in after["launch/a.rb"]
+    assert "/model/$(arg name)/turns@a" in after["launch/a.launch"]
+    assert 'from="speed"' in after["launch/a.launch"]
+
+
+def test_a_sensor_is_named_behind_an_argument(tmp_path: Path) -> None:
+    model = """<sdf version="1.6"><model name="m"><link name="l">
+<sensor name="eye" type="camera"/></link></model></sdf>"""
+    launch = """<launch><arg name="link" value="/model/$(arg name)/link/l"/>
+<arg name="sensors" value="$(arg link)/sensor"/>
+<node args="$(arg sensors)/eye/image"><remap from="$(arg sensors)/eye/image" to="eye"/></node>
+<node args="$(arg other)/eye/image"/></launch>"""
+    files = {"model.sdf": model, "launch/a.launch": launch}
+    after = renamed(package_of(tmp_path, files), "sensor", "l::eye", "lens")["launch/a.launch"]
+    assert after == launch.replace("sensors)/eye", "sensors)/lens")
+
+
+def test_an_argument_that_a_name_is_composed_for_is_not_renamed(tmp_path: Path) -> None:
+    xacro = """<robot name="r"><xacro:arg name="eye_width" default="1"/>
+<xacro:camera name="eye"/><a b="$(arg ${name}_width)"/></robot>"""
+    package = package_of(tmp_path, {"urdf/r.xacro": xacro})
+    assert "'${name}_width'" in refusal(package, "argument", "eye_width", "w")
+
+
+def test_an_argument_that_is_given_to_an_unknown_program_is_not_the_giver_s(tmp_path: Path) -> None:
+    launch = '<launch><arg name="a"/><param name="p" command="./print a:=$(arg a)"/></launch>'
+    after = renamed(package_of(tmp_path, {"launch/a.launch": launch}), "argument", "a", "b")
+    assert 'command="./print a:=$(arg b)"' in after["launch/a.launch"]
+
+
+def test_an_inherited_launch_file_names_topics(tmp_path: Path) -> None:
+    model = '<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>'
+    base = "../rover_sensor_config_1"
+    spawner = """x = 'roslaunch rover_sensor_config_1 vehicle_topics.launch'
+<plugin name="p"><topic>/model/#{_name}/gas</topic></plugin>"""
+    launch = '<launch><node args="/model/$(arg name)/gas@a[b"/></launch>'
+    files = {
+        "launch/spawner.rb": spawner,
+        f"{base}/model.sdf": model,
+        f"{base}/launch/vehicle_topics.launch": launch,
+    }
+    package = package_of(tmp_path, files, "rover_sensor_config_2")
+    reason = refusal(package, "topic", "model/*/gas", "smoke")
+    assert f"{base}/launch/vehicle_topics.launch:1" in reason
+
+
 def test_a_frame_that_a_plugin_makes_is_renamed(rover: Package) -> None:
     after = renamed(rover, "frame", "odom", "start")
     assert "<frame_id>start</frame_id>" in after["model.sdf"]

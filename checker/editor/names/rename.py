@@ -101,7 +101,8 @@ class Renaming:
         for it in self._same:
             if it.path.startswith("../"):
                 kind = self._mention.kind
-                return f"{kind} {self._old!r} is defined in another package, {self._shown(it)}"
+                what = "defined" if it.is_definition else "named"
+                return f"{kind} {self._old!r} is {what} in another package, {self._shown(it)}"
         for it in self._same:
             if self._text(it) != self._old:
                 return f"{self._shown(it)} composes {self._old!r} in a way that cannot be changed"

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from checker.editor.names.expressions import is_composed
 from checker.editor.names.mention import ANY_PART, Included, NameKind, Role, WrittenName
 from checker.editor.names.plugin_names import written
-from checker.editor.names.values import names_in
+from checker.editor.names.values import kinds_of, names_in
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -22,6 +22,7 @@ _DIRECTIVES = frozenset(
 )
 _EXPRESSION = re.compile(r"\$\{([^{}]{0,2000})\}")
 _ARGUMENT = re.compile(r"\$\(arg\s+([A-Za-z_]\w*)\s*\)")
+_COMPOSED_ARGUMENT = re.compile(r"\$\(arg\s+((?:[\w.-]|\$\{[^{}()]{0,200}\})*\$[^\s()]*)\s*\)")
 _FUNCTION_ARGUMENT = re.compile(r"""xacro\.arg\(\s*['"]([A-Za-z_]\w*)['"]\s*\)""")
 _QUOTED = re.compile(r"""'([^']{0,200})'|"([^"]{0,200})\"""")
 _IDENTIFIER = re.compile(r"(?<![\w.])[A-Za-z_]\w*")
@@ -129,11 +130,12 @@ class XacroNames:
     def _value(self, text: Located[str], key: str) -> None:
         self.values.add(text.value)
         self.values.update(_BLANKS.split(text.value) if len(text.value) < 1000 else ())
-        self.names += names_in(text.value, text.span.start, key)
+        # What a macro or property does with a value is not known: its name may be a link's.
+        self.names += names_in(text.value, text.span.start, key if kinds_of(key) else "")
 
     def _expressions(self, text: Located[str], shadowed: frozenset[str]) -> None:
         start = text.span.start
-        arguments = (_ARGUMENT, _FUNCTION_ARGUMENT)
+        arguments = (_ARGUMENT, _COMPOSED_ARGUMENT, _FUNCTION_ARGUMENT)
         for match in (it for pattern in arguments for it in pattern.finditer(text.value)):
             kinds = (NameKind.ARGUMENT,)
             at, end = start + match.start(1), start + match.end(1)
