@@ -65,9 +65,11 @@ def check(package: Package, most: int) -> int:
             and it.name != thing.name
         )
         undone = back.rename(moved, text[thing.start : thing.end])
-        assert not isinstance(undone, str), undone
-        assert texts(edited(after, undone)) == texts(package)
         count += 1
+        if isinstance(undone, str):
+            assert "already used" in undone, "a model in it may have the same name"
+            continue
+        assert texts(edited(after, undone)) == texts(package)
     return count
 
 

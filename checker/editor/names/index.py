@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.editor.names.expressions import is_composed, may_come_to
-from checker.editor.names.file_names import file_names, holds_names
 from checker.editor.names.included_files import Scopes, included_path, scopes_of
 from checker.editor.names.mention import FileNames, Mention, NameKind
-from checker.editor.names.rename import renamed
+from checker.editor.names.readers.expressions import is_composed, may_come_to
+from checker.editor.names.readers.file_names import file_names, holds_names
+from checker.editor.names.rename.edits import renamed
 from checker.editor.names.resolved import ComposedDefinition, Key, Lookup, key_of
 from checker.finding import Edit
 from checker.package.inheritance import Found

@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.editor.names.expressions import is_composed, is_computed, may_come_to
 from checker.editor.names.included_files import Scopes
 from checker.editor.names.mention import (
     FRAMES,
@@ -17,8 +16,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.topics import topics_below
-from checker.editor.names.values import ELSEWHERE
+from checker.editor.names.readers.expressions import is_composed, is_computed, may_come_to
+from checker.editor.names.readers.topics import topics_below
+from checker.editor.names.readers.values import ELSEWHERE
 
 Key = tuple[NameKind, str, str]
 """Kind, scope and full name of a thing."""

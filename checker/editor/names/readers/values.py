@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.editor.names.expressions import is_composed, is_computed
 from checker.editor.names.mention import (
     ANY_PART,
     FRAMES,
@@ -22,7 +21,8 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.topics import is_topic, topic_key
+from checker.editor.names.readers.expressions import is_composed, is_computed
+from checker.editor.names.readers.topics import is_topic, topic_key
 
 ELSEWHERE = ("",)
 """In place of the files that an argument may be passed to: any but the one that passes it."""

@@ -9,8 +9,13 @@ import re
 from collections.abc import Iterator
 
 from checker.editor.names.mention import WrittenName
-from checker.editor.names.plugin_names import NAMESPACE, frame_named, is_topic_tag, topic_named
-from checker.editor.names.values import names_in, words_in
+from checker.editor.names.readers.plugin_names import (
+    NAMESPACE,
+    frame_named,
+    is_topic_tag,
+    topic_named,
+)
+from checker.editor.names.readers.values import names_in, words_in
 from checker.source.text import Located, SourceText, Span
 
 _TEXT = re.compile(

@@ -7,9 +7,15 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.editor.names.mention import TOPIC_ONLY, NameKind, Role, WrittenName
-from checker.editor.names.plugin_names import written
-from checker.editor.names.topics import is_topic, topic_key
-from checker.editor.names.values import LENGTH_LIMIT, STEP_KINDS, names_in, steps_in, words_in
+from checker.editor.names.readers.plugin_names import written
+from checker.editor.names.readers.topics import is_topic, topic_key
+from checker.editor.names.readers.values import (
+    LENGTH_LIMIT,
+    STEP_KINDS,
+    names_in,
+    steps_in,
+    words_in,
+)
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
-from checker.editor.names.expressions import is_computed
 from checker.editor.names.mention import (
     FRAMES,
     LINK_ONLY,
@@ -15,8 +14,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.topics import is_topic, topic_key
-from checker.editor.names.values import names_in, scoped_names, words_in
+from checker.editor.names.readers.expressions import is_computed
+from checker.editor.names.readers.topics import is_topic, topic_key
+from checker.editor.names.readers.values import names_in, scoped_names, words_in
 from checker.source.text import Located
 from checker.source.xml import Element
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from checker.editor.names.expressions import EXPRESSION, is_computed
 from checker.editor.names.mention import (
     FRAMES,
     JOINT_ONLY,
@@ -14,8 +13,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
-from checker.editor.names.values import scoped_names
+from checker.editor.names.readers.expressions import EXPRESSION, is_computed
+from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 

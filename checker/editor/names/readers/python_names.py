@@ -6,10 +6,10 @@ import ast
 import re
 from collections.abc import Iterator
 
-from checker.editor.names.launch_names import ARGUMENT
 from checker.editor.names.mention import Role, WrittenName
-from checker.editor.names.python_places import PythonPlaces
-from checker.editor.names.values import ELSEWHERE, files_named, names_in
+from checker.editor.names.readers.launch_names import ARGUMENT
+from checker.editor.names.readers.python_places import PythonPlaces
+from checker.editor.names.readers.values import ELSEWHERE, files_named, names_in
 from checker.source.text import SourceText
 
 _DECLARING = ("DeclareLaunchArgument", "SetLaunchConfiguration")

@@ -6,7 +6,7 @@ import re
 from functools import cache
 
 from checker.base.resources import table
-from checker.editor.names.expressions import EXPRESSION
+from checker.editor.names.readers.expressions import EXPRESSION
 
 _MODEL = re.compile(r"(?:world/[^/]+/)?model/([^/]+)/")
 _WORD = re.compile(r"[A-Za-z0-9_./~*${}()# -]+")
