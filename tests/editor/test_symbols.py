@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.editor.names.symbol import Symbol, SymbolKind
+from checker.editor.names.outline.symbol import Symbol, SymbolKind
 from checker.editor.names.symbols import symbols_of
 from checker.package.inputs import open_input
 from checker.package.package import Package

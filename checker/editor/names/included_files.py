@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.editor.names.expressions import is_composed
 from checker.editor.names.mention import FileNames, Included
+from checker.editor.names.readers.expressions import is_composed
 from checker.expand.xacro.files import ROOT, local_path, path_of
 from checker.package.inheritance import Found
 from checker.package.model_file import own_model

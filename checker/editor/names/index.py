@@ -7,17 +7,19 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.editor.names.expressions import is_composed, may_come_to
-from checker.editor.names.file_names import file_names, holds_names
 from checker.editor.names.included_files import Scopes, included_path, scopes_of
 from checker.editor.names.mention import FileNames, Mention, NameKind
-from checker.editor.names.rename import renamed
+from checker.editor.names.readers.expressions import is_composed, may_come_to
+from checker.editor.names.readers.file_names import file_names, holds_names
+from checker.editor.names.rename.edits import renamed
 from checker.editor.names.resolved import ComposedDefinition, Key, Lookup, key_of
 from checker.finding import Edit
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.source.text import SourceText
 
+INHERITED = ("launch/description.launch", "launch/vehicle_topics.launch")
+"""Files that a package may have from a sibling, beside the model."""
 SIBLING_FILES = 100
 """Files of siblings that are read because the package includes them."""
 
@@ -182,9 +184,9 @@ def names_of(package: Package, known: NameIndex | None = None) -> NameIndex:
     for entry in package.index.files:
         if holds_names(entry.path, entry.size):
             _take(package, entry.path, earlier, files)
-    model = package.model_path
-    if isinstance(model, Found) and model.is_inherited:
-        _take(package, model.path, earlier, files)
+    for part in (package.model_path, *(package.part(path) for path in INHERITED)):
+        if isinstance(part, Found) and part.is_inherited:
+            _take(package, part.path, earlier, files)
     links = _follow(package, earlier, files)
     return NameIndex(package, files, links, scopes_of(package, files, links))
 

@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.editor.names.expressions import is_composed, is_computed, may_come_to
 from checker.editor.names.included_files import Scopes
 from checker.editor.names.mention import (
     FRAMES,
@@ -17,6 +16,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
+from checker.editor.names.readers.expressions import is_composed, is_computed, may_come_to
+from checker.editor.names.readers.topics import topics_below
+from checker.editor.names.readers.values import ELSEWHERE
 
 Key = tuple[NameKind, str, str]
 """Kind, scope and full name of a thing."""
@@ -73,7 +75,8 @@ class Lookup:
 
     def _written(self) -> Iterator[tuple[str, WrittenName]]:
         for path, file in self._files.items():
-            is_own = not path.startswith("../")
+            # Launch files of siblings are there because the package starts them.
+            is_own = not path.startswith("../") or file.format not in _DESCRIBING
             for name in file.names:
                 if is_own or name.role is Role.DEFINES:
                     yield path, name
@@ -124,7 +127,12 @@ class Lookup:
         if name.kinds == (NameKind.ARGUMENT,):
             yield from self._arguments(path, name)
         elif describes:
-            yield from self._in_file(path, name.name, name.kinds, name.role)
+            found = [*self._in_file(path, name.name, name.kinds, name.role)]
+            rest = name.name
+            while not found and name.role is Role.MAY_NAME and "::" in rest:
+                rest = rest.partition("::")[2]  # without the name of the robot in front
+                found = [*self._in_file(path, rest, name.kinds, name.role)]
+            yield from found
         else:
             yield from self._anywhere(name)
 
@@ -192,6 +200,9 @@ class Lookup:
         own = self._scopes.xacro[path]
         if name.role is Role.NAMES:
             chosen = [own] if own in scopes else scopes if len(scopes) == 1 else []
+        elif name.files == ELSEWHERE:
+            others = [scope for scope in scopes if scope != own]
+            chosen = others if len(others) == 1 else []
         elif name.files:
             named = {
                 self._scopes.xacro[it] for it in self._files if posixpath.basename(it) in name.files
@@ -205,16 +216,12 @@ class Lookup:
 
     def _topics(self, path: str, name: WrittenName) -> Iterator[Mention]:
         """Yield the topic of a name, or the one that it is published below: `scan/points`."""
-        kind = NameKind.TOPIC
-        own = name.name.removeprefix("model/*/").removeprefix("*/")
-        shown = name.name[: len(name.name) - len(own)]
-        steps = own.split("/")
-        for count in range(len(steps), 0, -1):
-            part = "/".join(steps[:count])
-            if (kind, "", shown + part) in self._defined:
-                end = name.end if count == len(steps) else name.start + len(part)
-                yield Mention(kind, shown + part, "", path, name.start, end)
-                return
+        key, end = name.name, name.end
+        above, _, last = key.rpartition("/")
+        if (NameKind.TOPIC, "", key) not in self._defined and last in topics_below():
+            key, end = above, name.end - len(last) - 1
+        if (NameKind.TOPIC, "", key) in self._defined and end > name.start:
+            yield Mention(NameKind.TOPIC, key, "", path, name.start, end)
 
     def _open(self, path: str, name: WrittenName) -> list[Key]:
         """Return what a name means of which no definition is written out."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from checker.editor.names.python_places import PythonPlaces
-from checker.editor.names.robot_symbols import sdf_symbols, urdf_symbols
-from checker.editor.names.symbol import Symbol, SymbolKind, element_symbol
+from checker.editor.names.outline.robot_symbols import sdf_symbols, urdf_symbols
+from checker.editor.names.outline.symbol import Symbol, SymbolKind, element_symbol
+from checker.editor.names.readers.python_places import PythonPlaces
 from checker.expand.ros2_launch.python.launch_file import parsed
 from checker.package.package import Package
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.editor.names.expressions import is_composed, is_computed
 from checker.editor.names.mention import (
     ANY_PART,
     FRAMES,
@@ -22,8 +21,11 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.topics import is_topic, topic_key
+from checker.editor.names.readers.expressions import is_composed, is_computed
+from checker.editor.names.readers.topics import is_topic, topic_key
 
+ELSEWHERE = ("",)
+"""In place of the files that an argument may be passed to: any but the one that passes it."""
 LENGTH_LIMIT = 20_000
 """Characters; a longer text names nothing."""
 
@@ -36,7 +38,7 @@ _PASSED = re.compile(r"([A-Za-z_]\w*):=")
 _REMAPPED = re.compile(r"((?:/|~/)[^\s:]*):=")
 _STEP = re.compile(r"(?<![^/])(model|link|joint|sensor)/([^/]+)")
 _FILE = re.compile(r"(?<![\w.-])[\w.-]{1,200}\.(?:launch(?:\.(?:py|xml|ya?ml))?|xacro|urdf|xml)\b")
-_STEP_KINDS = {
+STEP_KINDS = {
     "model": MODEL_ONLY,
     "link": LINK_ONLY,
     "joint": JOINT_ONLY,
@@ -121,7 +123,7 @@ def _names_in_argument(
     if passed := _PASSED.match(word):
         name, end = passed[1], start + len(passed[1])
         kinds = (NameKind.ARGUMENT,)
-        yield WrittenName(kinds, name, start, end, Role.MAY_NAME, files)
+        yield WrittenName(kinds, name, start, end, Role.MAY_NAME, files or ELSEWHERE)
         yield from _names_in_word(word[passed.end() :], start + passed.end(), name)
     elif remapped := _REMAPPED.match(word):
         yield from _topic(remapped[1], start)
@@ -129,7 +131,7 @@ def _names_in_argument(
     elif "@" in word:
         topic = word.partition("@")[0]
         yield from _topic(topic, start)
-        yield from _steps(topic, start)
+        yield from steps_in(topic, start)
     else:
         yield from _names_in_word(word, start, key)
 
@@ -147,7 +149,7 @@ def _names_in_word(word: str, start: int, key: str) -> Iterator[WrittenName]:
     if "::" in plain:
         yield from scoped_names(word, start, kinds, Role.MAY_NAME)
     elif "/" in plain:
-        yield from _steps(word, start)
+        yield from steps_in(word, start)
         yield from _prefixed(word, start, kinds)
         if kinds == TOPIC_ONLY or plain.startswith("/") or word.startswith(("$(arg", "#{")):
             yield from _topic(word, start)
@@ -163,7 +165,7 @@ def _topic(word: str, start: int) -> Iterator[WrittenName]:
         yield WrittenName(TOPIC_ONLY, key, start + own, start + len(word), Role.MAY_NAME)
 
 
-def _steps(word: str, start: int) -> Iterator[WrittenName]:
+def steps_in(word: str, start: int) -> Iterator[WrittenName]:
     """Yield the parts that a topic of Gazebo names: `model/X1/link/base_link/sensor/imu`."""
     above: list[str] = []
     for match in _STEP.finditer(word):
@@ -172,7 +174,7 @@ def _steps(word: str, start: int) -> Iterator[WrittenName]:
             continue
         at = start + match.start(2)
         full = f"{above[-1]}::{name}" if kind == "sensor" and above else name
-        yield WrittenName(_STEP_KINDS[kind], full, at, at + len(name), Role.MAY_NAME)
+        yield WrittenName(STEP_KINDS[kind], full, at, at + len(name), Role.MAY_NAME)
         if kind in ("link", "joint"):
             above.append(name)
 
@@ -206,5 +208,6 @@ def scoped_names(
         is_last = number == len(steps)
         full += step
         if step and not is_computed(step):
-            yield WrittenName(kinds if is_last else MODEL_ONLY, full, at, at + len(step), role)
+            above = MODEL_ONLY if role is not Role.MAY_NAME else (NameKind.MODEL, NameKind.LINK)
+            yield WrittenName(kinds if is_last else above, full, at, at + len(step), role)
         at, full = at + len(step) + 2, full + "::"

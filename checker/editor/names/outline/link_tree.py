@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from checker.base.record import Record
-from checker.editor.names.symbol import Symbol
+from checker.editor.names.outline.symbol import Symbol
 
 DEPTH_LIMIT = 60
 """Links below each other; one that is deeper begins a tree of its own."""

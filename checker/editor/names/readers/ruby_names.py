@@ -9,8 +9,13 @@ import re
 from collections.abc import Iterator
 
 from checker.editor.names.mention import WrittenName
-from checker.editor.names.plugin_names import frame_named, is_topic_tag, topic_named
-from checker.editor.names.values import names_in, words_in
+from checker.editor.names.readers.plugin_names import (
+    NAMESPACE,
+    frame_named,
+    is_topic_tag,
+    topic_named,
+)
+from checker.editor.names.readers.values import names_in, words_in
 from checker.source.text import Located, SourceText, Span
 
 _TEXT = re.compile(
@@ -20,6 +25,9 @@ _TEXT = re.compile(
     r"""|%[wWiI][\[({<]([^\])}>]{0,2000})[\])}>]"""
 )
 _COMMENT = re.compile(r"^[ \t]*#(?!\{)[^\n]*", re.MULTILINE)
+_NAMESPACE = re.compile(rf"<{NAMESPACE}>([^<>\n]{{1,200}})</")
+_PLUGIN_LIMIT = 10_000
+"""Characters in front of a topic, and behind it, that its plugin may have."""
 _WORDS = re.compile(r"[\s,]+")
 
 
@@ -59,9 +67,19 @@ def _of_element(source: SourceText, match: re.Match[str]) -> Iterator[WrittenNam
     start = match.start(2) + len(match[2]) - len(match[2].lstrip())
     located = Located(text, Span(source, start, start + len(text)))
     if is_topic_tag(tag):
-        yield from topic_named(located)
+        yield from topic_named(located, _namespace(source.text, start))
     elif "frame" in tag.lower():
         yield from frame_named(located)
     else:
         is_command = tag == "command"
         yield from names_in(text, start, "" if is_command else tag, words=is_command)
+
+
+def _namespace(text: str, at: int) -> str:
+    """Return what the plugin around a place puts in front of its topics; empty for nothing."""
+    begun = text.rfind("<plugin", max(0, at - _PLUGIN_LIMIT), at)
+    ended = text.find("</plugin", at, at + _PLUGIN_LIMIT)
+    if begun < 0 or ended < 0:
+        return ""
+    found = _NAMESPACE.search(text, begun, ended)
+    return found[1].strip() if found else ""

@@ -4,25 +4,48 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from checker.editor.names.mention import TOPIC_ONLY, NameKind, Role, WrittenName
-from checker.editor.names.plugin_names import written
-from checker.editor.names.topics import is_topic, topic_key
-from checker.editor.names.values import LENGTH_LIMIT, names_in, words_in
+from checker.editor.names.readers.plugin_names import written
+from checker.editor.names.readers.topics import is_topic, topic_key
+from checker.editor.names.readers.values import (
+    LENGTH_LIMIT,
+    STEP_KINDS,
+    names_in,
+    steps_in,
+    words_in,
+)
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 ARGUMENT = (NameKind.ARGUMENT,)
 _NAMED = re.compile(r"\$\((?:arg|var)\s+([A-Za-z_]\w*)\s*\)")
 _EVALUATED = re.compile(r"\$\(eval\s+(.{0,2000}?)\)(?=\s*$|[^()]*$)", re.DOTALL)
+_BEHIND = re.compile(r"\$\((?:arg|var)\s+([A-Za-z_]\w*)\s*\)/([\w.-]+)")
+_LAST_ARGUMENT = re.compile(r"\$\((?:arg|var)\s+([A-Za-z_]\w*)\s*\)\Z")
+_TAIL = 200
+_DEPTH = 4
+_NO_NAMES = frozenset(
+    {"if", "unless", "name", "pkg", "type", "exec", "file", "ns", "namespace", "doc"}
+)
 _IDENTIFIER = re.compile(r"(?<![\w.])[A-Za-z_]\w*")
 
 
 def launch_names(document: XmlDocument) -> Iterator[WrittenName]:
     """Yield the names of a launch file."""
+    known = {
+        name: element.get("default") or element.get("value") or ""
+        for element in document.elements
+        if element.tag in ("arg", "let") and (name := element.get("name"))
+    }
     for element in document.elements:
         yield from _of_element(element)
+        for name in element.attributes:
+            text = written(element.attribute(name))
+            if text is not None and "$(" in text.value:
+                yield from named_arguments(text.value, text.span.start)
+                yield from _behind_arguments(text.value, text.span.start, known)
 
 
 def _of_element(element: Element) -> Iterator[WrittenName]:
@@ -31,10 +54,7 @@ def _of_element(element: Element) -> Iterator[WrittenName]:
         yield from _argument(element)
     for name in element.attributes:
         text = written(element.attribute(name))
-        if text is None:
-            continue
-        yield from named_arguments(text.value, text.span.start)
-        if name in ("if", "unless", "name", "pkg", "type", "exec", "file", "ns", "namespace"):
+        if text is None or name in _NO_NAMES:
             continue
         if tag == "remap":
             yield from _remapped(text)
@@ -42,6 +62,20 @@ def _of_element(element: Element) -> Iterator[WrittenName]:
             yield from _given(element, name, text)
     if tag == "rosparam" and (text := written(element.text)) is not None:
         yield from words_in(text.value, text.span.start)
+
+
+def _behind_arguments(value: str, start: int, known: Mapping[str, str]) -> Iterator[WrittenName]:
+    """Yield the part in `$(arg sensors)/front/scan`, where the argument ends in `/sensor`."""
+    for match in _BEHIND.finditer(value[:LENGTH_LIMIT]):
+        before = known.get(match[1], "")
+        for _ in range(_DEPTH):
+            # What an argument ends in may be another one.
+            last = _LAST_ARGUMENT.search(before[-_TAIL:])
+            before = known.get(last[1], "") if last else before
+        kinds = STEP_KINDS.get(before.rstrip("/").rpartition("/")[2])
+        if kinds is not None:
+            at, end = start + match.start(2), start + match.end(2)
+            yield WrittenName(kinds, match[2], at, end, Role.MAY_NAME)
 
 
 def _argument(element: Element) -> Iterator[WrittenName]:
@@ -73,6 +107,7 @@ def named_arguments(value: str, start: int) -> Iterator[WrittenName]:
 
 
 def _remapped(text: Located[str]) -> Iterator[WrittenName]:
+    yield from steps_in(text.value, text.span.start)
     if is_topic(text.value):
         key, own = topic_key(text.value)
         start = text.span.start

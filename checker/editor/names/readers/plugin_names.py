@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
-from checker.editor.names.expressions import is_computed
 from checker.editor.names.mention import (
     FRAMES,
     LINK_ONLY,
@@ -15,12 +14,15 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.topics import is_topic, topic_key
-from checker.editor.names.values import names_in, scoped_names, words_in
+from checker.editor.names.readers.expressions import is_computed
+from checker.editor.names.readers.topics import is_topic, topic_key
+from checker.editor.names.readers.values import names_in, scoped_names, words_in
 from checker.source.text import Located
 from checker.source.xml import Element
 
 _LINE_END = re.compile(r"\r\n|[\r\n\t]")
+NAMESPACE = "robotNamespace"
+"""Parameter that goes in front of the topics of some plugins."""
 RESERVED = frozenset({"", "world", "__model__", "__root__"})
 """Names of frames that are always there."""
 _LISTS = ("joints", "links", "jointname", "jointnames", "wheelnames")
@@ -52,6 +54,8 @@ def plugin_names(plugin: Element, prefix: str) -> Iterator[WrittenName]:
         plugin: The element.
         prefix: Of the model that it belongs to: empty, or `robot::`.
     """
+    namespace = plugin.child(NAMESPACE)
+    space = namespace.value if namespace is not None else ""
     known = table("plugin_references")["plugins"].get(_class(plugin), {})
     waiting = [(child, child.tag) for child in reversed(plugin.children)]
     while waiting:
@@ -62,7 +66,10 @@ def plugin_names(plugin: Element, prefix: str) -> Iterator[WrittenName]:
                 yield from _parameter(text, name, f"{path}/@{name}", prefix, known)
         waiting += [(child, f"{path}/{child.tag}") for child in reversed(element.children)]
         if not element.children and (text := written(element.text)) is not None:
-            yield from _parameter(text, element.tag, path, prefix, known)
+            if is_topic_tag(element.tag):
+                yield from topic_named(text, space)
+            else:
+                yield from _parameter(text, element.tag, path, prefix, known)
 
 
 def _class(plugin: Element) -> str:
@@ -76,8 +83,6 @@ def _parameter(
     start = text.span.start
     if kind in ("joint", "link"):
         yield from scoped_names(text.value, start, (NameKind(kind),), Role.NAMES, prefix)
-    elif is_topic_tag(tag):
-        yield from topic_named(text)
     elif "frame" in tag.lower():
         yield from frame_named(text, prefix)
     elif tag.lower().endswith(_LISTS) and ("," in text.value or " " in text.value):
@@ -86,14 +91,22 @@ def _parameter(
         yield from names_in(text.value, start, tag)
 
 
-def topic_named(text: Located[str]) -> Iterator[WrittenName]:
-    """Yield the topic that a sensor or plugin states."""
-    if is_topic(text.value):
-        key, own = topic_key(text.value)
-        start = text.span.start
-        if key[-1:] not in ("", "/"):
-            end = start + len(text.value)
-            yield WrittenName(TOPIC_ONLY, key, start + own, end, Role.DEFINES)
+def topic_named(text: Located[str], space: str = "") -> Iterator[WrittenName]:
+    """Yield the topic that a sensor or plugin states.
+
+    Args:
+        text: The topic.
+        space: What the plugin puts in front of it: `model/X1`.
+    """
+    if not is_topic(text.value):
+        return
+    key, own = topic_key(text.value)
+    if space and not text.value.startswith("/"):
+        key, own = topic_key(f"{space.strip('/')}/{text.value}")[0], 0
+    start = text.span.start
+    if key[-1:] not in ("", "/"):
+        end = start + len(text.value)
+        yield WrittenName(TOPIC_ONLY, key, start + own, end, Role.DEFINES)
 
 
 def frame_named(text: Located[str], prefix: str = "") -> Iterator[WrittenName]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import keyword
 import re
 
-from checker.editor.names.expressions import EXPRESSION, expressions, is_composed
 from checker.editor.names.mention import NameKind
-from checker.editor.names.plugin_names import RESERVED
+from checker.editor.names.readers.expressions import EXPRESSION, expressions, is_composed
+from checker.editor.names.readers.plugin_names import RESERVED
 
 _PART = re.compile(r"[\w.-]+")
 _PART_LIMIT = 200

@@ -5,9 +5,9 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator
 
-from checker.editor.names.launch_names import ARGUMENT, named_arguments
 from checker.editor.names.mention import ANY_PART, Role, WrittenName
-from checker.editor.names.values import names_in
+from checker.editor.names.readers.launch_names import ARGUMENT, named_arguments
+from checker.editor.names.readers.values import names_in
 from checker.source.text import Span
 from checker.source.yaml import YamlNode
 

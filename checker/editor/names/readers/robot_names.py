@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from checker.editor.names.expressions import EXPRESSION, is_computed
 from checker.editor.names.mention import (
     FRAMES,
     JOINT_ONLY,
@@ -14,7 +13,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.expressions import EXPRESSION, is_computed
+from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -76,6 +77,8 @@ class RobotNames:
                 self._walk(child, child.get("reference") or "", True)
             elif child.children:
                 self._walk(child, reference, elsewhere or tag in _ELSEWHERE)
+            elif tag in ("parent", "child") and elsewhere:
+                self._end(child)
             elif tag == "param" and child.get("name") == "mimic":
                 self._name(written(child.text), JOINT_ONLY, Role.NAMES)
 
@@ -98,12 +101,22 @@ class RobotNames:
                 self._sensor(element, reference)
 
     def _sensor(self, element: Element, reference: str) -> None:
-        name = written(element.attribute("name"))
+        name, parent = written(element.attribute("name")), element.child("parent")
+        if parent is not None and not reference:
+            reference = _ROBOT.sub("", parent.get("link") or "")
         if name is not None and not is_computed(name.value):
             span = name.span
             full = f"{reference}::{name.value}" if reference else name.value
             self.names.append(WrittenName(SENSOR_ONLY, full, span.start, span.end, Role.DEFINES))
         self.names += sensor_names(element, "")
+        for child in element.children:
+            self._attributes(child, reference, True)
+
+    def _end(self, element: Element) -> None:
+        """Note the link that a joint of SDF in a `<gazebo>` names."""
+        text, above = written(element.text), element.parent
+        if text is not None and above is not None and above.tag == "joint":
+            self.names += scoped_names(text.value, text.span.start, LINK_ONLY, Role.MAY_NAME)
 
     def _name(self, text: Located[str] | None, kinds: tuple[NameKind, ...], role: Role) -> None:
         if text is not None and text.value not in RESERVED:

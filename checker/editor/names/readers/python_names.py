@@ -6,10 +6,10 @@ import ast
 import re
 from collections.abc import Iterator
 
-from checker.editor.names.launch_names import ARGUMENT
 from checker.editor.names.mention import Role, WrittenName
-from checker.editor.names.python_places import PythonPlaces
-from checker.editor.names.values import files_named, names_in
+from checker.editor.names.readers.launch_names import ARGUMENT
+from checker.editor.names.readers.python_places import PythonPlaces
+from checker.editor.names.readers.values import ELSEWHERE, files_named, names_in
 from checker.source.text import SourceText
 
 _DECLARING = ("DeclareLaunchArgument", "SetLaunchConfiguration")
@@ -51,7 +51,7 @@ class PythonNames:
         elif isinstance(node, ast.Dict):
             yield from self._dict(node, key, files)
         elif isinstance(node, ast.Tuple) and key == "launch_arguments" and node.elts:
-            self._argument(node.elts[0], Role.MAY_NAME, files)
+            self._argument(node.elts[0], Role.MAY_NAME, files or ELSEWHERE)
             yield from ((child, key, files) for child in node.elts[1:])
         elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             yield node.value, node.targets[0].id, files
@@ -91,7 +91,7 @@ class PythonNames:
         for name, value in zip(node.keys, node.values, strict=True):
             word = name.value if isinstance(name, ast.Constant) else None
             if name is not None and key == "launch_arguments":
-                self._argument(name, Role.MAY_NAME, files)
+                self._argument(name, Role.MAY_NAME, files or ELSEWHERE)
             elif name is not None and not isinstance(word, str):
                 yield name, key, files
             yield value, word if isinstance(word, str) else key, files
@@ -111,7 +111,7 @@ class PythonNames:
             return
         is_argument = key in ("arguments", "args", "cmd", "ros_arguments") or ":=" in text
         for found in names_in(text, start, key, words=is_argument):
-            passed = files if found.kinds == ARGUMENT else found.files
+            passed = files if files and found.kinds == ARGUMENT else found.files
             kinds, name = found.kinds, found.name
             self.names.append(WrittenName(kinds, name, found.start, found.end, found.role, passed))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.editor.names.expressions import is_computed
 from checker.editor.names.mention import (
     JOINT_ONLY,
     LINK_ONLY,
@@ -15,8 +14,9 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
-from checker.editor.names.values import scoped_names
+from checker.editor.names.readers.expressions import is_computed
+from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 

@@ -6,10 +6,10 @@ import keyword
 import re
 from collections.abc import Iterator
 
-from checker.editor.names.expressions import is_composed
 from checker.editor.names.mention import ANY_PART, Included, NameKind, Role, WrittenName
-from checker.editor.names.plugin_names import written
-from checker.editor.names.values import names_in
+from checker.editor.names.readers.expressions import is_composed
+from checker.editor.names.readers.plugin_names import written
+from checker.editor.names.readers.values import kinds_of, names_in
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -20,8 +20,10 @@ _DIRECTIVES = frozenset(
         *("attribute", "call", "robot"),
     )
 )
+_OWN_ATTRIBUTES = ("name", "params", "filename")
 _EXPRESSION = re.compile(r"\$\{([^{}]{0,2000})\}")
 _ARGUMENT = re.compile(r"\$\(arg\s+([A-Za-z_]\w*)\s*\)")
+_COMPOSED_ARGUMENT = re.compile(r"\$\(arg\s+((?:[\w.-]|\$\{[^{}()]{0,200}\})*\$[^\s()]*)\s*\)")
 _FUNCTION_ARGUMENT = re.compile(r"""xacro\.arg\(\s*['"]([A-Za-z_]\w*)['"]\s*\)""")
 _QUOTED = re.compile(r"""'([^']{0,200})'|"([^"]{0,200})\"""")
 _IDENTIFIER = re.compile(r"(?<![\w.])[A-Za-z_]\w*")
@@ -57,12 +59,15 @@ class XacroNames:
     def _element(self, element: Element, shadowed: frozenset[str]) -> frozenset[str]:
         """Read one element; return the names that mean parameters in it."""
         tag = element.tag.removeprefix(PREFIX) if element.tag.startswith(PREFIX) else ""
-        for name in element.attributes:
+        for name, value in element.attributes.items():
+            is_given = tag and not (tag in _DIRECTIVES and name in _OWN_ATTRIBUTES)
+            if not is_given and "$" not in value:
+                continue
             text = written(element.attribute(name))
             if text is not None:
-                if "$" in text.value:
+                if "$" in value:
                     self._expressions(text, shadowed)
-                if tag and not (tag in _DIRECTIVES and name in ("name", "params", "filename")):
+                if is_given:
                     self._value(text, name if tag != "property" else element.get("name") or "")
         if not element.children and "$" in element.value and (text := written(element.text)):
             self._expressions(text, shadowed)
@@ -129,11 +134,12 @@ class XacroNames:
     def _value(self, text: Located[str], key: str) -> None:
         self.values.add(text.value)
         self.values.update(_BLANKS.split(text.value) if len(text.value) < 1000 else ())
-        self.names += names_in(text.value, text.span.start, key)
+        # What a macro or property does with a value is not known: its name may be a link's.
+        self.names += names_in(text.value, text.span.start, key if kinds_of(key) else "")
 
     def _expressions(self, text: Located[str], shadowed: frozenset[str]) -> None:
         start = text.span.start
-        arguments = (_ARGUMENT, _FUNCTION_ARGUMENT)
+        arguments = (_ARGUMENT, _COMPOSED_ARGUMENT, _FUNCTION_ARGUMENT)
         for match in (it for pattern in arguments for it in pattern.finditer(text.value)):
             kinds = (NameKind.ARGUMENT,)
             at, end = start + match.start(1), start + match.end(1)

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
-from checker.editor.names.link_tree import JointSymbol, link_tree
-from checker.editor.names.symbol import Symbol, SymbolKind, element_symbol
+from checker.editor.names.outline.link_tree import JointSymbol, link_tree
+from checker.editor.names.outline.symbol import Symbol, SymbolKind, element_symbol
 from checker.source.xml import Element
 
 _MACRO = "xacro:macro"

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from checker.base.files import NotReadable
-from checker.editor.names.launch_names import launch_names
 from checker.editor.names.mention import FileNames
-from checker.editor.names.python_names import PythonNames
-from checker.editor.names.robot_names import RobotNames
-from checker.editor.names.ruby_names import ruby_names, ruby_values
-from checker.editor.names.sdf_names import SdfNames
-from checker.editor.names.xacro_names import PREFIX, XacroNames
-from checker.editor.names.yaml_names import yaml_names
+from checker.editor.names.readers.launch_names import launch_names
+from checker.editor.names.readers.python_names import PythonNames
+from checker.editor.names.readers.robot_names import RobotNames
+from checker.editor.names.readers.ruby_names import ruby_names, ruby_values
+from checker.editor.names.readers.sdf_names import SdfNames
+from checker.editor.names.readers.xacro_names import PREFIX, XacroNames
+from checker.editor.names.readers.yaml_names import yaml_names
 from checker.expand.ros2_launch.python.launch_file import parsed
 from checker.package.package import Package
 from checker.source.text import SourceText

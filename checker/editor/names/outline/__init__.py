@@ -1,0 +1,1 @@
+"""Symbols of an outline, and the tree of a robot that they form."""

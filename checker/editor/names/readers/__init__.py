@@ -1,0 +1,1 @@
+"""What each file writes of names, one reader a format."""

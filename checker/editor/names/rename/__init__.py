@@ -1,0 +1,1 @@
+"""Another name for a thing: the edits, and all reasons against them."""
