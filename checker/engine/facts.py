@@ -145,7 +145,7 @@ def _is_excused(measurement: Measurement, driven: RobotTrial, options: Mapping[s
     if measurement.name != "torque":
         return False
     efforts = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
-    most = options.get("warning_above", 1.0) * efforts.get(measurement.part, math.inf)
+    most: float = options.get("warning_above", 1.0) * efforts.get(measurement.part, math.inf)
     return abs(measurement.value) > most
 
 
