@@ -101,9 +101,7 @@ class RobotViews:
         if begun is None:
             nothing = tuple(View(sensor, (), 0.0, None) for sensor in request.sensors)
             return SensorViews(robot, nothing, request.unseen if request.sensors else ())
-        with self.stages.stage(
-            "views", "" if begun.known else "computing the views of the sensors"
-        ):
+        with self.stages.stage("views", "" if begun.known else "checking sensor fields of view"):
             answer = begun.result()
         if isinstance(answer, WorkerFailed):
             reason = f"the views of the sensors were not computed: the process {answer.reason}"
