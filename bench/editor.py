@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 import shutil
 import statistics
 import sys
@@ -31,6 +32,7 @@ REPOSITORY = "create3_sim"
 LIMITS = {"model.sdf": 150.0, "xacro": 400.0, "memory": 300.0}
 """Milliseconds at the 95th percentile; megabytes."""
 _SECONDS = 120.0
+_NUMBER = re.compile(r"[0-9]\.[0-9]+")
 
 
 class Editor:
@@ -47,6 +49,7 @@ class Editor:
             self._news.set()
 
     async def start(self, folder: Path) -> None:
+        """Start a server for a folder."""
         await self._client.start_io(sys.executable, "-m", "checker.cli", "server")
         folders = [lsp.WorkspaceFolder(folder.as_uri(), folder.name)]
         capabilities = lsp.ClientCapabilities()
@@ -56,6 +59,7 @@ class Editor:
         self._client.initialized(lsp.InitializedParams())
 
     async def open(self, path: Path) -> float:
+        """Open a file, and return the seconds until its findings are there."""
         item = lsp.TextDocumentItem(path.as_uri(), "xml", 1, path.read_text("utf-8"))
         started = perf_counter()
         self._client.text_document_did_open(lsp.DidOpenTextDocumentParams(item))
@@ -63,6 +67,7 @@ class Editor:
         return perf_counter() - started
 
     async def change(self, path: Path, text: str, version: int) -> float:
+        """Change a file, and return the seconds until the findings of that text are there."""
         identifier = lsp.VersionedTextDocumentIdentifier(uri=path.as_uri(), version=version)
         change = lsp.TextDocumentContentChangeWholeDocument(text)
         started = perf_counter()
@@ -79,13 +84,14 @@ class Editor:
     @property
     def megabytes(self) -> tuple[float, float]:
         """What the server holds, and with all the processes that it has started."""
-        server = self._client._server  # noqa: SLF001 - the library tells it nowhere else
+        server = self._client._server
         assert server is not None
         every = [server.pid, *_descendants(server.pid)]
         held = [_resident(pid) for pid in every]
         return held[0], sum(held)
 
     async def end(self) -> None:
+        """End the server."""
         await self._client.shutdown_async(None)
         self._client.exit(None)
         await self._client.stop()
@@ -108,13 +114,10 @@ def _descendants(pid: int) -> Iterator[int]:
 
 
 def numbered(text: str, number: int) -> str:
-    """Return a text in which one number of the last quarter is another one."""
-    at = text.index(' 0 0 0"' if ' 0 0 0"' in text else "0", len(text) * 3 // 4)
-    return (
-        f"{text[:at]}{number / 1e6:f}{text[at:]}"
-        if text[at] == "0"
-        else (f'{text[:at]} {number / 1e6:f} 0 0"{text[at + 7 :]}')
-    )
+    """Return a text with another number in the middle of it, as of somebody who types digits."""
+    found = _NUMBER.search(text, len(text) // 3)
+    assert found is not None
+    return f"{text[: found.end()]}{number}{text[found.end() :]}"
 
 
 def show(name: str, times: Sequence[float], opened: float) -> None:
@@ -161,6 +164,8 @@ def main() -> None:
     """Measure and print everything."""
     keep_bytecode()
     corpus, modern = (os.environ.get(f"SUBT_CHECK_{name}", "") for name in ("CORPUS", "MODERN"))
+    if not (corpus and modern):
+        print("SUBT_CHECK_CORPUS and SUBT_CHECK_MODERN name real packages: not all is measured")
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder).resolve()
         if corpus:

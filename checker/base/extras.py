@@ -75,7 +75,7 @@ PHYSICS = Extra(
         *("scipy", "yourdfpy"),
     ),
 )
-"""Reads meshes, weighs robots, looks through their sensors, drives and draws them."""
+"""Reads meshes, weighs robots, computes the views of their sensors, drives and draws them."""
 SERVICE = Extra(
     "service",
     (

@@ -12,6 +12,24 @@ SHELLS = ("bash", "zsh", "fish")
 _FOLDERS = ("DEST", "DIR", "FOLDER")
 _FILES = ("FILE", "PACKAGE", "PATH", "SOURCE")
 """What arguments are called that name files."""
+_SHORT_FORM = {
+    "bash": [("complete -o bashdefault ", "complete -o bashdefault -o default ")],
+    "zsh": [
+        ("': :_shtab_subt_check_commands'", "': :{_shtab_subt_check_commands; _files}'"),
+        (
+            "esac\n  esac",
+            "  *) _arguments -C -s $_shtab_subt_check_check_options ;;\n      esac\n  esac",
+        ),
+    ],
+    "fish": [
+        (
+            "complete -c subt-check -f\n",
+            "complete -c subt-check -f\ncomplete -c subt-check -n _shtab_subt_check_using -F\n",
+        )
+    ],
+}
+"""What is changed in a script: `subt-check PATH` is short for `subt-check check PATH`: what is not
+a command may be a file."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,11 +55,24 @@ def script(shell: str) -> str:
     from checker.cli import build_parser
 
     parser = build_parser()
+    _take_options(parser)
     for action in _actions(parser):
         _describe(action, {"file": shtab.FILE, "folder": shtab.DIRECTORY})
     text: str = shtab.complete(parser, shell)
-    # `subt-check PATH` is short for `subt-check check PATH`: what is no command may be a file.
-    return text.replace("complete -o bashdefault ", "complete -o bashdefault -o default ") + "\n"
+    for shown, wanted in _SHORT_FORM[shell]:
+        text = text.replace(shown, wanted)
+    return f"{text}\n"
+
+
+def _take_options(parser: argparse.ArgumentParser) -> None:
+    """Let the program itself take the options of `check`, as `subt-check PATH` does."""
+    from checker.cli.check.command import add_arguments as add_those_of_check
+
+    short = argparse.ArgumentParser(add_help=False)
+    add_those_of_check(short)
+    for action in short._actions:
+        if action.option_strings:
+            parser._add_action(action)
 
 
 def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:

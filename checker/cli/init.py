@@ -19,6 +19,7 @@ from checker.base.output import EXIT_CLEAN, show
 from checker.base.record import Record
 from checker.base.resources import templates
 from checker.base.words import plain
+from checker.cli.arguments import PROFILES
 from checker.package.inputs import open_input
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -186,7 +187,7 @@ def _settings(folder: Path) -> Iterator[str]:
     guess = guessed_profile(folder)
     source = templates("init").joinpath(f"{FILE_NAME}.j2").read_text("utf-8")
     template = Template(source, undefined=StrictUndefined, keep_trailing_newline=True)
-    _create(target, template.render(profile=guess.profile, reason=guess.reason))
+    _create(target, template.render(profile=guess.profile, reason=guess.reason, profiles=PROFILES))
     profile = f"profile {guess.profile}" if guess.profile else "no profile"
     yield f"wrote {plain(str(target))}: {profile} ({guess.reason})"
 

@@ -11,7 +11,7 @@ from checker.editor.documents import Document
 from checker.editor.names.folding import folds_of
 from checker.editor.names.index import NameIndex
 from checker.editor.names.mention import Mention
-from checker.editor.names.symbol import Symbol, SymbolKind
+from checker.editor.names.outline.symbol import Symbol, SymbolKind
 from checker.editor.names.symbols import symbols_of
 from checker.editor.positions import Columns
 from checker.editor.session import path_in

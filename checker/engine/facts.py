@@ -81,7 +81,8 @@ def _measurements(
         measure = MEASURES.get(measurement.name, Measure(measurement.name.replace("_", " ")))
         if not math.isfinite(measurement.value):
             continue
-        looked = measure.rule in outcome.looked
+        options = outcome.looked.get(measure.rule, {})
+        looked = measure.rule in outcome.looked and not _is_excused(measurement, driven, options)
         yield {
             "name": measurement.name,
             "label": measure.label,
@@ -90,7 +91,7 @@ def _measurements(
             "part": measurement.part,
             "other": measurement.other,
             "rule": measure.rule,
-            "limits": _limits(measurement.name, outcome.looked.get(measure.rule, {})),
+            "limits": _limits(measurement.name, options),
             "verdict": _verdict(measurement, driven, verdicts, looked),
         }
 
@@ -137,6 +138,15 @@ def _verdict(
     if judged:
         return str(min((severity for severity, _ in judged), key=lambda severity: severity.rank))
     return "ok" if looked and MEASURES[measurement.name].silence_is_ok else NOT_JUDGED
+
+
+def _is_excused(measurement: Measurement, driven: RobotTrial, options: Mapping[str, Any]) -> bool:
+    """Say whether a torque is beyond its effort limit: a rule that is silent then takes no side."""
+    if measurement.name != "torque":
+        return False
+    efforts = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
+    most: float = options.get("warning_above", 1.0) * efforts.get(measurement.part, math.inf)
+    return abs(measurement.value) > most
 
 
 def _limits(name: str, options: Mapping[str, Any]) -> dict[str, Any]:

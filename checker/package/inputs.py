@@ -153,6 +153,8 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     enclosing = enclosing_package(folder)
     advice = f"give the package folder {enclosing}" if enclosing else _WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
+    if found.ignored:
+        missing = f"contains no package outside of what {found.ignored[0]} leaves out"
     raise UnreadableInput(path, missing, advice)
 
 

@@ -44,10 +44,12 @@ class Units(Record):
     Attributes:
         units: By path, packages before what lies in them.
         complete: Whether all folders were looked into.
+        ignored: Files that keep the build tools, and this search, out of their folders.
     """
 
     units: tuple[Unit, ...]
     complete: bool = True
+    ignored: tuple[Path, ...] = ()
 
 
 def units_below(folder: Path) -> Units:
@@ -57,10 +59,12 @@ def units_below(folder: Path) -> Units:
     worlds; these are units of their own beside it. Links are not followed.
 
     Args:
-        folder: Links resolved; itself a unit if it is a package or model.
+        folder: Links resolved; itself a unit if it is a package or model. It is looked into also
+            where the build tools would ignore it: who names it wants it.
     """
     search = _Search()
-    return Units(tuple(search.at(folder, inside=False, depth=0)), search.complete)
+    found = tuple(search.at(folder, inside=False, depth=0))
+    return Units(found, search.complete, tuple(search.ignored))
 
 
 def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
@@ -82,6 +86,7 @@ class _Search:
     def __init__(self) -> None:
         self.folders = 0
         self.complete = True
+        self.ignored: list[Path] = []
 
     def at(self, folder: Path, *, inside: bool, depth: int) -> Iterator[Unit]:
         """Yield a folder if it is a unit, and what it holds.
@@ -96,7 +101,8 @@ class _Search:
             self.complete = False
             return
         files, folders = _content(folder)
-        if not IGNORED.isdisjoint(files):
+        if depth and (marks := IGNORED.intersection(files)):
+            self.ignored.append(folder / min(marks))
             return
         is_package = looks_like_package(folder)
         if is_package:

@@ -37,7 +37,7 @@ class Row(Record):
     Attributes:
         label: What was measured.
         value: With its unit; least to greatest of several parts.
-        verdict: The gravest.
+        verdict: The gravest; `ok` only if that goes for all parts.
         limits: Of the rule that judges them, in words.
         rule: Its id; empty for figures that only inform.
         parts: How many parts it was measured for.
@@ -77,7 +77,10 @@ def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
     unit = "°" if first["unit"] == "rad" else first["unit"] if first["unit"] not in _UNNAMED else ""
     joint = "" if unit in ("", "°") else " "
-    verdict = gravest(str(figure["verdict"]) for figure in figures)
+    verdicts = [str(figure["verdict"]) for figure in figures]
+    verdict = gravest(verdicts)
+    if verdict == "ok" and NOT_JUDGED in verdicts:
+        verdict = NOT_JUDGED
     return Row(
         label=first["label"],
         value=f"{'…'.join(ends)}{joint}{unit}",

@@ -2,7 +2,7 @@
 
 Teams plan with specifications.md. A `power_load` copied from another robot gives the
 endurance of that robot. The rule computes how long the model lasts from the plugin's charge,
-voltages and load; for accepted packages the result is within 17 % of the sheet.
+voltages and load; for accepted packages the result is within 17 % of specifications.md.
 
 Fix: choose `power_load` so that the battery lasts as long as specifications.md says, or correct
 specifications.md.
@@ -22,11 +22,11 @@ SECONDS = 60.0
 def check(
     robot: Robot, specification: Specification, context: Context, *, tolerance: float = 0.2
 ) -> Findings:
-    """Compare the endurance of the sheet with how long the model's battery lasts.
+    """Compare the endurance of specifications.md with how long the model's battery lasts.
 
     Options:
-        tolerance: Share of the sheet's endurance by which the model's may differ, in addition to
-            the rounding of the sheet's figure; more is reported.
+        tolerance: Share of the endurance in specifications.md by which the model's may differ, in
+            addition to the rounding of the figure there; more is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -6,7 +6,7 @@ ask for the standard endurance. A sheet whose section on validation refers to th
 configuration has its proof there.
 
 A link proves endurance in that section or in the one about endurance, unless its line is about a
-device. It does not where the sheet says that the test was not made or is to be made.
+device. It does not where specifications.md says that the test was not made or is to be made.
 
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, raise `power_load`.

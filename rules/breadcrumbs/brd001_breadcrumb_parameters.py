@@ -33,7 +33,7 @@ def check(
     *,
     counts: tuple[int, ...] = COUNTS,
 ) -> Findings:
-    """Check the parameters of each Breadcrumbs plugin, and compare their number with the sheet.
+    """Check the parameters of each Breadcrumbs plugin, and compare it with specifications.md.
 
     Options:
         counts: Numbers of breadcrumbs that a robot may carry, summed over all its plugins; any

@@ -5,7 +5,7 @@ sensor is missing, or is modelled under another type.
 
 Fix: add the sensor to the model, or correct specifications.md; write "modeled by a … sensor" where
 the device's name does not say what it is.
-Source: SubT maintainers compare sheet and model sensor by sensor in their reviews.
+Source: SubT maintainers compare specifications.md and model sensor by sensor in their reviews.
 """
 
 from collections import defaultdict
@@ -22,7 +22,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 @rule("DOC003", "listed-sensor-missing", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, robot: Robot, specification: Specification) -> Findings:
-    """Compare the listed kinds, and their numbers where the sheet is clear, with the model."""
+    """Compare the listed kinds with the model, and their numbers where they are clear."""
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return

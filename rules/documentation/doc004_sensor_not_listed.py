@@ -6,8 +6,8 @@ Most IMUs contain a magnetometer; a missing one is information.
 
 Fix: list the sensor in the section "Sensors" with its device and the type that models it, or remove
 it from the model.
-Source: SubT maintainers compare model and sheet sensor by sensor; a review asked for the thermal
-camera to be listed.
+Source: SubT maintainers compare model and specifications.md sensor by sensor; a review asked for
+the thermal camera to be listed.
 """
 
 from collections import defaultdict
@@ -42,9 +42,9 @@ def check(
     """Compare the model's types of sensors with what the section names for this configuration.
 
     Options:
-        exempt: Values of the `type` of a `<sensor>` that need no entry in the sheet.
+        exempt: Values of the `type` of a `<sensor>` that need no entry in specifications.md.
         minor: Values of the `type` of a `<sensor>` that are reported as information instead of a
-            warning when the sheet does not list them.
+            warning when specifications.md does not list them.
     """
     section = specification.section("sensors")
     if section is None or specification.says_nothing(section) or not specification.sensors:

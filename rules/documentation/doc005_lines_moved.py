@@ -48,12 +48,12 @@ MOST_REFERENCES = 200
 def check(
     package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
 ) -> Findings:
-    """Read the lines that the sheet names and their neighbours, and look for what it says.
+    """Read the lines that specifications.md names and their neighbours, and look for what it says.
 
     Options:
-        around: Lines that are read above and below those that the sheet names.
-        tolerance: Share of the larger number by which a limit in the sheet and a number in the
-            lines may differ.
+        around: Lines that are read above and below those that specifications.md names.
+        tolerance: Share of the larger number by which a limit in specifications.md and a number in
+            the lines may differ.
     """
     for reference in specification.line_references[:MOST_REFERENCES]:
         path = _path(package, specification, reference.file.value)

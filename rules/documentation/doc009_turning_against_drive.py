@@ -36,13 +36,13 @@ def check(
     on_the_spot: float = 0.2,
     tolerance: float = 0.2,
 ) -> Findings:
-    """Compare the turning radius of the sheet with that of a robot with one drive plugin.
+    """Compare the turning radius of specifications.md with that of a robot with one drive plugin.
 
     Options:
-        on_the_spot: Metres; a greater turning radius in the sheet is reported if the drive turns
-            the robot on the spot.
-        tolerance: Share by which the sheet may be below the turning radius of a steered robot's
-            inner wheels, or above that of its outer ones.
+        on_the_spot: Metres; a greater turning radius in specifications.md is reported if the drive
+            turns the robot on the spot.
+        tolerance: Share by which specifications.md may be below the turning radius of a steered
+            robot's inner wheels, or above that of its outer ones.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -1,13 +1,13 @@
 """The limits of the drive differ from those of specifications.md.
 
 Teams plan with specifications.md. The drive must reach the velocities and accelerations that
-the sheet states, no more and no less. It drives as the model says, so this is a warning. None of
-the accepted packages that we checked shows this.
+specifications.md states, no more and no less. It drives as the model says, so this is a warning.
+None of the accepted packages that we checked shows this.
 
 Fix: correct specifications.md, or the limits of the drive plugin. If specifications.md gives
 different figures for the two directions and the plugin has one parameter for both, any figure
 between them is right.
-Source: SubT maintainers compare sheet and plugin in their reviews.
+Source: SubT maintainers compare specifications.md and plugin in their reviews.
 """
 
 from collections.abc import Iterator
@@ -31,12 +31,12 @@ _EXACT = 1e-6
 def check(
     robot: Robot, specification: Specification, *, tolerance: float = 0.02, about: float = 0.1
 ) -> Findings:
-    """Compare each limit of the sheet with the drive's.
+    """Compare each limit of specifications.md with the drive's.
 
     Options:
-        tolerance: Share of the sheet's figure by which a limit of the drive may differ; more is
-            reported.
-        about: Share used instead of `tolerance` if the sheet says "about", "~" or the like.
+        tolerance: Share of the figure in specifications.md by which a limit of the drive may
+            differ; more is reported.
+        about: Share used instead of `tolerance` if specifications.md says "about", "~" or the like.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

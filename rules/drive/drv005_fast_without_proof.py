@@ -6,8 +6,8 @@ about speed, and neither do placeholders such as `https://youtu.be/xxxx`. Of the
 that we checked, two show this: one links only datasheets, the other placeholders.
 
 A link proves speed in the section "Validation and Specification Links" or in the one on motion,
-unless its line is about a device. It does not where the sheet says that the test was not made or is
-to be made.
+unless its line is about a device. It does not where specifications.md says that the test was not
+made or is to be made.
 
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, lower the limits.

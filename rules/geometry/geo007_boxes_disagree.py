@@ -5,7 +5,7 @@ front of nothing or drives into walls. Usually one of the two has a wrong pose, 
 of the accepted packages that we checked shows this.
 
 A wheel may also roll beside itself: its collision is too far out or in along the axle. If the mesh
-of a wheel's visual is not at hand, its pose and that of the joint say where the wheel is. In 18
+of a wheel's visual is not available, its pose and that of the joint say where the wheel is. In 18
 accepted packages the offset is at most 0.15 of the width.
 
 Fix: give collision and visual the same pose and about the same size.

@@ -26,10 +26,10 @@ def check(
 
     Options:
         error_above: Difference from the stated mass as a share of it, in addition to the rounding
-            of the sheet's figure; more is an error. None is, unless you set this.
+            of the stated figure; more is an error. None is, unless you set this.
         warning_above: Difference from the stated mass as a share of it, in addition to the rounding
-            of the sheet's figure; more is a warning.
-        approximate_factor: Factor by which both shares grow if the sheet calls the mass
+            of the stated figure; more is a warning.
+        approximate_factor: Factor by which both shares grow if specifications.md calls the mass
             approximate, as in "about 50 kg".
     """
     if robot.unweighed:

@@ -2,9 +2,9 @@
 
 What is included or read does not start; a node that is given the path ends, or runs without its
 parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
-Files of packages that are not at hand, and files that the build makes, are not judged. Where a
+Files of packages that are not available, and files that the build makes, are not judged. Where a
 condition leaves the action out, for what is only shown in RViz, and for what is handed to a launch
-file that is not at hand, unless it starts Gazebo, this is a warning.
+file that is not available, unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
@@ -19,7 +19,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 @rule("LCH001", "launch-names-missing-file", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
-    """Report files in share folders of packages at hand that are not there."""
+    """Report files in share folders of available packages that are not there."""
     for graph in launch.entries:
         for named in named_paths(graph):
             if is_missing(package, named.path):

@@ -1,7 +1,7 @@
 """An argument that the included launch file neither declares nor uses.
 
 It is accepted in silence and has no effect: a misspelt name leaves the default in force. Files that
-are not at hand, and files that include such, are not judged.
+are not available, and files that include such, are not judged.
 
 Fix: correct the name, or leave the argument out.
 Source: launch, `IncludeLaunchDescription`: arguments become configurations, declared or not.

@@ -2,7 +2,8 @@
 
 The launch ends with "launch configuration 'x' does not exist", unless whoever starts it gives
 `x:=…`. Actions are visited in order: a declaration counts for what follows it. What an included
-file that is not at hand may declare is not judged, nor are files that another one at hand names.
+file that is not available may declare is not judged, nor are files that another available file
+names.
 
 Fix: add `DeclareLaunchArgument('x', default_value=…)` before its use.
 Source: launch, `LaunchConfiguration.perform`: without a default, a missing one raises an error.

@@ -6,7 +6,7 @@ unless the folder above `share/arm_description` is one of them, the part is visi
 missing in Gazebo, and a collision of that shape touches nothing.
 
 It is reported of a launch file that starts Gazebo itself and was read in full, for packages that
-are at hand, when no environment hook, no package.xml and no launch file there puts that folder on
+are available, when no environment hook, no package.xml and no launch file there puts that folder on
 the path, and no document or script names the path at all.
 
 Fix: write `<gazebo_ros gazebo_model_path="${prefix}/.."/>` into `<export>` of the package.xml of

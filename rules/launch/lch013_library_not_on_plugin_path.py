@@ -6,7 +6,7 @@ Gazebo looks for the library of a plugin in its own folder and in those of
 and goes on without the plugin.
 
 It is reported of a robot that a launch file spawns, which starts Gazebo itself, when no hook,
-package.xml, launch file, document or script of the packages at hand names that path.
+package.xml, launch file, document or script of the available packages names that path.
 
 Fix: install the library into `lib`, or register an environment hook with the line
 `prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@`.

@@ -3,8 +3,8 @@
 Without model, spawner or package.xml the robot cannot start. Without specifications.md no review
 begins. The other files are what a reviewer opens first. Parts that the package inherits from a
 sibling count as present. If a sibling of the same robot has a specifications.md that names this
-configuration, its absence here is a warning; and so is a name such as `specification.md`, under
-which the sheet is read all the same. Missing thumbnails are information.
+configuration, its absence here is a warning; and so is a name such as `specification.md`, which is
+read all the same. Missing thumbnails are information.
 
 Fix: add the file; the guide's example package shows the content of each.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.

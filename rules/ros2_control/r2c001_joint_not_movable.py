@@ -1,4 +1,4 @@
-"""A joint of ros2_control that the URDF has not, or that is fixed.
+"""A joint of ros2_control that the URDF does not have, or that is fixed.
 
 From Jazzy on, the controller manager compares the joints of each `<ros2_control>` tag with those of
 the URDF and ends with an error: none of the robot's controllers runs. Humble does not compare them;
@@ -37,7 +37,7 @@ def check(control: RobotControl, context: Context) -> Findings:
 def _wrong(control: RobotControl, joint: HardwareJoint, suggestions: Suggestions) -> str:
     known = control.joint(joint)
     if known is None:
-        return f"which the URDF has not{suggestions.hint(joint.name.value)}"
+        return f"which the URDF does not have{suggestions.hint(joint.name.value)}"
     return "which is fixed" if known.type.value == "fixed" else ""
 
 

@@ -6,7 +6,7 @@ Classic, which ends with Humble; `fake_components/GenericSystem` is `mock_compon
 since Humble.
 
 A class of another package is looked for in the descriptions of plugins that the package exports, if
-it is at hand; where it is not, the name is information unless package.xml depends on the package.
+it is available; where it is not, the name is information unless package.xml depends on the package.
 
 Fix: name the class that is there: `gz_ros2_control/GazeboSimSystem` in Gazebo Harmonic and later,
 `ign_ros2_control/IgnitionSystem` in Fortress, `mock_components/GenericSystem` without hardware.

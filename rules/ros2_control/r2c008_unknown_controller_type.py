@@ -6,7 +6,7 @@ the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never were there.
 
 Types of other packages are not judged, unless the class has the name of one of ros2_controllers and
-the package is neither in package.xml nor at hand.
+the package is neither in package.xml nor available.
 
 Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
 `joint_trajectory_controller/JointTrajectoryController` follows trajectories,

@@ -57,7 +57,7 @@ def _unknown(
 ) -> Finding:
     name = claim.joint.value
     exists = name in control.robot.joints_by_name
-    where = "is in no <ros2_control> tag" if exists else "the robot has not"
+    where = "is in no <ros2_control> tag" if exists else "the robot does not have"
     hint = suggestions.hint(name)
     return finding(
         claim.joint,

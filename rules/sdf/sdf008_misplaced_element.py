@@ -1,4 +1,4 @@
-"""A known element in a place where it has no meaning.
+"""A known element in a place where it is not allowed.
 
 Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
 directly below `<sensor>` does not reach the IMU. If the right place is set, if it says what is the
@@ -81,7 +81,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         idle = is_unread(element.tag, context.release) or is_appearance(element)
         yield finding(
             element,
-            f"<{element.tag}> has no effect in <{parent.tag}>{belongs}",
+            f"<{element.tag}> is not allowed in <{parent.tag}>{belongs}",
             severity=Severity.WARNING if harmless or idle else None,
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,

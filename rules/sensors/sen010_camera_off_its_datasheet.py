@@ -5,11 +5,11 @@ make the simulated robot better than the real one, and fewer pixels make it wors
 about both. In the SubT challenge, images with depth have at most 640 × 480 pixels, so that the
 simulation keeps up.
 
-A device that the sheet names anywhere, in a link or a line of the costs, counts if it is the only
-one of its class. A device of a family is compared if the sheet names its model. The type codes of
-machine vision cameras tell a size of their own, rounded: a BFLY-U3-23S6C has 2.3 megapixels, a
-Basler acA1300-60gm about 1300 columns. Such figures, others from memory, and differences that the
-sheet mentions under diversions are information.
+A device that specifications.md names anywhere, in a link or a line of the costs, counts if it is
+the only one of its class. A device of a family is compared if specifications.md names its model.
+The type codes of machine vision cameras tell a size of their own, rounded: a BFLY-U3-23S6C has 2.3
+megapixels, a Basler acA1300-60gm about 1300 columns. Such figures, others from memory, and
+differences that the sheet mentions under diversions are information.
 
 Fix: set size, rate and horizontal_fov to the figures of the device's datasheet, or name the
 modelled device in specifications.md.

@@ -1,8 +1,9 @@
 """A macro that makes links, and that no file calls.
 
-A package may hold a part for other robots to include: an arm, a gripper, a sensor. Nothing at hand
-includes it, so it is judged as the smallest call makes it: what has a default keeps it, a prefix is
-empty, and the parent is the link `world`. What its values would be on a real robot is not known.
+A package may hold a part for other robots to include: an arm, a gripper, a sensor. Nothing
+available includes it, so it is judged as the smallest call makes it: what has a default keeps it, a
+prefix is empty, and the parent is the link `world`. What its values would be on a real robot is not
+known.
 
 Fix: nothing needs correction. A small xacro file that calls the macro, and is not included
 elsewhere, lets the author choose what is judged.

@@ -4,7 +4,7 @@ Sensors are data until a system of the world works them out: cameras and lidars 
 `gz-sim-sensors-system`, an IMU `gz-sim-imu-system`. Without it the topic of the sensor does not
 exist, and Gazebo says nothing. By itself, Gazebo loads only physics, user commands and the scene
 broadcaster, into worlds that name no plugin; who starts the server with a configuration of their
-own may load more there. So it is a warning there, and where a model is not at hand or a plugin is
+own may load more there. So it is a warning there, and where a model is not available or a plugin is
 not Gazebo's own; elsewhere it is an error.
 
 Fix: add the plugin to the world.

@@ -7,7 +7,7 @@ commands and the scene broadcaster, and so does Gazebo's own `empty.sdf`: no sen
 those for contacts. Nobody says so when it is launched; the topics are merely silent.
 
 It is an error where all that the world and its robots load is known. It is a warning where a model
-is not at hand or a plugin is not Gazebo's, and where the world leaves the choice to Gazebo, for a
+is not available or a plugin is not Gazebo's, and where the world leaves the choice to Gazebo, for a
 server configuration of the user's own may load more.
 
 Fix: name the missing plugin in the world, or launch a world that has it.

@@ -26,7 +26,11 @@ ASKED = [
     ("subt-check rule unknown-joint-e", {"unknown-joint-end"}),
     ("subt-check check --fail-on ", {"error", "warning"}),
     ("subt-check check rob", {"robot.sdf"}),
+    ("subt-check robot.sdf --fail-on ", {"error", "warning"}),
+    ("subt-check robot.sdf --select GEO0", GEO),
+    ("subt-check robot.sdf --write-b", {"--write-baseline"}),
 ]
+"""What is asked, and all that may be answered; without a command, `check` is meant."""
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +72,7 @@ def test_bash_completes_files_where_there_is_no_command(folder: Path) -> None:
     assert "-o default" in bash(code, folder)
 
 
-@pytest.mark.parametrize(("line", "expected"), ASKED)
+@pytest.mark.parametrize(("line", "expected"), [*ASKED, ("subt-check rob", {"robot.sdf"})])
 def test_fish(folder: Path, line: str, expected: set[str]) -> None:
     done = subprocess.run(
         [program("fish"), "--no-config", "-c", f"source script.fish; complete -C '{line}'"],
@@ -79,7 +83,7 @@ def test_fish(folder: Path, line: str, expected: set[str]) -> None:
         env=os.environ | {"HOME": str(folder)},
     )
     found = {said.split("\t")[0] for said in done.stdout.splitlines()}
-    assert {word for word in found if not word.startswith("-")} == expected
+    assert {word for word in found if not word.startswith("-") or line[-1] != " "} == expected
 
 
 @pytest.mark.parametrize(
@@ -89,6 +93,8 @@ def test_fish(folder: Path, line: str, expected: set[str]) -> None:
         ("subt-check check --select GEO00", "GEO002"),
         ("subt-check comp", "completion"),
         ("subt-check check rob", "robot.sdf"),
+        ("subt-check rob", "robot.sdf"),
+        ("subt-check robot.sdf --write-b", "--write-baseline"),
     ],
 )
 def test_zsh(folder: Path, line: str, shown: str) -> None:

@@ -58,6 +58,14 @@ def test_figures_of_several_parts_take_one_line_with_the_gravest_verdict() -> No
     assert lines(*loads)[1] == "    load share  0.01…1.2  warning"
 
 
+def test_several_parts_are_ok_only_if_each_is() -> None:
+    torques = [
+        figure("torque", value, "N·m", part=part, verdict=verdict)
+        for part, value, verdict in (("a", 36.6, "not judged"), ("b", 0.5, "ok"))
+    ]
+    assert lines(*torques)[1] == "    torque  0.5…36.6 N·m  not judged"
+
+
 def test_figures_that_only_inform_are_left_to_the_json() -> None:
     quiet = figure("stop_distance", 0.2, "m", verdict="not judged")
     fine = figure("settle_rise", 0.0, "m")

@@ -51,6 +51,8 @@ def test_it_writes_settings_and_a_hook(robots: Path, capsys: pytest.CaptureFixtu
     assert wrote == f"wrote {robots}/models/subt-check.toml: profile subt (1 package for subt)"
     assert hooked.startswith(f"wrote {robots}/{HOOKS_FILE} with the hook subt-check; `pre-commit ")
     assert find_settings([robots / "models"]).profile == "subt"
+    settings = (robots / "models/subt-check.toml").read_text("utf-8")
+    assert f"# What the packages are made for: {', '.join(PROFILES)}.\n" in settings
     assert yaml.safe_load((robots / HOOKS_FILE).read_text("utf-8"))["repos"] == hook()
     assert main([str(robots / "models"), "--select", "PKG"]) == 0
 

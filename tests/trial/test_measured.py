@@ -7,9 +7,10 @@ import math
 from typing import Any
 
 import jsonschema
+import pytest
 
 from checker.engine.facts import measured
-from checker.engine.run import TRIALS, run_rules
+from checker.engine.run import TRIALS, Outcome, run_rules
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Measurement, Trial
 from checker.rulebook.discovery import all_rules
@@ -83,6 +84,20 @@ def test_what_no_rule_looked_at_is_not_judged() -> None:
     trial = trial_of(stop_distance=0.1, speed_ratio=0.1, thrust_to_weight=1e4)
     said = figures(trial, ignore=("TRI003",))
     assert {each["verdict"] for each in said.values()} == {"not judged"}
+
+
+@pytest.mark.parametrize(("option", "verdict"), [(1.0, "not judged"), (2.0, "ok")])
+def test_a_torque_beyond_its_limit_is_not_ok_because_the_rule_is_silent(
+    option: float, verdict: str
+) -> None:
+    """As TRI009 is where specifications.md explains the limit."""
+    figures = (
+        Measurement("torque", 36.6, "left_front"),
+        Measurement("torque_limit", 20.0, "left_front"),
+    )
+    silent = Outcome((), (), {"TRI009": {"warning_above": option}})
+    said = measured(RobotTrial(rover(), trial_of(*figures)), silent)["measurements"]
+    assert said[0]["verdict"] == verdict
 
 
 def test_what_is_no_figure_is_left_out() -> None:

@@ -213,6 +213,25 @@ def test_a_file_that_another_argument_would_name_is_not_checked(describe: Descri
     assert any("another value of the argument 'kind'" in reason for reason in files.unread)
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<xacro:arg name="kind" default="none"/>' + loading("$(arg kind)"),
+        f'<xacro:include filename="$(find elsewhere)/a.xacro"/>{BASE}',
+    ],
+)
+def test_why_a_file_is_not_known_is_kept(
+    describe: Describe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: str
+) -> None:
+    package = describe({FILE: robot(body)}).package
+    cache = Cache(tmp_path / "cache")
+    unread = files_of(Subject(package, cache)).unread
+    assert unread
+    assert cache.is_whole
+    monkeypatch.setattr("checker.base.background.Child", None)
+    assert files_of(Subject(package, cache)).unread == unread
+
+
 def test_a_file_that_is_not_there_is_named(describe: Describe) -> None:
     (fault,) = files_of(describe({FILE: robot(loading("kind"))})).faults
     assert f"{NAME}/config/kind/limits.yaml does not exist" in fault.message

@@ -120,9 +120,19 @@ def test_an_answer_is_kept_and_holds_while_nothing_changes(
 def test_what_cannot_be_looked_at_is_said(
     visual: str, content: bytes, reason: str, tmp_path: Path
 ) -> None:
-    found = views(visual, tmp_path, {"meshes/a.stl": content})
+    cache = Cache(tmp_path / "cache")
+    found = views(visual, tmp_path / "package", {"meshes/a.stl": content}, cache)
     assert found.unseen[0].startswith(reason)
     assert [view.hidden for view in found.views] == [0.0]
+    # A report that says so can be remembered: the file is at fault, and stays so.
+    assert cache.is_whole
+
+
+def test_what_the_reader_gave_up_is_tried_again(tmp_path: Path) -> None:
+    cache, files = Cache(tmp_path / "cache"), {"meshes/a.dae": "<!DOCTYPE COLLADA><COLLADA/>"}
+    found = views(mesh("meshes/a.dae"), tmp_path / "package", files, cache)
+    assert "<!DOCTYPE>" in found.unseen[0]
+    assert not cache.is_whole
 
 
 def test_a_part_that_is_centred_stands_at_the_origin(tmp_path: Path) -> None:

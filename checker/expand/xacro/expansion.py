@@ -225,5 +225,8 @@ def _answer(data: Any) -> dict[str, Any]:
 
 
 def _lasts(answer: Mapping[str, Any]) -> bool:
-    """Say whether an answer holds: another day, or machine, may have the time or the memory."""
-    return answer.get("kind") != "limit" and not {"missing", "unread"} & answer.keys()
+    """Say whether an answer holds: another day, or machine, may have the time or the memory.
+
+    So do those that want another file: the key says which files are there.
+    """
+    return answer.get("kind") != "limit"

@@ -22,7 +22,7 @@ from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.appearance import appearances
 from checker.physics.mesh.reader import load_libraries, read_mesh
-from checker.physics.views.visibility import seen_of_mesh, sensors_of, views_of
+from checker.physics.views.visibility import seen_of_mesh, sensors_of, unseen, views_of
 
 
 def prepare() -> None:
@@ -68,7 +68,11 @@ def _fact(item: Mapping[str, Any], files: Files) -> bytes:
 
 
 def _failed(failed: WorkerFailed) -> bytes:
-    return _as_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, failed.reason))
+    return _as_json(_given_up(failed))
+
+
+def _given_up(failed: WorkerFailed) -> MeshFault:
+    return MeshFault(MeshTrouble.NOT_LOOKED_AT, failed.reason)
 
 
 def _as_json(read: Mesh | MeshFault) -> bytes:
@@ -92,7 +96,7 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> di
 
     results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
     read = [
-        result.reason if isinstance(result, WorkerFailed) else json.loads(result)
+        unseen(_given_up(result)) if isinstance(result, WorkerFailed) else json.loads(result)
         for result in results
     ]
     return views_of(item, sensors, read)

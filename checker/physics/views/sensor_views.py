@@ -89,7 +89,7 @@ class RobotViews:
             "views",
             {key: request.item},
             lambda answer: _checked(answer, request),
-            lambda answer: not answer["unread"],
+            lambda answer: all(lasts for _, _, lasts in answer["unread"]),
             lambda item: [(mesh["file"], SIZE_LIMIT) for mesh in item["meshes"]],
             None if request.item["meshes"] or request.work > _SMALL else _seen_here,
         )
@@ -101,9 +101,7 @@ class RobotViews:
         if begun is None:
             nothing = tuple(View(sensor, (), 0.0, None) for sensor in request.sensors)
             return SensorViews(robot, nothing, request.unseen if request.sensors else ())
-        with self.stages.stage(
-            "views", "" if begun.known else "computing the views of the sensors"
-        ):
+        with self.stages.stage("views", "" if begun.known else "checking sensor fields of view"):
             answer = begun.result()
         if isinstance(answer, WorkerFailed):
             reason = f"the views of the sensors were not computed: the process {answer.reason}"
@@ -129,7 +127,7 @@ def _checked(answer: Any, request: ViewRequest) -> _Answer:
         and all(-1 <= int(view["by"]) < len(request.visuals) for view in views)
         and all(len(view["shares"]) == len(view["reach"]) for view in views)
         and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
-        and all(0 <= number < len(request.contents) and str(why) for number, why in unread)
+        and all(0 <= number < len(request.contents) and str(why) for number, why, _ in unread)
         and all(0 <= number < len(request.lights) for number, *_ in covered)
         and all(0.0 <= around + ahead <= 2.1 for _, around, ahead in covered)
     ):
@@ -148,7 +146,7 @@ def _views_of(robot: Robot, request: ViewRequest, answer: dict[str, Any]) -> Sen
         for mounted, view in zip(request.sensors, answer["views"], strict=True)
     )
     meshes = request.item["meshes"]
-    unread = (f"{meshes[number]['uri']} {reason}" for number, reason in answer["unread"])
+    unread = (f"{meshes[number]['uri']} {reason}" for number, reason, _ in answer["unread"])
     covered = []
     for number, around, ahead in answer["covered"]:
         light, visual = request.lights[int(number)]

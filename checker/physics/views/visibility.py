@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content
+from checker.model.mesh import MeshFault, MeshTrouble
 from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content
 from checker.physics.views.lights import covered
@@ -35,31 +36,32 @@ Met = dict[str, Any]
 """What a sensor sees of a visual: the numbers of both (`sensor`, `visual`), the `rays` that meet
 it, how far away (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
 Seen = dict[str, Any]
-"""What is `met` of a mesh, and the number of each light inside with what of it is `covered`."""
+"""What is `met` of a mesh, and the number of each light inside with what of it is `covered`; or why
+it is `unread`, and whether that is so the next time as well (`lasts`)."""
 
 
 def views_of(
-    item: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[Seen | str] = ()
+    item: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[Seen] = ()
 ) -> dict[str, Any]:
     """Return what each sensor sees of the visuals.
 
     Args:
         item: See above.
         sensors: Those that are asked about.
-        of_meshes: What is seen of each mesh, or why that is not known (`seen_of_mesh`).
+        of_meshes: What is seen of each mesh (`seen_of_mesh`).
 
     Returns:
         `views`: for each sensor `shares` of the view and the metres (`reach`) to what fills each of
         them, the share that is `cut` off, and the visual that fills most (`by`; -1 for none).
-        `unread`: numbers of files, and why. `covered`: numbers of lights, and the shares of all
-        directions and of its beam in which the mesh around each stands in the way.
+        `unread`: numbers of files, why, and whether that lasts. `covered`: numbers of lights, and
+        the shares of all directions and of its beam in which the mesh around each is in the way.
     """
     hits = list(_solids(item["solids"], sensors))
-    unread: list[tuple[int, str]] = []
+    unread: list[tuple[int, str, bool]] = []
     lights: list[tuple[int, float, float]] = []
     for number, seen in enumerate(of_meshes):
-        if isinstance(seen, str):
-            unread.append((number, seen))
+        if "unread" in seen:
+            unread.append((number, seen["unread"], seen["lasts"]))
         else:
             hits += seen["met"]
             lights += seen["covered"]
@@ -138,7 +140,7 @@ def seen_of_mesh(
     mesh: Mapping[str, Any],
     data: Content,
     lights: Sequence[Mapping[str, Any]] = (),
-) -> Seen | str:
+) -> Seen:
     """Return what the sensors see of a mesh, or why that is not known.
 
     Args:
@@ -150,8 +152,8 @@ def seen_of_mesh(
     import numpy as np
 
     corners = _corners(mesh, data)
-    if isinstance(corners, str):
-        return corners
+    if isinstance(corners, MeshFault):
+        return unseen(corners)
     hits: list[Met] = []
     inside: list[tuple[int, float, float]] = []
     for use in mesh["uses"] if len(corners) else ():
@@ -164,21 +166,27 @@ def seen_of_mesh(
     return {"met": hits, "covered": inside}
 
 
-def _corners(mesh: Mapping[str, Any], data: Content) -> Array | str:
+def unseen(fault: MeshFault) -> Seen:
+    """Return why a mesh is not seen; what the reader gave up is tried again."""
+    lasts = fault.trouble is not MeshTrouble.NOT_LOOKED_AT
+    return {"unread": fault.reason, "lasts": lasts}
+
+
+def _corners(mesh: Mapping[str, Any], data: Content) -> Array | MeshFault:
     """Return the corners of the part of a file that is used, or why they are not known."""
     import numpy as np
 
     if isinstance(data, NotReadable):
-        return data.reason
+        return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
     try:
         content = read_content(data, mesh["name"])
     except NoSurface as none:
-        return none.reason
+        return MeshFault(none.trouble, none.reason)
     part = mesh["part"]
     if part and content.parts != (part,):
         content = content.only(part)
         if not content.pieces:
-            return "is only partly used (<submesh>)"
+            return MeshFault(MeshTrouble.UNSUPPORTED, "is only partly used (<submesh>)")
     corners: Array = content.corners
     corners = corners[(np.abs(corners) <= FARTHEST).all(axis=(1, 2))]
     return corners - ball_around(corners)[0] if mesh["centred"] and len(corners) else corners

@@ -131,7 +131,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
         unchecked=len({skipped.rule for skipped in package.not_checked}),
         suppressed=suppressed_of(package.suppressed),
         more_suppressed=max(0, len(package.suppressed) - SHOWN),
-        not_opened=report.not_opened,
+        not_opened=() if index else report.not_opened,
         why_not_driven=why_not_driven(package.not_checked),
         downloads=_downloads(Report((package,), report.versions), manner.folder),
         has_viewer=package.display is not None and has_viewer(),

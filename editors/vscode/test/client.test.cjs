@@ -173,7 +173,7 @@ test("trust starts the program of the workspace", async () => {
 test("the server is told the settings, at the start and when they change", async () => {
   program(outside);
   const editor = await start({ settings: { "subt-check.trial": "save" } });
-  assert.deepEqual(received("initialize")[0].params.initializationOptions, { trial: "save", debounce: 100 });
+  assert.deepEqual(received("initialize")[0].params.initializationOptions, { trial: "save", debounce: 20 });
   editor.set("subt-check.debounce", 250);
   const sent = () => received("workspace/didChangeConfiguration").at(-1)?.params.settings["subt-check"];
   await until("the change", () => sent()?.debounce === 250);

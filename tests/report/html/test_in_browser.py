@@ -98,6 +98,10 @@ def test_it_opens_without_complaint(
         assert not page.locator(".pictures").is_visible()
         overflow = page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth")
         assert overflow <= 0, "the page is wider than the window"
+        tables = page.locator("#trial .scroll").evaluate_all(
+            "(all) => all.map((each) => each.scrollWidth - each.clientWidth)"
+        )
+        assert max(tables) <= 0, "a table is wider than its frame"
 
 
 @pytest.mark.parametrize(
