@@ -32,6 +32,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/rulebook/rule_index.py", MODULE): "those that the index of installed rules names",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",
     ("checker/service/jobs/check_child.py", MODULE): "a list of our own modules",
+    ("checker/editor/plugin_facts.py", PATTERN): "a list of our own, of Classic's drives",
     ("checker/cli/check/arguments.py", ATTRIBUTE): "options of the command line, named there",
     ("checker/base/record.py", ATTRIBUTE): "fields of our own records",
     ("checker/__init__.py", MODULE): "the modules of the API, named there",

@@ -33,6 +33,8 @@ _EXPRESSION = r"\$\([^()]{0,400}\)|\$\{[^{}]{0,400}\}|#\{[^{}]{0,400}\}"
 _WORD = re.compile(
     rf"""(?:{_EXPRESSION}|[^\s"',\[\]=])+(?:=(?:{_EXPRESSION}|[^\s"',])*|[\[\]@]\S*)?"""
 )
+_LISTED = re.compile(rf"(?:{_EXPRESSION}|[^\s,\[\]\"'])+")
+_COMPUTED = re.compile(_EXPRESSION)
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _PASSED = re.compile(r"([A-Za-z_]\w*):=")
 _REMAPPED = re.compile(r"((?:/|~/)[^\s:]*):=")
@@ -108,12 +110,12 @@ def names_in(
 
 def words_in(value: str, start: int, key: str = "") -> Iterator[WrittenName]:
     """Yield what a list of words, with blanks or commas between, may name."""
-    for match in re.finditer(rf"(?:{_EXPRESSION}|[^\s,\[\]\"'])+", value[:LENGTH_LIMIT]):
+    for match in _LISTED.finditer(value[:LENGTH_LIMIT]):
         yield from _names_in_word(match.group(), start + match.start(), key)
 
 
 def _without_expressions(text: str) -> str:
-    return re.sub(_EXPRESSION, "", text)
+    return _COMPUTED.sub("", text)
 
 
 def _names_in_argument(
