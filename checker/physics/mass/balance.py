@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise, product
 
-from msgspec.structs import replace
-
 from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.shapes import Geometry
@@ -227,19 +225,26 @@ _LEANS = math.cos(math.radians(5.0))
 """Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
 
 
-def leaning_tip_angle(robot: Robot, stand: Stand, centre: Vector) -> float | None:
-    """Return the tip angle of a robot that may lean a little until other parts carry it, too.
-
-    It rests on the sides of the hull around its collisions that are nearly level and face down.
-    """
-    points = [
+def collision_points(robot: Robot) -> list[Vector]:
+    """Return the points of all collisions that may touch the ground, in metres."""
+    return [
         point
         for link, collision in _collisions(robot)
         if (pose := robot.pose_of_part(link, collision.pose)) is not None
         for point in contact_points(collision.geometry, pose, robot.scaled_meshes)
     ]
-    polygon = convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
-    return tip_angle(replace(stand, polygon=polygon), centre)
+
+
+def leaning_polygon(points: Sequence[Vector], centre: Vector) -> tuple[Point, ...]:
+    """Return what carries a robot that may lean a little until other parts carry it, too.
+
+    It rests on the sides of the hull around its collisions that are nearly level and face down.
+
+    Args:
+        points: Of its collisions, in metres.
+        centre: Of mass, in metres.
+    """
+    return convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
 
 
 def _lower_points(points: Sequence[Vector], centre: Vector) -> Iterator[Vector]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import msgspec
+from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
 from checker.base.record import Record
@@ -16,7 +17,14 @@ from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
-from checker.physics.mass.balance import Stand, leaning_tip_angle, stand_of, tip_angle
+from checker.physics.mass.balance import (
+    Point,
+    Stand,
+    collision_points,
+    leaning_polygon,
+    stand_of,
+    tip_angle,
+)
 from checker.physics.mass.inertia import (
     inertial_pose,
     placed_inertia,
@@ -120,6 +128,7 @@ def _held(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | No
 
 Rows = tuple[Vector, Vector, Vector]
 _KIND = "weights"
+_LEANING_KIND = "leaning"
 _LIBRARIES = ("numpy", "pin")
 
 
@@ -260,7 +269,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
         support=stand.polygon,
         support_height=stand.height,
         standing=stand.links,
-        tip_angle=_tip_angle(robot, stand, weights.centre),
+        tip_angle=_tip_angle(robot, stand, weights.centre, cache),
         gravity_torques=torques,
         support_unknown=stand.unknown,
     )
@@ -270,13 +279,26 @@ _STABLE = math.radians(30.0)
 """A tip angle from which on nobody asks whether the robot stands even better."""
 
 
-def _tip_angle(robot: Robot, stand: Stand, centre: Vector | None) -> float | None:
+def _tip_angle(robot: Robot, stand: Stand, centre: Vector | None, cache: Cache) -> float | None:
     """Return how far the ground can tilt; a robot may first lean until more of it stands."""
     level = tip_angle(stand, centre)
     if level is None or centre is None or level > _STABLE:
         return level
-    leaning = leaning_tip_angle(robot, stand, centre)
+    polygon = _leaning_polygon(collision_points(robot), centre, cache)
+    leaning = tip_angle(replace(stand, polygon=polygon), centre)
     return level if leaning is None else max(level, leaning)
+
+
+def _leaning_polygon(points: Sequence[Vector], centre: Vector, cache: Cache) -> tuple[Point, ...]:
+    """Return what `leaning_polygon` does; to load the library behind it takes long."""
+    request = json.dumps([points, centre])
+    key = key_of(request, code_hash("physics/mass"), version_of("scipy"))
+    try:
+        return msgspec.convert(cache.get(_LEANING_KIND, key), tuple[Point, ...])
+    except msgspec.ValidationError:
+        polygon = leaning_polygon(points, centre)
+        cache.put(_LEANING_KIND, key, msgspec.to_builtins(polygon))
+        return polygon
 
 
 def _link_inertia(link: Link, body: Body, weight: Weight) -> LinkInertia:
