@@ -17,7 +17,8 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs test test-more test-all viewer vscode lint types format bench picture constraints clean golden
+.PHONY: demo dev docs test test-more test-all viewer vscode lint types format bench picture editor-picture \
+  constraints clean golden
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
@@ -123,6 +124,10 @@ docs: .venv/documented
 # The picture in README.md.
 picture: .venv/tested $(VIEWER)
 	scripts/picture $(BIN)
+
+# The picture in docs/editors.md.
+editor-picture: .venv/tested
+	scripts/editor_picture $(BIN)
 
 constraints: .venv/tested
 	@{ head -n 2 constraints.txt; $(BIN)/pip freeze --exclude-editable; } > constraints.new
