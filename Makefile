@@ -72,6 +72,7 @@ bench: .venv/tested $(VIEWER)
 	$(PACKAGES) $(BIN)/python -m bench.xacro
 	$(PACKAGES) $(BIN)/python -m bench.repository
 	$(PACKAGES) $(BIN)/python -m bench.peers
+	$(PACKAGES) $(BIN)/python -m bench.editor
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)

@@ -21,9 +21,17 @@ def _blocks(rule: Rule) -> Iterator[str]:
     yield f"**{rule.id} {rule.name}**: {escaped(page.title)}."
     for label, text in (("", page.why), ("Fix: ", page.fix), ("Source: ", page.source)):
         if text:
-            yield f"**{label.strip()}** {escaped(text)}" if label else escaped(text)
+            told = "\n\n".join(map(_paragraph, text.split("\n\n")))
+            yield f"**{label.strip()}** {told}" if label else told
     options = told_options(rule)
     if options:
         lines = (f"- `{it.name}` = `{it.default}`: {escaped(it.words)}" for it in options)
         yield "\n".join((f"**Options**, below `[rules.{rule.id}]`:", "", *lines))
     yield f"[{rule.id} in the rule book]({RULE_PAGES}/{quote(rule.group)}.md#{quote(anchor(rule))})"
+
+
+def _paragraph(text: str) -> str:
+    """Return a paragraph on one line, which an editor breaks at its own width."""
+    lines = [line.strip() for line in escaped(text).splitlines()]
+    is_list = any(line.startswith(("- ", "* ", "|")) for line in lines)
+    return "\n".join(lines) if is_list else " ".join(lines)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from checker.report.html.overview import told_trial
+from checker.pipeline import check_package
+from checker.report.html.findings import anchor_of
+from checker.report.html.overview import first_tasks, told_trial
+from checker.settings import Settings
+from tests.conftest import SAMPLES
 from tests.report.test_trial_text import figure, trial
 
 DRIVE = {"name": "drive", "start": 0.0, "end": 4.0, "linear": 0.5, "angular": 0.0}
@@ -44,3 +48,10 @@ def test_what_nobody_could_judge_is_not_told_as_a_drive() -> None:
 
 def test_a_refused_model_has_no_figures() -> None:
     assert told_trial(trial(refused="mass is 0")) == ["MuJoCo refuses the model: mass is 0."]
+
+
+def test_what_keeps_the_model_from_loading_is_to_be_done_first() -> None:
+    found = check_package(SAMPLES / "broken_rover_sensor_config_1", Settings(trial=False))
+    rules = {anchor_of(each): each.rule for each in found.packages[0].findings}
+    tasks = first_tasks(found.packages[0])
+    assert [rules[task.anchor][:3] for task in tasks] == ["SDF", "SDF", "SDF"]
