@@ -83,7 +83,15 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         return None
     state = known[1]
     order = await server.read(lambda: _order(state, display=display))
-    done = await _watched(server, FullCheck(order), state.unit.package.name)
+    check = FullCheck(order)
+    # Of the text before, nobody wants to know any more.
+    if (earlier := server.measuring.pop(state.unit.key, None)) is not None:
+        earlier.stop()
+    server.measuring[state.unit.key] = check
+    done = await _watched(server, check, state.unit.package.name)
+    if server.measuring.get(state.unit.key) is not check:
+        return None
+    del server.measuring[state.unit.key]
     if isinstance(done, WorkerFailed):
         _complain(server, f"the check {done.reason}")
         return None

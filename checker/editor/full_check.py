@@ -37,7 +37,7 @@ class FullCheck:
         # Not forked: the server has threads.
         context = multiprocessing.get_context("spawn")
         self._answer, theirs = context.Pipe(duplex=False)
-        self._process = context.Process(target=_check, args=(theirs, order))
+        self._process = context.Process(target=_check, args=(theirs, order), daemon=True)
         self._process.start()
         theirs.close()
 

@@ -22,8 +22,9 @@ from pygls.lsp.server import LanguageServer
 from checker.base.resources import tool_version
 from checker.editor.diagnostics import diagnostics_of
 from checker.editor.documents import Document, path_of
+from checker.editor.full_check import FullCheck
 from checker.editor.positions import Columns
-from checker.editor.session import Session, State
+from checker.editor.session import Key, Session, State
 
 T = TypeVar("T")
 _PAUSE_SECONDS = 0.02
@@ -41,6 +42,7 @@ class Server(LanguageServer):
         session: What is known of the packages.
         columns: How the client counts.
         measures_on_save: Whether weights are taken and the trial is run when a file is saved.
+        measuring: Checks with weights and trial that go on, by what they check.
     """
 
     def __init__(self) -> None:
@@ -50,6 +52,7 @@ class Server(LanguageServer):
         self.session = Session()
         self.columns = Columns()
         self.measures_on_save = False
+        self.measuring: dict[Key, FullCheck] = {}
         self._pause = _PAUSE_SECONDS
         self._reader = ThreadPoolExecutor(1, "reader")
         self._is_stale = False
@@ -155,6 +158,8 @@ class Server(LanguageServer):
 
     def end(self) -> None:
         """End what was started."""
+        for check in self.measuring.values():
+            check.stop()
         self.session.close()
         self._reader.shutdown(wait=False, cancel_futures=True)
 

@@ -123,6 +123,11 @@ class Editor:
         identifier = lsp.TextDocumentIdentifier(path.as_uri())
         self.client.text_document_did_save(lsp.DidSaveTextDocumentParams(identifier))
 
+    def configure(self, settings: Any) -> None:
+        """Tell the server of the user's settings."""
+        told = lsp.DidChangeConfigurationParams(settings)
+        self.client.workspace_did_change_configuration(told)
+
     async def close(self, path: Path) -> None:
         """Close a file."""
         identifier = lsp.TextDocumentIdentifier(path.as_uri())

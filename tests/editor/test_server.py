@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 import shutil
 from collections.abc import AsyncIterator, Iterator
@@ -15,7 +16,7 @@ from checker.pipeline import check_package
 from checker.rulebook.rule_index import rules
 from checker.settings import Settings
 from tests.conftest import SAMPLES
-from tests.editor.client import CONFIG, Client, Editor, shown
+from tests.editor.client import CONFIG, SECONDS, Client, Editor, shown
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 
@@ -293,3 +294,37 @@ def rules_that_measure() -> list[object]:
     from checker.editor.check import is_measured
 
     return [rule for rule in rules(NO_CACHE) if is_measured(rule)]
+
+
+async def test_a_check_with_trial_is_cancelled(editor: Editor, folder: Path) -> None:
+    robot = folder / SCOUT / "urdf" / "scout.urdf.xacro"
+    await editor.open(robot, (folder / SCOUT / "urdf/scout.urdf.xacro").read_text() + "<!-- 1 -->")
+    known = set(editor.client.progress_reports)
+    asked = lsp.ExecuteCommandParams("subt-check.server.check", [robot.as_uri()])
+    answer = asyncio.ensure_future(editor.client.workspace_execute_command_async(asked))
+    async with asyncio.timeout(SECONDS):
+        while not (begun := set(editor.client.progress_reports) - known):
+            await asyncio.sleep(0.01)
+    (token,) = begun
+    cancel = lsp.WorkDoneProgressCancelParams(token)
+    editor.client.window_work_done_progress_cancel(cancel)
+    assert await answer is None
+    assert editor.client.messages[-1].message == "the check was stopped"
+    await editor.close(robot)
+
+
+async def test_each_save_weighs_where_the_user_wants_it(editor: Editor, model: Path) -> None:
+    measured = {rule.id for rule in rules_that_measure()}
+    editor.configure({"subt-check": {"trial": "save"}})
+    try:
+        await editor.open(model, model.read_text("utf-8") + "\n")
+        editor.save(model)
+        await editor.told(
+            lambda params: (
+                params.uri == model.as_uri()
+                and any(each.code in measured for each in params.diagnostics)
+            )
+        )
+    finally:
+        editor.configure({"subt-check": {"trial": "command"}})
+    await editor.close(model)
