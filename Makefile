@@ -17,7 +17,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs test test-more test-all viewer vscode lint types format bench picture editor-picture \
+.PHONY: demo dev docs linkcheck test test-more test-all viewer vscode lint types format bench picture editor-picture \
   constraints clean golden
 
 demo: .venv/installed $(VIEWER)
@@ -121,6 +121,10 @@ vscode:
 docs: .venv/documented
 	$(BIN)/sphinx-build -q -W --keep-going docs build/docs
 	@echo "build/docs/index.html"
+
+# Links of these pages to others; needs the network.
+linkcheck: .venv/documented
+	$(BIN)/sphinx-build -q -b linkcheck docs build/linkcheck
 
 # The picture in README.md.
 picture: .venv/tested $(VIEWER)

@@ -32,6 +32,9 @@ myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 python_use_unqualified_type_names = True
+# Names that users replace, and addresses of services of their own.
+linkcheck_ignore = [r".*OWNER.*", r"https?://(127\.0\.0\.1|localhost)\b.*"]
+linkcheck_timeout = 20
 # Examples of rules are parts of files, and some are wrong on purpose.
 suppress_warnings = ["misc.highlighting_failure"]
 

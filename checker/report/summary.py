@@ -82,7 +82,7 @@ def _unseen(package: PackageReport) -> str:
     blind = len({spot.rule for spot in unseen})
     reasons = list(dict.fromkeys(spot.reason for spot in unseen))
     shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
-    return f"{count(blind, 'rule')} not checked: {shown}"
+    return f"{count(blind, 'rule')} could not run: {shown}"
 
 
 def _aside(package: PackageReport) -> str:

@@ -74,7 +74,7 @@ def _unseen(package: PackageReport) -> Iterator[Task]:
     spots = [spot for spot in package.blind_spots if spot.may_hide_error]
     rules = len({spot.rule for spot in spots})
     reasons = listed(list(dict.fromkeys(spot.reason for spot in spots))[:2])
-    message = f"{count(rules, 'rule')} not checked: {reasons}"
+    message = f"{count(rules, 'rule')} could not run: {reasons}"
     yield Task("", plain(shortened(message, _TEXT_LIMIT)), "not-checked", "", 0)
 
 

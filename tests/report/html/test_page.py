@@ -151,7 +151,7 @@ def test_what_could_not_be_checked_is_the_first_thing_to_do_of_an_incomplete_pac
     tree = page(replace(package("rover"), findings=(), not_checked=(unseen,)))
     (task,) = tree.xpath("//ol[@class='tasks']/li/a")
     assert task.get("href") == "#not-checked"
-    assert task.text_content() == "1 rule not checked: model.sdf is not available"
+    assert task.text_content() == "1 rule could not run: model.sdf is not available"
 
 
 def test_a_page_leads_back_to_the_list_it_belongs_to() -> None:
