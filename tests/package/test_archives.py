@@ -7,6 +7,7 @@ import io
 import struct
 import sys
 import tarfile
+import time
 import unicodedata
 import zipfile
 import zlib
@@ -318,5 +319,24 @@ def test_tar_of_endless_extended_headers(tmp_path: Path) -> None:
         archive.addfile(info)
     header = raw.getvalue()[: raw.getvalue().rindex(b"model.sdf")]
     path.write_bytes(gzip.compress(header * 60))
-    with pytest.raises(UnreadableInput, match="far more than its entries say"), open_input(path):
+    with pytest.raises(UnreadableInput, match="headers that are too large"), open_input(path):
         pass
+
+
+def pax_header(data: bytes) -> bytes:
+    """Return an extended header as a tar archive has it."""
+    info = tarfile.TarInfo("header")
+    info.type, info.size = tarfile.XHDTYPE, len(data)
+    return info.tobuf(tarfile.USTAR_FORMAT) + data + b"\0" * (-len(data) % 512)
+
+
+@pytest.mark.parametrize("record", [b"5 a=\n", b"6 ab=\n"])
+def test_tar_with_extended_headers_of_tiny_records(tmp_path: Path, record: bytes) -> None:
+    """To parse a hundred of a megabyte each would take twenty seconds."""
+    path = tmp_path / "rover.tar.gz"
+    header = pax_header(record * (990_000 // len(record)))
+    path.write_bytes(gzip.compress(header * 100, compresslevel=1))
+    started = time.process_time()
+    with pytest.raises(UnreadableInput, match="more than 100 records"), open_input(path):
+        pass
+    assert time.process_time() - started < 1.0

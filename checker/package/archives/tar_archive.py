@@ -59,6 +59,10 @@ class GzipStream:
 
 BLOCK = 512
 MAX_EXTENDED_HEADER = 1_000_000
+MAX_EXTENDED_HEADERS = 16_000_000
+"""Bytes of all extended headers of an archive."""
+MAX_RECORDS = 100
+"""Of one extended header; those of real archives have fewer than ten."""
 # Headers, padding and extended headers around each entry's content.
 OVERHEAD_PER_ENTRY = 4_096
 _HEADERS_PER_ENTRY = 4
@@ -125,7 +129,7 @@ def tar_entries(stream: GzipStream, most: int) -> Iterator[TarEntry]:
         DamagedArchive: The stream ends early, or holds something else, or more headers.
     """
     extended: dict[str, bytes] = {}
-    headers = 0
+    headers = bytes_of_extended = 0
     while header := stream.read(BLOCK):
         headers += 1
         if headers > most:
@@ -137,6 +141,9 @@ def tar_entries(stream: GzipStream, most: int) -> Iterator[TarEntry]:
         _verify(header)
         if header[156:157] in _EXTENDED:
             entry = _entry(header, {}, stream)
+            bytes_of_extended += entry.size
+            if entry.size > MAX_EXTENDED_HEADER or bytes_of_extended > MAX_EXTENDED_HEADERS:
+                raise DamagedArchive("has extended headers that are too large")
             extended.update(_overrides(entry))
             entry.skip()
         else:
@@ -189,8 +196,6 @@ def _decimal(text: bytes) -> int:
 
 def _overrides(entry: TarEntry) -> dict[str, bytes]:
     """Return what an extended header says about the next entry."""
-    if entry.size > MAX_EXTENDED_HEADER:
-        raise DamagedArchive("has an extended header that is too large")
     data = entry.read(entry.size)
     if entry.kind == _LONG_NAME:
         return {"path": data}
@@ -199,9 +204,12 @@ def _overrides(entry: TarEntry) -> dict[str, bytes]:
 
 def _pax_records(data: bytes) -> dict[str, bytes]:
     """Read the records `<length> <key>=<value>` and a line end of a pax header."""
-    records = {}
-    at = 0
+    records: dict[str, bytes] = {}
+    at = number = 0
     while at < len(data):
+        number += 1
+        if number > MAX_RECORDS:
+            raise DamagedArchive(f"has an extended header with more than {MAX_RECORDS} records")
         digits, _, _ = data[at : at + 20].partition(b" ")
         length = _decimal(digits)
         record = data[at + len(digits) + 1 : at + length]
