@@ -20,6 +20,7 @@ from lsprotocol import types as lsp
 from pygls.lsp.server import LanguageServer
 
 from checker.base.resources import tool_version
+from checker.base.words import plain, shortened
 from checker.editor.diagnostics import diagnostics_of
 from checker.editor.documents import Document, path_of
 from checker.editor.full_check import FullCheck
@@ -114,9 +115,17 @@ class Server(LanguageServer):
         await asyncio.sleep(self._pause)
         while self._is_stale:
             self._is_stale = False
-            await self.read(self.session.check_all)
-            await self.publish()
+            try:
+                await self.read(self.session.check_all)
+                await self.publish()
+            except Exception as error:  # noqa: BLE001 - the next change is checked all the same
+                self._apologise(error)
             self._collect_later()
+
+    def _apologise(self, error: Exception) -> None:
+        problem = plain(shortened(f"{type(error).__name__}: {error}", 300))
+        message = f"subt-check: internal error ({problem}); please report it"
+        self.window_log_message(lsp.LogMessageParams(lsp.MessageType.Error, message))
 
     def _collect_later(self) -> None:
         """Collect what checks have left when nobody types: in between, it takes half their time."""

@@ -125,6 +125,9 @@ class Session:
         found = (self.units.unit_of(each.path) for each in list(self.documents.values()))
         units = {unit.key: unit for unit in found if unit is not None}
         self._states = {key: state for key, state in self._states.items() if key in units}
+        self._names = {key: names for key, names in self._names.items() if key in units}
+        opened = {each.path for each in list(self.documents.values())}
+        self._good = {path: text for path, text in self._good.items() if path in opened}
         for unit in units.values():
             self.check(unit)
 
@@ -229,8 +232,10 @@ class Session:
 
     def _note_good_texts(self, package: Package) -> None:
         for path, document in self._xml_in(package):
-            if isinstance(package.xml(path), XmlDocument):
-                self._good[document.path] = OverlayText(document.text, document.encoding)
+            # Not the text of the document: that may be newer.
+            xml = package.xml(path)
+            if isinstance(xml, XmlDocument):
+                self._good[document.path] = OverlayText(xml.source.text, document.encoding)
 
     def _xml_in(self, package: Package) -> Iterator[tuple[str, Document]]:
         """Yield the open XML files of a package, by their paths in it."""
