@@ -11,7 +11,7 @@ from checker.editor.changes import Changes
 from checker.editor.documents import Document
 from checker.editor.positions import Columns
 from checker.editor.server import Server
-from checker.editor.session import State
+from checker.editor.session import State, path_in
 from checker.editor.suppression import reason_comment, rule_switched_off
 from checker.finding import Edit, Fix, Safety
 from checker.fix.rounds import FixedFile, fix_package
@@ -32,17 +32,24 @@ def wanted(
     found: list[lsp.CodeAction] = []
     if any(lsp.CodeActionKind.QuickFix.startswith(kind) for kind in kinds):
         found += actions_for(state, document, context.diagnostics, documents, columns)
-    if any(FIX_ALL.startswith(kind) for kind in kinds) and (every := _all(server, state)):
+    if any(FIX_ALL.startswith(kind) for kind in kinds) and (every := _all(server, document, state)):
         found.append(every)
     return found
 
 
-def _all(server: Server, state: State) -> lsp.CodeAction | None:
+def _all(server: Server, document: Document, state: State) -> lsp.CodeAction | None:
+    """Return what makes the safe fixes of a file; what other files have a part in is left alone."""
     if state.checked is None:
         return None
-    fixed = fix_package(state.checked.package, server.session.judge(state), [Safety.SAFE])
-    session = server.session
-    return fix_all(state.checked.package, fixed.files, session.documents, server.columns)
+    package, judge, session = state.checked.package, server.session.judge(state), server.session
+    path = path_in(package, document.path)
+
+    def findings_here(edited: Package) -> tuple[ReportedFinding, ...]:
+        found = ((each, each.fix.edits if each.fix else ()) for each in judge(edited))
+        return tuple(each for each, edits in found if {e.place.file for e in edits} == {path})
+
+    fixed = fix_package(package, findings_here, [Safety.SAFE])
+    return fix_all(package, fixed.files, session.documents, server.columns)
 
 
 def actions_for(
@@ -150,7 +157,7 @@ def fix_all(
     documents: Mapping[str, Document],
     columns: Columns,
 ) -> lsp.CodeAction | None:
-    """Return what makes all safe fixes of a package; None where there are none.
+    """Return what makes safe fixes; None where there are none.
 
     Args:
         package: With the texts of the editor.
@@ -166,4 +173,4 @@ def fix_all(
             count += 1
     if not count:
         return None
-    return lsp.CodeAction("Fix all (safe fixes)", kind=FIX_ALL, edit=changes.edit)
+    return lsp.CodeAction("Fix all in this file (safe fixes)", kind=FIX_ALL, edit=changes.edit)

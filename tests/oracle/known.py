@@ -43,7 +43,7 @@ REFUSED_BY_US: Sequence[Known] = (
 """Errors of ours on files that libsdformat loads."""
 REFUSED_BY_THEM: Sequence[Known] = (
     Known("libsdformat ends", ("libsdformat ends with",)),
-    Known("models that are not at hand", ("Unable to find uri",)),
+    Known("models that are not available", ("Unable to find uri",)),
     Known("old axes without direction", ("Error reading element <xyz>",)),
     Known("includes in any place", ("<include> element missing",)),
     Known("colours above 1", ("Error reading element <(ambient|diffuse|specular|emissive)>",)),
