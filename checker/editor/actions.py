@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from lsprotocol import types as lsp
 
 from checker.base.words import shortened
 from checker.editor.changes import Changes
+from checker.editor.check import Checked
 from checker.editor.documents import Document
-from checker.editor.positions import Columns
 from checker.editor.server import Server
 from checker.editor.session import State, path_in
 from checker.editor.suppression import reason_comment, rule_switched_off
 from checker.finding import Edit, Fix, Safety
-from checker.fix.rounds import FixedFile, fix_package
+from checker.fix.rounds import fix_package
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
 
@@ -26,81 +26,101 @@ _SHOWN = 40
 def wanted(
     server: Server, document: Document, state: State, context: lsp.CodeActionContext
 ) -> list[lsp.CodeAction]:
-    """Return what a client asks for."""
-    kinds = context.only or [lsp.CodeActionKind.QuickFix]
-    documents, columns = server.session.documents, server.columns
-    found: list[lsp.CodeAction] = []
-    if any(lsp.CodeActionKind.QuickFix.startswith(kind) for kind in kinds):
-        found += actions_for(state, document, context.diagnostics, documents, columns)
-    if any(FIX_ALL.startswith(kind) for kind in kinds) and (every := _all(server, document, state)):
-        found.append(every)
-    return found
-
-
-def _all(server: Server, document: Document, state: State) -> lsp.CodeAction | None:
-    """Return what makes the safe fixes of a file; what other files have a part in is left alone."""
-    if state.checked is None:
-        return None
-    package, judge, session = state.checked.package, server.session.judge(state), server.session
-    path = path_in(package, document.path)
-
-    def findings_here(edited: Package) -> tuple[ReportedFinding, ...]:
-        found = ((each, each.fix.edits if each.fix else ()) for each in judge(edited))
-        return tuple(each for each, edits in found if {e.place.file for e in edits} == {path})
-
-    fixed = fix_package(package, findings_here, [Safety.SAFE])
-    return fix_all(package, fixed.files, session.documents, server.columns)
-
-
-def actions_for(
-    state: State,
-    document: Document,
-    diagnostics: Sequence[lsp.Diagnostic],
-    documents: Mapping[str, Document],
-    columns: Columns,
-) -> list[lsp.CodeAction]:
-    """Return what can be done about diagnostics of a file.
+    """Return what a client asks for.
 
     Args:
-        state: Of its package.
+        server: Of the editor.
         document: The file.
-        diagnostics: Those that the user points at.
-        documents: All open files, by URI.
-        columns: How the client counts.
+        state: Of its package.
+        context: What the user points at, and which kinds of actions are asked for.
     """
     if state.checked is None:
         return []
-    package, known = state.checked.package, {each.fingerprint: each for each in state.findings}
-    actions: list[lsp.CodeAction] = []
-    for diagnostic in diagnostics:
-        data = diagnostic.data if isinstance(diagnostic.data, dict) else {}
-        finding = known.get(str(data.get("fingerprint")))
-        if finding is not None:
-            actions += _fixes(finding, diagnostic, package, documents, columns)
-            actions += _suppressions(finding, diagnostic, state, document, documents, columns)
-    return actions
+    kinds = context.only or [lsp.CodeActionKind.QuickFix]
+    offer = _Offer(server, document, state, state.checked)
+    found: list[lsp.CodeAction] = []
+    if any(lsp.CodeActionKind.QuickFix.startswith(kind) for kind in kinds):
+        found += offer.quick_fixes(context.diagnostics)
+    if any(FIX_ALL.startswith(kind) for kind in kinds):
+        found += offer.all_fixes()
+    return found
 
 
-def _fixes(
-    finding: ReportedFinding,
+class _Offer:
+    """What can be done in one file."""
+
+    def __init__(self, server: Server, document: Document, state: State, checked: Checked) -> None:
+        self._server, self._document = server, document
+        self._state, self._package = state, checked.package
+
+    def quick_fixes(self, diagnostics: Sequence[lsp.Diagnostic]) -> Iterator[lsp.CodeAction]:
+        """Yield what can be done about diagnostics."""
+        known = {each.fingerprint: each for each in self._state.findings}
+        for diagnostic in diagnostics:
+            data = diagnostic.data if isinstance(diagnostic.data, dict) else {}
+            finding = known.get(str(data.get("fingerprint")))
+            if finding is not None:
+                yield from self._fixes(finding, diagnostic)
+                yield from self._suppressions(finding, diagnostic)
+
+    def all_fixes(self) -> Iterator[lsp.CodeAction]:
+        """Yield what makes all safe fixes; what other files have a part in is left alone."""
+        judge = self._server.session.judge(self._state)
+        path = path_in(self._package, self._document.path)
+
+        def findings_here(edited: Package) -> tuple[ReportedFinding, ...]:
+            found = ((each, each.fix.edits if each.fix else ()) for each in judge(edited))
+            return tuple(each for each, edits in found if {e.place.file for e in edits} == {path})
+
+        for file in fix_package(self._package, findings_here, [Safety.SAFE]).files:
+            changes = self._changes()
+            changes.add_file(self._document.path, file)
+            title = "Fix all in this file (safe fixes)"
+            yield lsp.CodeAction(title, kind=FIX_ALL, edit=changes.edit)
+
+    def _changes(self) -> Changes:
+        return Changes(self._server.session.documents.values(), self._server.columns)
+
+    def _fixes(
+        self, finding: ReportedFinding, diagnostic: lsp.Diagnostic
+    ) -> Iterator[lsp.CodeAction]:
+        """Yield what fixes a finding here, and what fixes it in all of its places."""
+        here = _fix_here(finding, diagnostic)
+        for fix in dict.fromkeys(filter(None, (here, finding.fix))):
+            changes = self._changes()
+            if all(changes.add_edit(self._package, edit) for edit in fix.edits):
+                is_safe = fix.safety is Safety.SAFE
+                yield _quick_fix(
+                    _title(finding, fix.edits) + ("" if is_safe else " (changes behaviour)"),
+                    diagnostic,
+                    changes.edit,
+                    is_preferred=is_safe and fix is (here or finding.fix),
+                )
+
+    def _suppressions(
+        self, finding: ReportedFinding, diagnostic: lsp.Diagnostic
+    ) -> Iterator[lsp.CodeAction]:
+        source, line = self._document.source, diagnostic.range.start.line + 1
+        if (comment := reason_comment(source, finding.rule, line)) is not None:
+            changes = self._changes()
+            changes.replace(self._document.path, source, comment.at, comment.at, comment.text)
+            title = f"{finding.rule}: suppress here (write the reason)"
+            yield _quick_fix(title, diagnostic, changes.edit)
+        session, columns = self._server.session, self._server.columns
+        edit = rule_switched_off(self._state, finding.rule, session.documents, columns)
+        if edit is not None:
+            yield _quick_fix(f"{finding.rule}: switch off in the settings", diagnostic, edit)
+
+
+def _quick_fix(
+    title: str,
     diagnostic: lsp.Diagnostic,
-    package: Package,
-    documents: Mapping[str, Document],
-    columns: Columns,
-) -> Iterator[lsp.CodeAction]:
-    """Yield what fixes a finding here, and what fixes it in all of its places."""
-    here = _fix_here(finding, diagnostic)
-    for fix in dict.fromkeys(filter(None, (here, finding.fix))):
-        changes = Changes(documents.values(), columns)
-        if all(changes.add_edit(package, edit) for edit in fix.edits):
-            is_safe = fix.safety is Safety.SAFE
-            yield lsp.CodeAction(
-                title=_title(finding, fix.edits) + ("" if is_safe else " (changes behaviour)"),
-                kind=lsp.CodeActionKind.QuickFix,
-                diagnostics=[diagnostic],
-                is_preferred=is_safe and fix is (here or finding.fix),
-                edit=changes.edit,
-            )
+    edit: lsp.WorkspaceEdit,
+    *,
+    is_preferred: bool | None = None,
+) -> lsp.CodeAction:
+    kind = lsp.CodeActionKind.QuickFix
+    return lsp.CodeAction(title, kind, [diagnostic], is_preferred=is_preferred, edit=edit)
 
 
 def _fix_here(finding: ReportedFinding, diagnostic: lsp.Diagnostic) -> Fix | None:
@@ -122,55 +142,3 @@ def _title(finding: ReportedFinding, edits: Sequence[Edit]) -> str:
         return f"{finding.rule}: insert '{new}'" if new else f"{finding.rule}: remove '{old}'"
     places = f" in {len(edits)} places" if len(edits) > 1 else ""
     return f"{finding.rule}: fix {finding.name}{places}"
-
-
-def _suppressions(
-    finding: ReportedFinding,
-    diagnostic: lsp.Diagnostic,
-    state: State,
-    document: Document,
-    documents: Mapping[str, Document],
-    columns: Columns,
-) -> Iterator[lsp.CodeAction]:
-    line = diagnostic.range.start.line + 1
-    if (comment := reason_comment(document.source, finding.rule, line)) is not None:
-        changes = Changes(documents.values(), columns)
-        changes.replace(document.path, document.source, comment.at, comment.at, comment.text)
-        yield lsp.CodeAction(
-            title=f"{finding.rule}: suppress here (write the reason)",
-            kind=lsp.CodeActionKind.QuickFix,
-            diagnostics=[diagnostic],
-            edit=changes.edit,
-        )
-    if (edit := rule_switched_off(state, finding.rule, documents, columns)) is not None:
-        yield lsp.CodeAction(
-            title=f"{finding.rule}: switch off in the settings",
-            kind=lsp.CodeActionKind.QuickFix,
-            diagnostics=[diagnostic],
-            edit=edit,
-        )
-
-
-def fix_all(
-    package: Package,
-    files: Iterable[FixedFile],
-    documents: Mapping[str, Document],
-    columns: Columns,
-) -> lsp.CodeAction | None:
-    """Return what makes safe fixes; None where there are none.
-
-    Args:
-        package: With the texts of the editor.
-        files: What the fixes come to.
-        documents: All open files, by URI.
-        columns: How the client counts.
-    """
-    changes = Changes(documents.values(), columns)
-    count = 0
-    for file in files:
-        if (entry := package.index.find(file.path)) is not None:
-            changes.add_file(entry.location, file)
-            count += 1
-    if not count:
-        return None
-    return lsp.CodeAction("Fix all in this file (safe fixes)", kind=FIX_ALL, edit=changes.edit)

@@ -17,10 +17,11 @@ from checker.base.files import make_folder
 from checker.base.output import write
 from checker.base.parts import WorkerFailed
 from checker.editor.check import is_measured
-from checker.editor.full_check import FullCheck, Order
+from checker.editor.full_check import FullCheck
 from checker.editor.measured import Measured
 from checker.editor.server import Server
-from checker.editor.session import State
+from checker.editor.session import Key, Session
+from checker.package.package import Package
 from checker.pipeline import joined_report
 from checker.report.files import PAGE, artefacts
 from checker.report.html.overview import told_trial
@@ -73,43 +74,37 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         The report; None where there is none, of which the user is told.
     """
     known = await server.state_of(uri)
-    if known is None or known[1].checked is None:
-        problem = known[1].problem if known else None
+    state = known[1] if known is not None else None
+    if state is None or state.checked is None:
+        problem = state.problem if state is not None else None
         why = problem.message if problem else "the file is not part of a package"
         _complain(server, f"not checked: {why}")
         return None
     if not PHYSICS.is_installed:
         _complain(server, PHYSICS.missing)
         return None
-    state = known[1]
-    order = await server.read(lambda: _order(state, display=display))
-    check = FullCheck(order)
+    key, checked = state.unit.key, state.checked
+    wishes = {"trial": True, "display": True if display else None}
+    check = FullCheck(checked.package, checked.settings.overridden(**wishes))
     # Of the text before, nobody wants to know any more.
-    if (earlier := server.measuring.pop(state.unit.key, None)) is not None:
+    if (earlier := server.measuring.get(key)) is not None:
         earlier.stop()
-    server.measuring[state.unit.key] = check
-    done = await _watched(server, check, state.unit.package.name)
-    if server.measuring.get(state.unit.key) is not check:
+    server.measuring[key] = check
+    done = await _watched(server, check, checked.package.name)
+    if server.measuring.get(key) is not check:
         return None
-    del server.measuring[state.unit.key]
+    del server.measuring[key]
     if isinstance(done, WorkerFailed):
         _complain(server, f"the check {done.reason}")
         return None
-    await server.read(lambda: _note(server, state, order, done))
+    await server.read(lambda: _note(server.session, key, checked.package, done))
     await server.publish()
     return done
 
 
-def _order(state: State, *, display: bool) -> Order:
-    if state.checked is None:
-        raise ValueError("a package that is not checked cannot be measured")
-    wishes = {"trial": True, "display": True if display else None}
-    return Order(state.checked.package, state.checked.settings.overridden(**wishes))
-
-
-def _note(server: Server, state: State, order: Order, report: PackageReport) -> None:
-    measured = {rule.id for rule in rules(server.session.cache) if is_measured(rule)}
-    server.session.note_measured(state.unit.key, Measured(order.package, report, measured))
+def _note(session: Session, key: Key, package: Package, report: PackageReport) -> None:
+    measured = {rule.id for rule in rules(session.cache) if is_measured(rule)}
+    session.note_measured(key, Measured(package, report, measured))
 
 
 async def _watched(server: Server, check: FullCheck, name: str) -> PackageReport | WorkerFailed:

@@ -7,6 +7,7 @@ from typing import Any
 
 from lsprotocol import types as lsp
 
+from checker.base.words import count
 from checker.editor.documents import Document
 from checker.editor.positions import Columns
 from checker.editor.session import State, location_of
@@ -96,12 +97,11 @@ def _blind_spots(state: State) -> Iterator[lsp.Diagnostic]:
     spots = state.checked.blind_spots if state.checked is not None else ()
     reasons = dict.fromkeys(spot.reason for spot in spots)
     if reasons:
-        number = len({spot.rule for spot in spots})
+        rules = count(len({spot.rule for spot in spots}), "rule")
         more = (
             f", and {len(reasons) - _REASONS_SHOWN} more" if len(reasons) > _REASONS_SHOWN else ""
         )
         told = "; ".join(list(reasons)[:_REASONS_SHOWN])
-        rules = "1 rule" if number == 1 else f"{number} rules"
         yield _at_top(f"{rules} could not run: {told}{more}", lsp.DiagnosticSeverity.Hint)
 
 

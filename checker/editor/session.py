@@ -195,12 +195,10 @@ class Session:
             return self.check(unit)
         return state
 
-    def note_measured(self, key: Key, measured: Measured) -> State | None:
-        """Remember a check with weights and trial; None for a unit that is not known any more."""
-        state = self._states.get(key)
-        if state is not None:
-            self._states[key] = state = replace(state, measured=measured)
-        return state
+    def note_measured(self, key: Key, measured: Measured) -> None:
+        """Remember a check with weights and trial, unless all files of its unit are closed."""
+        if (state := self._states.get(key)) is not None:
+            self._states[key] = replace(state, measured=measured)
 
     def legible(self, checked: Checked) -> Subject:
         """Return a package in which files that are no XML just now have their last good text."""

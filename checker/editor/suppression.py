@@ -11,6 +11,7 @@ from lsprotocol import types as lsp
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
+from checker.editor.changes import Changes
 from checker.editor.documents import Document
 from checker.editor.positions import Columns
 from checker.editor.session import State
@@ -95,13 +96,13 @@ def rule_switched_off(
     insertion = settings_insertion(source, rule)
     if insertion is None:
         return None
-    uri, version = (document.uri, document.version) if document else (file.as_uri(), None)
-    edit = lsp.TextEdit(columns.range(source, insertion.at, insertion.at), insertion.text)
-    identifier = lsp.OptionalVersionedTextDocumentIdentifier(uri, version)
-    change = lsp.TextDocumentEdit(identifier, [edit])
-    is_new = source_file is None
-    create = lsp.CreateFile(uri, options=lsp.CreateFileOptions(ignore_if_exists=True))
-    return lsp.WorkspaceEdit(document_changes=[create, change] if is_new else [change])
+    changes = Changes(documents.values(), columns)
+    changes.replace(file.resolve(), source, insertion.at, insertion.at, insertion.text)
+    edit = changes.edit
+    if source_file is not None or not edit.document_changes:
+        return edit
+    create = lsp.CreateFile(file.as_uri(), options=lsp.CreateFileOptions(ignore_if_exists=True))
+    return lsp.WorkspaceEdit(document_changes=[create, *edit.document_changes])
 
 
 def _read(file: Path) -> SourceText:

@@ -43,16 +43,23 @@ class Units:
         """
         self.folders = tuple(folders)
         self._opened: dict[Path, Opened | None] = {}
+        self._found: dict[Path, Unit | None] = {}
 
     def forget(self) -> None:
         """Look anew at what lies on disk the next time."""
         self._opened.clear()
+        self._found.clear()
 
     def unit_of(self, file: Path) -> Unit | None:
         """Return the unit that a file belongs to; None outside of packages.
 
         A model or world in a package is a unit of its own where the command takes it for one.
         """
+        if file not in self._found:
+            self._found[file] = self._look_for(file)
+        return self._found[file]
+
+    def _look_for(self, file: Path) -> Unit | None:
         for path in self._around(file):
             opened = self._open(path)
             holding = [each for each in opened.packages if _holds(each, file)] if opened else []

@@ -9,8 +9,9 @@ from checker.editor.names.readers.python_names import PythonNames
 from checker.editor.names.readers.robot_names import RobotNames
 from checker.editor.names.readers.ruby_names import ruby_names, ruby_values
 from checker.editor.names.readers.sdf_names import SdfNames
-from checker.editor.names.readers.xacro_names import PREFIX, XacroNames
+from checker.editor.names.readers.xacro_names import XacroNames
 from checker.editor.names.readers.yaml_names import yaml_names
+from checker.editor.xacro_names import PREFIX
 from checker.expand.ros2_launch.python.launch_file import parsed
 from checker.package.package import Package
 from checker.source.text import SourceText

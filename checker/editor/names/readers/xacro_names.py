@@ -10,16 +10,11 @@ from checker.editor.names.mention import ANY_PART, Included, NameKind, Role, Wri
 from checker.editor.names.readers.expressions import is_composed
 from checker.editor.names.readers.plugin_names import written
 from checker.editor.names.readers.values import kinds_of, names_in
+from checker.editor.xacro_names import PREFIX, TAGS
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
-PREFIX = "xacro:"
-_DIRECTIVES = frozenset(
-    (
-        *("macro", "property", "arg", "include", "insert_block", "if", "unless", "element"),
-        *("attribute", "call", "robot"),
-    )
-)
+_DIRECTIVES = frozenset((*TAGS, "robot"))
 _OWN_ATTRIBUTES = ("name", "params", "filename")
 _EXPRESSION = re.compile(r"\$\{([^{}]{0,2000})\}")
 _ARGUMENT = re.compile(r"\$\(arg\s+([A-Za-z_]\w*)\s*\)")
