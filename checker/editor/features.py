@@ -11,6 +11,7 @@ from checker.editor.documents import opened
 from checker.editor.lenses import lenses_of
 from checker.editor.navigation import Navigator, folds, outline
 from checker.editor.server import Server, real_folders
+from checker.package.walk import SKIPPED_FOLDERS
 
 _WATCHED = [lsp.FileSystemWatcher(glob_pattern="**/*")]
 
@@ -59,8 +60,9 @@ def _follow_client(server: Server) -> None:
 
     @server.feature(lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def _(params: lsp.DidChangeWatchedFilesParams) -> None:
-        names = [change.uri.rpartition("/")[2] for change in params.changes]
-        if any(not name.startswith(".") for name in names):
+        # git writes its own files all the time; no package is read from there.
+        steps = [change.uri.split("/") for change in params.changes]
+        if any(it[-1][:1] != "." and SKIPPED_FOLDERS.isdisjoint(it) for it in steps):
             server.reread(server.session.forget)
 
 

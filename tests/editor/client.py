@@ -62,6 +62,9 @@ def client() -> Client:
 SERVER = [sys.executable, "-m", "checker.cli", "server"]
 CONFIG = pytest_lsp.ClientServerConfig(server_command=SERVER, client_factory=client)
 SECONDS = 30.0
+ROVER = "broken_rover_sensor_config_1"
+SCOUT = "acme_scout"
+"""Samples that the editor has in its folder."""
 
 
 def capabilities() -> lsp.ClientCapabilities:

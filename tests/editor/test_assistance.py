@@ -2,43 +2,16 @@
 
 from __future__ import annotations
 
-import shutil
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-import pytest_lsp
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
-from tests.conftest import SAMPLES
-from tests.editor.client import CONFIG, Client, Editor
+from tests.editor.client import ROVER, SCOUT, Editor
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
-
-ROVER = "broken_rover_sensor_config_1"
-SCOUT = "acme_scout"
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A workspace with two packages."""
-    folder = tmp_path_factory.mktemp("workspace").resolve()
-    for name in (ROVER, SCOUT):
-        shutil.copytree(SAMPLES / name, folder / name)
-    return folder
-
-
-@pytest_lsp.fixture(config=CONFIG, scope="module")
-async def client(client: Client, folder: Path) -> AsyncIterator[None]:
-    await Editor(client).begin(folder)
-    yield
-    await client.shutdown_session()
-
-
-@pytest.fixture
-def editor(client: Client) -> Editor:
-    return Editor(client)
 
 
 def lines(locations: object) -> set[tuple[str, int]]:

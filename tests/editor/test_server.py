@@ -5,44 +5,18 @@ from __future__ import annotations
 import asyncio
 import re
 import shutil
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import pytest_lsp
 from lsprotocol import types as lsp
 
 from checker.pipeline import check_package
 from checker.rulebook.rule_index import rules
 from checker.settings import Settings
-from tests.conftest import SAMPLES
-from tests.editor.client import CONFIG, SECONDS, Client, Editor, shown
+from tests.editor.client import ROVER, SCOUT, SECONDS, Editor, shown
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
-
-ROVER = "broken_rover_sensor_config_1"
-SCOUT = "acme_scout"
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A workspace with two packages."""
-    folder = tmp_path_factory.mktemp("workspace").resolve()
-    for name in (ROVER, SCOUT):
-        shutil.copytree(SAMPLES / name, folder / name)
-    return folder
-
-
-@pytest_lsp.fixture(config=CONFIG, scope="module")
-async def client(client: Client, folder: Path) -> AsyncIterator[None]:
-    await Editor(client).begin(folder)
-    yield
-    await client.shutdown_session()
-
-
-@pytest.fixture
-def editor(client: Client) -> Editor:
-    return Editor(client)
 
 
 @pytest.fixture
