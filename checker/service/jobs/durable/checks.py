@@ -18,6 +18,7 @@ from msgspec import field
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
+from checker.service.jobs.durable.changes import tell
 from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.tables import CHECKS, EVENTS
 from checker.service.jobs.durable.workflows import WAITS
@@ -236,6 +237,7 @@ class Checks(Record, dict=True):
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
+        tell(connection, id)
 
     @cached_property
     def _entering(self) -> sa.Insert:
