@@ -47,10 +47,12 @@ CHECKS = sa.Table(
     sa.Column("worker", sa.Text, nullable=False, default=""),
     sa.Column("turn", sa.Integer, nullable=False, default=0),
     sa.Column("losses", sa.JSON, nullable=False, default=list),
+    sa.Column("secret", sa.Text, nullable=False, server_default=""),
 )
-"""Each check. `id` is its key, which opens nothing (`keys.py`). `worker` has it
-in hand; empty while it waits or when it is over. `losses` are the workers that died with it in
-hand. `turn` is for workers of version 0.1.0: who knows an older one has lost the check."""
+"""Each check. `id` is its key, which opens nothing, and `secret` a digest of its secret; checks of
+version 0.1.0 have none. `worker` has it in hand; empty while it waits or when it is over. `losses`
+are the workers that died with it in hand. `turn` is for workers of version 0.1.0: who knows an
+older one has lost the check."""
 
 EVENTS = sa.Table(
     "subt_events",
@@ -78,8 +80,11 @@ version 0.1.0 knows none."""
 
 
 def make_tables(connection: sa.Connection) -> None:
-    """Make what is missing: tables, and the column that those of version 0.1.0 lack."""
+    """Make what is missing: tables, and columns that those of version 0.1.0 lack."""
     METADATA.create_all(connection)
-    known = {column["name"] for column in sa.inspect(connection).get_columns(WORKERS.name)}
-    if WORKERS.c.layers.name not in known:
-        connection.exec_driver_sql("ALTER TABLE subt_workers ADD COLUMN layers JSON")
+    for table in (CHECKS, WORKERS):
+        known = {column["name"] for column in sa.inspect(connection).get_columns(table.name)}
+        for column in table.columns:
+            if column.name not in known:
+                made = sa.schema.CreateColumn(column).compile(dialect=connection.dialect)
+                connection.exec_driver_sql(f"ALTER TABLE {table.name} ADD COLUMN {made}")
