@@ -44,3 +44,13 @@ def test_only_the_id_opens_a_check(tmp_path: Path) -> None:
     assert jobs.result(key) == ""
     assert jobs.cancel(id) is True
     jobs.engine.dispose()
+
+
+def test_last_events_go_by_ids_as_well(tmp_path: Path) -> None:
+    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
+    one, other = (jobs.submit(Order("0" * 64, "robot.zip")) for _ in range(2))
+    jobs.cancel(other)
+    assert jobs.last_events([one, other, "unknown"]) == {one: 1, other: 2}
+    assert jobs.last_events([key_of_check(one)]) == {}
+    assert jobs.last_events([]) == {}
+    jobs.engine.dispose()

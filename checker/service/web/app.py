@@ -22,6 +22,7 @@ from checker.service.web import health
 from checker.service.web.answers.headers import SecurityHeaders
 from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
 from checker.service.web.api import routes as api
+from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
@@ -157,7 +158,13 @@ def create_app(
 
     metrics = Metrics()
     services = Services(
-        jobs, store, config, Admission(config), metrics, indexes or ArchiveIndexes()
+        jobs,
+        store,
+        config,
+        Admission(config),
+        metrics,
+        indexes or ArchiveIndexes(),
+        Watchers(jobs),
     )
     app = FastAPI(
         title="subt-check",

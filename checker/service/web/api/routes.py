@@ -159,8 +159,8 @@ class Api(Record):
 
     async def events(self, request: Request, id: str, after: int) -> Response:
         """Send the events of a check."""
-        await run_in_threadpool(self.services.check, id)
-        return await event_stream(request, self.services, id, after)
+        state = await run_in_threadpool(self.services.check, id)
+        return await event_stream(request, self.services, state, after)
 
     def index(self, id: str) -> Response:
         """Lead to the list of packages, beside their folders: its links are relative."""

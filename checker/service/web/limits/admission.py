@@ -24,7 +24,8 @@ class Admission:
         self._tokens = tuple(token.encode() for token in config.tokens)
         self._rate = Rate(0 if config.only_here else config.uploads_per_minute)
         self._uploads = _slots(config.uploads_at_once)
-        self._streams = _slots(config.streams)
+        each = config.streams if config.only_here else config.streams_per_client
+        self._streams = Slots(config.streams, each)
 
     @contextmanager
     def upload(self, request: HTTPConnection) -> Iterator[None]:
