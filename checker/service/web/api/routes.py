@@ -46,7 +46,7 @@ _FORM = {
     },
 }
 _UPLOAD = {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}}}
-_OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
+_OTHERS = ("OPTIONS", "PATCH", "POST", "PUT", "TRACE")
 _DESCRIPTIONS = {
     400: "The form cannot be read, or was cut off.",
     401: "A token is needed.",
@@ -205,7 +205,7 @@ class Api(Record):
 
 def _other_method(_: Request) -> Response:
     """Name both methods of a check; the framework names those of one route."""
-    raise HTTPException(405, headers={"Allow": "DELETE, GET"})
+    raise HTTPException(405, headers={"Allow": "DELETE, GET, HEAD"})
 
 
 def _refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
