@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Any
@@ -39,6 +39,9 @@ from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
+
+_SHOWN = 10
+"""XML files that are too large, by their names."""
 
 # Rules about suppressions need to know what all others found; those about the baseline, which of
 # its entries nothing was found of.
@@ -179,9 +182,7 @@ def _report(
             if settings.display:
                 subject.start_display()
         outcome = run_and_set_aside(known, known, subject, judge, settings)
-    unread = [f"{fault.path} {fault.reason}" for fault in package.index.faults]
-    unread += [f"{file.path} {file.reason}" for file in package.too_large]
-    blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in unread)
+    blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
     robots, trouble = _facts(subject)
     trials = trials_of(subject, outcome)
     display, undrawn = _display(subject) if settings.display else (None, ())
@@ -206,6 +207,15 @@ def _report(
         other_robots=robots[1:],
         other_trials=trials[1:],
     )
+
+
+def _unread(package: Package) -> Iterator[str]:
+    """Yield which files and folders could not be looked at, and why."""
+    yield from (f"{fault.path} {fault.reason}" for fault in package.index.faults)
+    large = package.too_large
+    yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
+    if len(large) > _SHOWN:
+        yield f"{len(large) - _SHOWN} more XML files are too large to be checked"
 
 
 def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:

@@ -47,7 +47,14 @@ from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.setup_py import SetupFile, read_setup
 from checker.source.text import SourceText
-from checker.source.xml import ELEMENTS_LIMIT, XmlDocument, elements_in, parse_xml
+from checker.source.xml import (
+    ATTRIBUTES_LIMIT,
+    ELEMENTS_LIMIT,
+    XmlDocument,
+    attributes_in,
+    elements_in,
+    parse_xml,
+)
 from checker.source.xml_positions import XmlFault
 
 if TYPE_CHECKING:
@@ -259,15 +266,20 @@ class Package(Record, eq=False, dict=True):
         return self._documents[path]
 
     def _parsed(self, path: str, source: SourceText) -> XmlDocument | XmlFault | TooLarge:
-        count, known = elements_in(source.text), sum(self._elements.values())
+        count, attributes = elements_in(source.text), attributes_in(source.text)
+        known = sum(self._elements.values())
         if count > ELEMENTS_LIMIT:
-            reason = f"only files of up to {ELEMENTS_LIMIT:,} are checked"
+            reason = f"has {count:,} elements; only files of up to {ELEMENTS_LIMIT:,} are checked"
+        elif attributes > ATTRIBUTES_LIMIT:
+            most = f"only files of up to {ATTRIBUTES_LIMIT:,} are checked"
+            reason = f"has {attributes:,} attributes; {most}"
         elif known + count > ELEMENTS_FOR_ALL:
-            reason = f"the XML files before have {known:,} of the {ELEMENTS_FOR_ALL:,} for all"
+            before = f"the XML files before have {known:,} of the {ELEMENTS_FOR_ALL:,} for all"
+            reason = f"has {count:,} elements; {before}"
         else:
             self._elements[path] = count
             return parse_xml(source)
-        return TooLarge(path, f"has {count:,} elements; {reason}")
+        return TooLarge(path, reason)
 
     @property
     def too_large(self) -> tuple[TooLarge, ...]:

@@ -22,6 +22,8 @@ from checker.source.xml_tags import AttributeSpans, locate_tags, namespace_fault
 MAX_DEPTH = 250
 ELEMENTS_LIMIT = 50_000
 """Of one document; the largest of 5 000 real ones has 3 705. Each takes up to 9 kB as a robot."""
+ATTRIBUTES_LIMIT = 400_000
+"""Of one document; the largest real one has 2 000. Each takes 0.5 kB."""
 _PATH_LIMIT = 400
 """Characters of an element's path; what is longer keeps its end."""
 _BLANKS = " \t\r\n"
@@ -88,6 +90,11 @@ class XmlDocument(Record, eq=False, dict=True):
 def elements_in(text: str) -> int:
     """Return how many elements a text has, at most: counted in a moment, before it is parsed."""
     return text.count("<") - text.count("</") - text.count("<!") - text.count("<?")
+
+
+def attributes_in(text: str) -> int:
+    """Return how many attributes a text has, at most."""
+    return text.count("=")
 
 
 def parse_xml(source: SourceText) -> XmlDocument | XmlFault:

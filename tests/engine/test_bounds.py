@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.allowance import Allowance
+from checker.base.files import NotReadable
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
@@ -16,7 +17,7 @@ from checker.report.report import Cause, VerdictKind
 from checker.rule_testing import write_example
 from checker.settings import Settings
 from checker.source.text import SourceText
-from checker.source.xml import ELEMENTS_LIMIT, XmlDocument, elements_in, parse_xml
+from checker.source.xml import ATTRIBUTES_LIMIT, ELEMENTS_LIMIT, XmlDocument, elements_in, parse_xml
 from tests.conftest import SAMPLES
 
 GOOD = SAMPLES / "subtcheck_quadro_sensor_config_1"
@@ -40,6 +41,16 @@ def test_elements_are_counted_before_they_are_parsed(text: str) -> None:
     assert elements_in(text) == len(document.elements)
 
 
+def test_a_file_of_too_many_attributes_is_not_read(tmp_path: Path) -> None:
+    attributes = (f"a{n}='1'" for n in range(ATTRIBUTES_LIMIT + 1))
+    text = f"<launch {' '.join(attributes)}/>"
+    package = write_example({"launch/a.launch": text}, tmp_path)
+    with open_input(package) as opened:
+        read = opened.packages[0].xml("launch/a.launch")
+    assert isinstance(read, NotReadable)
+    assert read.reason == "has 400,001 attributes; only files of up to 400,000 are checked"
+
+
 def test_a_model_of_too_many_elements_is_not_checked_and_the_others_are(tmp_path: Path) -> None:
     many = f"<link name='l'/>{'<visual/>' * ELEMENTS_LIMIT}"
     package = write_example({"@fragment": many, "urdf/broken.urdf": "<robot>"}, tmp_path)
@@ -49,6 +60,21 @@ def test_a_model_of_too_many_elements_is_not_checked_and_the_others_are(tmp_path
     assert any("model.sdf has 50," in reason and "are checked" in reason for reason in reasons)
     assert not report.crashed
     assert report.findings
+
+
+def test_a_description_of_too_many_elements_is_the_reason_that_there_is_no_robot(
+    tmp_path: Path,
+) -> None:
+    urdf = f"<robot name='r'>{'<link/>' * (ELEMENTS_LIMIT + 1)}</robot>"
+    example = {"package.xml": "<package/>", "urdf/r.urdf": urdf}
+    folder = tmp_path / "r_description"
+    for path, text in example.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, "utf-8")
+    settings = Settings(trial=False, cache=False, profile="urdf")
+    (report,) = check_package(folder, settings).packages
+    (reason,) = {unseen.reason for unseen in report.not_checked if unseen.rule == "KIN001"}
+    assert reason == "urdf/r.urdf has 50,002 elements; only files of up to 50,000 are checked"
 
 
 def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
