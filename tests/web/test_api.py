@@ -107,6 +107,38 @@ def test_a_file_that_is_deleted_while_it_is_sent_comes_whole(tmp_path: Path) -> 
     assert sent.headers["content-length"] == str(len(content))
 
 
+REPORT = '<title>&lt;header&gt;</title></head><header class="not_ready">\n<h1>rover</h1></header>'
+BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+
+
+def test_a_report_leads_back_to_its_check_in_browsers_alone(
+    client: TestClient, jobs: BoardJobs, store: Store
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, REPORT, "report.html", "index.html", "a/report.html", "a/robot.glb")
+    link = f'<p class="back"><a href="http://localhost/checks/{ID}">Back to the check</a></p>'
+    expected = REPORT.replace('"not_ready">', f'"not_ready">\n{link}')
+    for name in ("report.html", "packages/index.html", "packages/a/report.html"):
+        address = f"/api/checks/{ID}/{name}"
+        answer = client.get(address, headers=BROWSER)
+        assert answer.text == expected
+        assert answer.headers["content-length"] == str(len(answer.content))
+        assert client.get(address).text == REPORT  # as `submit --report` keeps it
+    for name in ("report.json", "packages/a/robot.glb"):
+        assert client.get(f"/api/checks/{ID}/{name}", headers=BROWSER).text == REPORT
+
+
+@pytest.mark.parametrize("text", [PAGE, "", "x" * 70_000 + REPORT, "<header id='x'>"])
+def test_a_page_that_is_none_of_ours_stays_as_it_is(
+    client: TestClient, jobs: BoardJobs, store: Store, text: str
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, text, "report.html")
+    answer = client.get(f"/api/checks/{ID}/report.html", headers=BROWSER)
+    assert answer.text == text
+    assert answer.headers["content-length"] == str(len(text))
+
+
 def test_files_of_several_packages_lie_beside_the_list_of_them(
     client: TestClient, jobs: BoardJobs, store: Store
 ) -> None:

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: seven calls; `durable` implements them."""
+"""What the service needs of a job engine: eight calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -132,8 +132,20 @@ class Alive(Record):
         }
 
 
+class Pace(Record):
+    """How long the stages of a check took lately, as the median of some checks; 0 when not known.
+
+    Attributes:
+        static: Seconds that the static rules took.
+        trial: Seconds that the trial took.
+    """
+
+    static: float = 0.0
+    trial: float = 0.0
+
+
 class Jobs(Protocol):
-    """The seven calls; none waits for a check, and all may be called from many threads."""
+    """The eight calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -166,6 +178,10 @@ class Jobs(Protocol):
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""
+        ...
+
+    def pace(self) -> Pace:
+        """Return how long checks took lately."""
         ...
 
     def alive(self) -> Alive:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 from typing import BinaryIO
 
@@ -77,6 +78,9 @@ KINDS = {
 """Media types by name."""
 _HEAD = 4_096
 """Bytes of a page that hold its own policy."""
+_BEGIN = 65_536
+"""Bytes of a page that hold its style as well, and the start of its header."""
+_HEADER = re.compile(rb'<header(?: class="[a-z_ ]*")?>')
 _PIECE = 262_144
 """Bytes that are sent at once."""
 _SCRIPT = re.compile(rb"script-src '(sha256-[A-Za-z0-9+/]{43}=)'")
@@ -89,31 +93,48 @@ _REPORT = (
 )
 
 
-def file_response(path: Path) -> Response:
+def file_response(path: Path, back: str = "") -> Response:
     """Return the answer that sends a file of a result, as what its name says.
 
     The file is open from here on: deleted meanwhile, it is sent all the same.
+
+    Args:
+        path: Of the file.
+        back: Address of the check, to which a page gets a link at its top; empty for none. The
+            file itself cannot hold it, as checks share it.
 
     Raises:
         FileNotFoundError: It has been deleted.
     """
     kind, file = KINDS[path.name], path.open("rb")
-    headers = {"content-length": str(os.fstat(file.fileno()).st_size)}
+    size, begin = os.fstat(file.fileno()).st_size, b""
+    headers = {}
     if kind.startswith("text/html"):
-        headers[POLICY] = _policy(file)
+        begin = file.read(_BEGIN)
+        headers[POLICY] = _policy(begin)
+        linked = _with_link(begin, back) if back else begin
+        begin, size = linked, size + len(linked) - len(begin)
     if path.name == "robot.glb":
         headers["content-disposition"] = f'attachment; filename="{path.name}"'
-    return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
+    headers["content-length"] = str(size)
+    return StreamingResponse(_pieces(begin, file), media_type=kind, headers=headers)
 
 
-def _pieces(file: BinaryIO) -> Iterator[bytes]:
+def _pieces(begin: bytes, file: BinaryIO) -> Iterator[bytes]:
     with file:
+        if begin:
+            yield begin
         while piece := file.read(_PIECE):
             yield piece
 
 
-def _policy(page: BinaryIO) -> str:
+def _policy(begin: bytes) -> str:
     """Return the policy of a report: its own script runs, which its head names by hash."""
-    match = _SCRIPT.search(page.read(_HEAD))
-    page.seek(0)
+    match = _SCRIPT.search(begin, 0, _HEAD)
     return _REPORT + (f"'{match[1].decode('ascii')}'" if match else "'none'")
+
+
+def _with_link(begin: bytes, back: str) -> bytes:
+    """Return the beginning of a page with a link in its header, as that to all packages."""
+    link = f'<p class="back"><a href="{escape(back)}">Back to the check</a></p>'
+    return _HEADER.sub(lambda header: header[0] + b"\n" + link.encode(), begin, count=1)

@@ -128,7 +128,11 @@ def _add_events(router: APIRouter, api: Api) -> None:
     from fastapi import Query
 
     async def events(
-        request: Request, id: str, after: int = Query(default=0, ge=0, le=HIGHEST)
+        request: Request,
+        id: str,
+        after: int = Query(
+            default=0, ge=0, le=HIGHEST, description="Number of the last event that is known."
+        ),
     ) -> Response:
         """Send the events behind number `after` as they happen, until the check ends."""
         return await api.events(request, id, after)
@@ -199,16 +203,16 @@ class Api(Record):
         await run_in_threadpool(self.services.check, id)
         return await event_stream(request, self.services, id, after)
 
-    def index(self, id: str) -> Response:
+    def index(self, request: Request, id: str) -> Response:
         """Lead to the list of packages, beside their folders: its links are relative."""
-        self._file(id, "index.html")
+        self._file(request, id, "index.html")
         return RedirectResponse(address_of(id, "index.html"), 307)
 
     def file_named(self, name: str) -> Any:
         """Return the route of a file that a result has once."""
 
-        def send(id: str) -> Response:
-            return self._file(id, name)
+        def send(request: Request, id: str) -> Response:
+            return self._file(request, id, name)
 
         send.__doc__ = f"Send {name}; findings of the static rules come before the trial's."
         return send
@@ -216,18 +220,20 @@ class Api(Record):
     def file_of_package(self, name: str) -> Any:
         """Return the route of a file that each of several packages has."""
 
-        def send(id: str, folder: str) -> Response:
-            return self._file(id, f"{folder}/{name}")
+        def send(request: Request, id: str, folder: str) -> Response:
+            return self._file(request, id, f"{folder}/{name}")
 
         send.__doc__ = f"Send {name} of one of several packages, by its folder."
         return send
 
-    def _file(self, id: str, name: str) -> Response:
+    def _file(self, request: Request, id: str, name: str) -> Response:
+        """Return a file of a result; to browsers, a page leads back to the check."""
         state = self.services.check(id)
         path = self.services.store.file(state.result, name) if state.result else None
         if path is not None:
             with suppress(FileNotFoundError):  # it is deleted just now
-                return file_response(path)
+                in_browser = "text/html" in request.headers.get("accept", "")
+                return file_response(path, self._page(request, id) if in_browser else "")
         error = "The check has no such file, or not yet."
         advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
         raise Refused(404, error, advice, "not found")
