@@ -100,23 +100,22 @@ def file_response(path: Path, back: str = "") -> Response:
 
     Args:
         path: Of the file.
-        back: Address of the check, to which a page gets a link at its top; empty for none. The
-            file itself cannot hold it, as checks share it.
+        back: Address to which a page gets a link at its top, relative to its own: what is sent is
+            the same for all checks that share the file. Empty for none.
 
     Raises:
         FileNotFoundError: It has been deleted.
     """
     kind, file = KINDS[path.name], path.open("rb")
-    size, begin = os.fstat(file.fileno()).st_size, b""
     headers = {}
+    begin = file.read(_BEGIN)
     if kind.startswith("text/html"):
-        begin = file.read(_BEGIN)
         headers[POLICY] = _policy(begin)
-        linked = _with_link(begin, back) if back else begin
-        begin, size = linked, size + len(linked) - len(begin)
+        begin = _with_link(begin, back) if back else begin
     if path.name == "robot.glb":
         headers["content-disposition"] = f'attachment; filename="{path.name}"'
-    headers["content-length"] = str(size)
+    left = os.fstat(file.fileno()).st_size - file.tell()
+    headers["content-length"] = str(len(begin) + left)
     return StreamingResponse(_pieces(begin, file), media_type=kind, headers=headers)
 
 
