@@ -15,10 +15,19 @@ from pathlib import Path
 
 import pytest
 
-from checker.service.jobs.check import check_upload, stored_result
-from checker.service.jobs.children import Children
+from checker.base.sandbox.task import DISTURBED, FAILED, OUT_OF_MEMORY
+from checker.service.jobs.check import LIMITS, check_upload, failure, stored_result
+from checker.service.jobs.children import Children, Ended
 from checker.service.jobs.exchange import StageLimits
-from checker.service.jobs.outcome import Cancelled, Checked, Died, Disturbed, Outcome, Refused
+from checker.service.jobs.outcome import (
+    FAILED_INSIDE,
+    Cancelled,
+    Checked,
+    Died,
+    Disturbed,
+    Outcome,
+    Refused,
+)
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
 from tests.jobs.disk import full, needs_mount, small_disk
@@ -312,7 +321,6 @@ def test_the_machine_has_no_time(store: Store) -> None:
 @pytest.mark.parametrize(
     ("limits", "model", "reason"),
     [
-        (StageLimits(seconds=1.0), LARGE, "it needs more than 1 s of processor time; check"),
         # A small model is checked in the memory that was taken before there was a limit.
         (StageLimits(seconds=60.0, memory=60_000_000), LARGE, "it "),
         (
@@ -327,6 +335,29 @@ def test_a_limit_is_reached(limits: StageLimits, model: bytes, reason: str, stor
     assert isinstance(outcome, Died)
     assert outcome.reason.startswith(f"the checker could not finish: {reason}")
     assert "Traceback" not in outcome.reason
+
+
+ENDS = {
+    -signal.SIGXCPU: Died(
+        "the checker could not finish: it needs more than 300 s of processor time; check fewer "
+        "packages at a time"
+    ),
+    OUT_OF_MEMORY: Died(
+        "the checker could not finish: it needs more than 4 GB of memory; check fewer packages at "
+        "a time"
+    ),
+    -signal.SIGSEGV: Died(FAILED_INSIDE),
+    FAILED: Died(FAILED_INSIDE),
+    -signal.SIGKILL: Disturbed("its process was killed (SIGKILL)"),
+    -signal.SIGTERM: Disturbed("its process was killed (SIGTERM)"),
+    DISTURBED: Disturbed("the disk or the system of the service failed"),
+    None: Disturbed("its process could not be started, or was ended with all others"),
+}
+
+
+@pytest.mark.parametrize("code", ENDS)
+def test_what_the_package_does_is_told_from_what_befalls_its_check(code: int | None) -> None:
+    assert failure(Ended(code), LIMITS[Stage.STATIC]) == ENDS[code]
 
 
 def test_last_words_are_logged(store: Store, caplog: pytest.LogCaptureFixture) -> None:

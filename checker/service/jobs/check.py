@@ -135,7 +135,7 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
     last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
     how = "overdue" if ended.overdue else f"code {ended.code}"
     _LOG.error("the child process ended (%s) with the output: %s", how, last_words)
-    return _failure(ended, limits)
+    return failure(ended, limits)
 
 
 def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome:
@@ -213,7 +213,7 @@ def _parsed(data: bytes) -> Any:
         return None
 
 
-def _failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
+def failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
     """Say what has ended a process: its own work, or somebody from outside."""
     if ended.overdue:
         return Disturbed(f"the service had no time for it within {limits.clock_seconds:g} s")
