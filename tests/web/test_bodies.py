@@ -79,6 +79,15 @@ def test_what_is_short_or_of_another_kind_is_sent_as_it_is(
     assert "content-encoding" not in client.get(address).headers
 
 
+@pytest.mark.parametrize("where", ["/api/checks", "/checks"])
+def test_the_answer_to_an_upload_is_sent_as_it_is(client: TestClient, where: str) -> None:
+    """It is the one that tells of something new what nobody else may know."""
+    files, takes = {"file": ("a.sdf", b"<sdf/>")}, {"Accept-Encoding": "gzip"}
+    answer = client.post(where, files=files, headers=takes, follow_redirects=False)
+    assert answer.status_code in (201, 303)
+    assert "content-encoding" not in answer.headers
+
+
 @pytest.mark.parametrize(
     ("said", "takes"),
     [

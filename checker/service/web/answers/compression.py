@@ -1,7 +1,7 @@
 """Answers in fewer bytes: gzip, for clients that take it.
 
-Nothing in an answer is secret from who may ask for it, and nobody can make a browser ask for more
-than it shows: what lengths of compressed answers tell (BREACH) is in docs/security.md.
+No answer that brings a secret is compressed, such as that to an upload: its length would tell of it
+(BREACH; docs/security.md).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def takes_gzip(headers: Headers) -> bool:
 
 
 class Compression(Record):
-    """Compresses answers that come whole: pages, and what the API tells."""
+    """Compresses answers to GET that come whole: pages, and what the API tells."""
 
     app: ASGIApp
 
@@ -55,7 +55,7 @@ class Compression(Record):
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        takes = takes_gzip(Headers(scope=scope))
+        takes = scope["method"] == "GET" and takes_gzip(Headers(scope=scope))
         start: Message = {}
 
         async def compressing(message: Message) -> None:
