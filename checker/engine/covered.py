@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from checker.base.record import Record
 from checker.finding import Place, Severity
@@ -37,17 +37,16 @@ def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parte
         severity_of: Tells how grave a finding of a rule is.
     """
     covering = {id for _, found in said for finding in found for id in finding.covered_by}
-    places: dict[str, list[tuple[int, tuple[Place, ...]]]] = {}
+    told = {rule.id: _Told() for rule, _ in said if rule.id in covering}
     for rule, found in said:
-        if rule.id in covering:
-            places[rule.id] = [(severity_of(rule, each).rank, each.places) for each in found]
+        if rule.id in told:
+            for each in found:
+                told[rule.id].add(each.places, severity_of(rule, each).rank)
 
     def is_covered(rule: Rule, finding: Finding) -> bool:
         own = severity_of(rule, finding).rank
-        return any(
-            _tells([at for rank, at in places.get(other, ()) if rank <= own], finding)
-            for other in finding.covered_by
-        )
+        others = (told[other] for other in finding.covered_by if other in told)
+        return any(other.tells(finding.places, own) for other in others)
 
     parted = []
     for rule, found in said:
@@ -58,22 +57,42 @@ def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parte
     return parted
 
 
-def _tells(told: Sequence[tuple[Place, ...]], finding: Finding) -> bool:
-    """Say whether places of findings, the main one first, are those of another finding."""
-    main, *suspects = finding.places
-    if any(_same(at[0], main) for at in told):
-        return True
-    known = [place for at in told for place in at]
-    return bool(suspects) and all(
-        any(_within(place, suspect) for place in known) for suspect in suspects
-    )
+class _Told:
+    """Places that a rule reports, each with the rank of the gravest finding there."""
+
+    def __init__(self) -> None:
+        """Hold none yet."""
+        self._main: dict[tuple[str, int, str], int] = {}
+        self._around: dict[tuple[str, str], int] = {}
+
+    def add(self, places: Sequence[Place], rank: int) -> None:
+        """Add the places of a finding, the main one first."""
+        main = _key(places[0])
+        self._main[main] = min(rank, self._main.get(main, rank))
+        for place in places:
+            for element in _around(place.element):
+                at = place.file, element
+                self._around[at] = min(rank, self._around.get(at, rank))
+
+    def tells(self, places: Sequence[Place], rank: int) -> bool:
+        """Say whether findings of a rank, or graver ones, have the places of another finding."""
+        main, *suspects = places
+        if self._main.get(_key(main), rank + 1) <= rank:
+            return True
+        return bool(suspects) and all(
+            bool(place.element) and self._around.get((place.file, place.element), rank + 1) <= rank
+            for place in suspects
+        )
 
 
-def _same(one: Place, other: Place) -> bool:
-    return (one.file, one.line, one.element) == (other.file, other.line, other.element)
+def _key(place: Place) -> tuple[str, int, str]:
+    return place.file, place.line, place.element
 
 
-def _within(place: Place, part: Place) -> bool:
-    """Say whether a place is an element or in it."""
-    inside = place.element == part.element or place.element.startswith(f"{part.element}/")
-    return bool(part.element) and place.file == part.file and inside
+def _around(element: str) -> Iterator[str]:
+    """Yield an element and those around it, by their paths."""
+    yield element
+    end = element.rfind("/")
+    while end > 0:
+        yield element[:end]
+        end = element.rfind("/", 0, end)

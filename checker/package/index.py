@@ -111,6 +111,18 @@ class FileIndex(Record, eq=False, dict=True):
         alike = self._by_stem.get(_stem(path), ())
         return tuple(sorted(alike, key=lambda other: other.casefold() != path.casefold()))
 
+    def ending(self, path: str) -> list[str]:
+        """Return the files in some folder whose paths end in a path."""
+        alike = self._by_name.get(posixpath.basename(path), ())
+        return [other for other in alike if other.endswith(f"/{path}")]
+
+    @cached_property
+    def _by_name(self) -> dict[str, list[str]]:
+        names: dict[str, list[str]] = {}
+        for entry in self.files:
+            names.setdefault(posixpath.basename(entry.path), []).append(entry.path)
+        return names
+
     @cached_property
     def _by_stem(self) -> dict[str, list[str]]:
         stems: dict[str, list[str]] = {}

@@ -54,7 +54,7 @@ def source_of(package: Package, path: str) -> str | None:
 
 def _only_one(package: Package, path: str) -> str | None:
     """Return the one file whose path ends so, where nothing tells how files are installed."""
-    found = [file.path for file in package.index.files if file.path.endswith(f"/{path}")]
+    found = package.index.ending(path)
     return found[0] if len(found) == 1 else None
 
 

@@ -44,9 +44,11 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
         yield unchecked(reason)
     own = _own_libraries(package, context.release)
     names = Suggestions([*robot.links_by_name, *(sensor.name.value for sensor in robot.sensors)])
+    published = _Published(robot, context.release)
+    named = _topics_of_plugins(robot)
     for bridge in launch.bridges:
-        fault = _fault(robot, bridge, names, context.release)
-        if any(_names(plugin, bridge.ign_topic) for plugin in robot.plugins):
+        fault = _fault(robot, bridge, names, published)
+        if comparable(bridge.ign_topic) in named:
             continue
         if fault and (plugin := _publisher(robot, bridge, own, context.release)):
             yield unchecked(f"plugin {plugin.filename.value} may publish {bridge.ign_topic} itself")
@@ -56,7 +58,7 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
         # A template that is switched off serves other configurations.
         if bridge.node.assumed_from:
             continue
-        if fault := _fault(robot, bridge, names, context.release):
+        if fault := _fault(robot, bridge, names, published):
             message = _message(bridge, "is switched off, and if switched on listens", fault)
             yield finding(bridge, message, severity=Severity.INFO, key="switched off")
 
@@ -68,7 +70,27 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
     return f"bridge {node.name!r} {listens} to {fault}"
 
 
-def _fault(robot: Robot, bridge: Bridge, names: Suggestions, release: str) -> str | None:
+class _Published:
+    """What sensors publish by default, worked out once for each link."""
+
+    def __init__(self, robot: Robot, release: str) -> None:
+        self._robot, self._release = robot, release
+        self._of_links: dict[str, set[str]] = {}
+
+    def by(self, sensor: Sensor) -> list[str]:
+        """Return the topics of a sensor."""
+        channels = sensor_channels(sensor, self._release)
+        return [topic for channel in channels for topic in channel.topics]
+
+    def on(self, link: Link) -> set[str]:
+        """Return the topics of all sensors of a link."""
+        name = link.name.value
+        if name not in self._of_links:
+            self._of_links[name] = {topic for sensor in link.sensors for topic in self.by(sensor)}
+        return self._of_links[name]
+
+
+def _fault(robot: Robot, bridge: Bridge, names: Suggestions, published: _Published) -> str | None:
     """Return what a bridge listens to that nothing publishes."""
     topic = bridge.sensor
     if topic is None or bridge.node.usual or "$(" in bridge.ign_topic:
@@ -76,25 +98,21 @@ def _fault(robot: Robot, bridge: Bridge, names: Suggestions, release: str) -> st
     link = robot.links_by_name.get(topic.link)
     if link is None:
         return f"link {topic.link!r}, which the model does not have{names.hint(topic.link)}"
-    if any(comparable(bridge.ign_topic) in _published(s, release) for s in link.sensors):
+    if comparable(bridge.ign_topic) in published.on(link):
         return None
     sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
     if sensor is None:
         return (
             f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
         )
-    published = _published(sensor, release)
-    if not published or sensor.topic.stated:
+    topics = published.by(sensor)
+    if not topics or sensor.topic.stated:
         return None
-    expected = ", ".join(sorted(_below(sensor, each) for each in published))
+    expected = ", ".join(sorted(_below(sensor, each) for each in topics))
     return (
         f"{topic.suffix or 'no topic'!r} of {sensor.type.value} {topic.sensor!r}, "
         f"which publishes {expected}"
     )
-
-
-def _published(sensor: Sensor, release: str) -> list[str]:
-    return [topic for channel in sensor_channels(sensor, release) for topic in channel.topics]
 
 
 def _below(sensor: Sensor, topic: str) -> str:
@@ -138,10 +156,11 @@ def _plugins_in(link: Link) -> list[Plugin]:
     return [read_plugin(element) for element in link.element.all("plugin")]
 
 
-def _names(plugin: Plugin, topic: str) -> bool:
-    """Say whether a parameter of a plugin is a topic."""
-    texts = (element.text.value.strip() for element in plugin.element.descendants())
-    return any("/" in text and comparable(text) == comparable(topic) for text in texts)
+def _topics_of_plugins(robot: Robot) -> set[str]:
+    """Return what parameters of plugins name with a slash, made comparable as topics."""
+    elements = (inner for plugin in robot.plugins for inner in plugin.element.descendants())
+    texts = (element.text.value.strip() for element in elements)
+    return {comparable(text) for text in texts if "/" in text}
 
 
 def _whereabouts(robot: Robot, topic: SensorTopic, names: Suggestions) -> str:

@@ -38,6 +38,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if kind is None and element.tag not in all_tags(sdf.version) and element.tag not in frames
     ]
     anywhere = Suggestions(all_tags(sdf.version))
+    parents = {element.parent or sdf.root for element in unknown}
+    there = {parent: {child.tag for child in parent.children} for parent in parents}
     for element, siblings in _with_known_siblings(sdf, unknown):
         sure = siblings.sure(element.tag)
         near = siblings.near(element.tag) or anywhere.near(element.tag)
@@ -51,7 +53,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             f"{sdf.version or '1.6'}{hint}",
             severity=Severity.ERROR if grave else None,
             key=f"{parent.tag}/{element.tag}",
-            fix=_renamed(element, sure) if sure and not parent.all(sure) else None,
+            fix=_renamed(element, sure) if sure and sure not in there[parent] else None,
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from time import process_time
 
 import pytest
 from hypothesis import example, given, settings
@@ -35,6 +36,33 @@ def test_a_billion_triangles_in_84_bytes() -> None:
     data = binary_stl([], declared=1_000_000_000).replace(b"solid", b"-----")
     reason = fault(data, "a.stl")
     assert reason == "is cut off: it declares 1,000,000,000 triangles, but its 84 bytes contain 0"
+
+
+def shown_by(levels: str, triangles: int = 1) -> bytes:
+    """Return a COLLADA file whose scene shows the node `top`."""
+    nodes = f'<library_nodes><node id="n0"><instance_geometry url="#part"/></node>{levels}'
+    file = dae(CUBE * triangles, more=f"{nodes}</library_nodes>")
+    return file.replace(b'<instance_geometry url="#part"/>\n', b'<instance_node url="#top"/>\n')
+
+
+def test_nodes_that_show_one_another() -> None:
+    """Nine levels of ten say a billion; a node that shows itself, endlessly many."""
+    levels = "".join(
+        f'<node id="{"top" if level == 9 else f"n{level}"}">'
+        + f'<instance_node url="#n{level - 1}"/>' * 10
+        + "</node>"
+        for level in range(1, 10)
+    )
+    begun = process_time()
+    reason = fault(shown_by(levels), "a.dae", MeshTrouble.NOT_LOOKED_AT)
+    assert reason == "shows more than 50,000 nodes, each as often as others name it"
+    assert process_time() - begun < 30.0
+
+
+def test_more_triangles_than_are_read() -> None:
+    top = '<node id="top">' + '<instance_node url="#n0"/>' * 200 + "</node>"
+    reason = fault(shown_by(top, triangles=1000), "a.dae", MeshTrouble.NOT_LOOKED_AT)
+    assert reason == "shows more than 2,000,000 triangles"
 
 
 def test_a_binary_stl_cut_off() -> None:

@@ -138,19 +138,12 @@ def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
 def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(process, "SECONDS_FOR_ONE", 2)
-    # Nodes that show others ten times each, nine levels deep: a billion cubes.
-    levels = "".join(
-        f'<node id="n{level}">' + f'<instance_node url="#n{level - 1}"/>' * 10 + "</node>"
-        for level in range(1, 10)
-    )
-    nodes = f'<node id="n0"><instance_geometry url="#part"/></node>{levels}'
-    bomb = dae(box(1, 1, 1), more=f"<library_nodes>{nodes}</library_nodes>")
-    bomb = bomb.replace(b'<instance_geometry url="#part"/>\n', b'<instance_node url="#n9"/>\n')
+    monkeypatch.setattr(process, "SECONDS_FOR_ONE", 1)
+    endless = obj(box(1, 1, 1)) + b"\nf 1 2 3" * 4_000_000
     first, killer, last = read(
         {
             "meshes/a.stl": CUBE,
-            "meshes/b.dae": bomb,
+            "meshes/b.obj": endless,
             "meshes/c.obj": obj(box(1, 2, 3)),
         },
         tmp_path,
@@ -159,6 +152,7 @@ def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     assert isinstance(last, Mesh)
     assert isinstance(killer, MeshFault)
     assert killer.trouble is MeshTrouble.NOT_LOOKED_AT
+    assert killer.reason == "was not read: its reader needs more than 1 s of processor time"
 
 
 def test_results_are_kept_and_no_library_is_loaded_for_them(tmp_path: Path) -> None:

@@ -19,6 +19,11 @@ from checker.model.mesh import NOT_XML, MeshTrouble
 from checker.physics.mesh.content import MeshContent, NoSurface, Piece
 from checker.physics.mesh.dae_materials import DaeMaterials, local_name, places_in_picture
 
+NODES_LIMIT = 50_000
+"""Each as often as it is shown; the largest real file has some hundred."""
+TRIANGLES_LIMIT = 2_000_000
+"""Likewise; as many as the largest STL file can have that is read."""
+
 
 def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     """Return the triangles of the scene.
@@ -62,12 +67,12 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[st
         node that shows it; faults, as sentences.
 
     Raises:
-        NoSurface: A triangle names a corner below 0.
+        NoSurface: A triangle names a corner below 0, or there are too many.
     """
     import collada
 
     document = collada.Collada(io.BytesIO(bare), ignore=[collada.DaeError])
-    sets = []
+    sets, count = [], 0
     for part, geometry in _placed(document.scene.nodes) if document.scene is not None else ():
         for primitive in geometry.primitives():
             triangles = _triangles(primitive)
@@ -76,6 +81,10 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[st
                 if triangles.vertex_index.size and triangles.vertex_index.min() < 0:
                     raise NoSurface("names a corner below 0")
                 sets.append((str(geometry.original.id), triangles, part))
+                count += len(triangles)
+                if count > TRIANGLES_LIMIT:
+                    reason = f"shows more than {TRIANGLES_LIMIT:,} triangles"
+                    raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)
     faults = [f"Part of it cannot be read: {error.msg}." for error in document.errors]
     return sets, list(dict.fromkeys(faults))
 
@@ -84,12 +93,21 @@ def _placed(nodes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
     """Yield the geometry of nodes in the scene, each with the name of the node that shows it.
 
     That is Gazebo's name of a submesh. A node without one has that of the node around it.
+
+    Raises:
+        NoSurface: There are too many.
     """
     from collada.scene import GeometryNode, Node, NodeNode
 
     waiting: list[tuple[Any, Any, str]] = [(node, None, "") for node in reversed(list(nodes))]
+    seen = 0
     while waiting:
         node, matrix, name = waiting.pop()
+        seen += 1
+        if seen > NODES_LIMIT:
+            # Nodes that show one another multiply: a hundred of them say as much as 2^100.
+            reason = f"shows more than {NODES_LIMIT:,} nodes, each as often as others name it"
+            raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)
         if isinstance(node, GeometryNode):
             yield from ((name, geometry) for geometry in node.objects("geometry", matrix))
         elif isinstance(node, NodeNode):
