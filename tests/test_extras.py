@@ -157,4 +157,4 @@ def test_the_hook_with_trial_brings_physics() -> None:
 
 
 def _name(requirement: str) -> str:
-    return re.split(r"[><=]", requirement)[0]
+    return re.split(r"[><=\[]", requirement)[0]

@@ -161,12 +161,12 @@ print(*in_forks([waits] * 4, 5, forks_time() + 1.1, "came too late"))
 def test_what_takes_long_is_done_after_all_others() -> None:
     body = """
 def long():
-    until = sum(os.times()[:2]) + 2.5
+    until = sum(os.times()[:2]) + 3.2
     while sum(os.times()[:2]) < until:
         pass
     return b"long"
 forked_work._BRIEF = 1
-print(*in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 2.9, "came too late"))
+print(*in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 3.9, "came too late"))
 """
     (line,) = run(body)
     assert line.startswith("WorkerFailed")

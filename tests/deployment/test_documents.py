@@ -95,8 +95,8 @@ def test_limits_are_those_of_the_code() -> None:
         f"{index.ratio} times its packed size"
     )
     assert told["static check"] == (
-        f"{static.seconds:g} s, {static.memory / 1e9:g} GB of address space in each process, "
-        f"{static.open_files} open files"
+        f"{static.seconds:g} s of processor time and {static.memory / 1e9:g} GB of address space "
+        f"in each process, {static.open_files} open files"
     )
     assert told["check with trial"].startswith(f"{trial.seconds:g} s")
     assert told["streams of events"].startswith(

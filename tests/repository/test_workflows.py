@@ -90,7 +90,7 @@ def test_whatever_is_asked_for_has_a_version() -> None:
 
 
 def _name(requirement: str) -> str:
-    return re.split(r"[=>]", requirement)[0].lower().replace("_", "-")
+    return re.split(r"[=>\[]", requirement)[0].lower().replace("_", "-")
 
 
 def test_only_what_publishes_may_write() -> None:

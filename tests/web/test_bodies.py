@@ -68,7 +68,7 @@ def test_a_client_that_takes_gzip_gets_less(client: TestClient, address: str) ->
     assert [each for each in packed.headers.items() if each[0] not in changed] == [
         each for each in plain.headers.items() if each[0] not in changed
     ]
-    assert plain.headers["vary"] == "Accept-Encoding"
+    assert "Accept-Encoding" in plain.headers["vary"]
     assert client.head(address).headers == packed.headers
 
 

@@ -56,7 +56,7 @@ _UPLOAD = {
             "required": False,
             "description": "A random text of the client's own. The same upload with the same one "
             "is the same check: send it again where the answer got lost.",
-            "schema": {"type": "string", "pattern": f"^{receipts.KEY_PATTERN}$"},
+            "schema": {"type": "string", "pattern": f"^{receipts.KEY_PATTERN.pattern}$"},
         }
     ],
 }
