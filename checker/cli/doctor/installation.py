@@ -162,7 +162,9 @@ def _viewer() -> Result:
 
 
 LEAST_PYTHON = (3, 11)
-_NEEDED = re.compile(r"(([\w.-]+)(?:\[\w+\])?\s*>=\s*([\d.]+))(?:\s*;\s*extra\s*==\s*['\"](\w+)['\"])?")
+_NEEDED = re.compile(
+    r"(([\w.-]+)(?:\[\w+\])?\s*>=\s*([\d.]+))(?:\s*;\s*extra\s*==\s*['\"](\w+)['\"])?"
+)
 """A requirement of `pyproject.toml`, of everybody or of an extra."""
 
 
