@@ -33,10 +33,22 @@ class Refused(Record):
 
 
 class Died(Record):
-    """The checker could not finish: it ran into a limit, or into a fault of its own.
+    """The checker could not finish, and would not the next time: a limit, or a fault of its own.
 
     Attributes:
         reason: One sentence that begins with `UNFINISHED`.
+    """
+
+    reason: str
+
+
+class Disturbed(Record):
+    """It came to nothing for a cause that lies outside of the package, and may pass.
+
+    It was killed, the disk was full, or the machine had no time for it.
+
+    Attributes:
+        reason: What happened, the beginning of a sentence.
     """
 
     reason: str
@@ -51,4 +63,4 @@ UNFINISHED = "the checker could not finish"
 FAILED_INSIDE = (
     f"{UNFINISHED}: it failed with an internal error; the operator finds the cause in the log"
 )
-Outcome = Checked | Refused | Died | Cancelled
+Outcome = Checked | Refused | Died | Disturbed | Cancelled

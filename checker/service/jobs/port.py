@@ -41,11 +41,14 @@ class Order(Record):
         name: Of the uploaded file, made safe by `service.store.file_names`; its ending tells its
             kind.
         profile: Of the check; empty for what suits.
+        sender: Who asks, so that none of them keeps all others waiting; empty for anybody. Known
+            until the check is over.
     """
 
     upload: str
     name: str
     profile: str = ""
+    sender: str = ""
 
 
 class State(Record):

@@ -47,7 +47,7 @@ RESULT_LIMIT = 1_000_000_000
 CACHE_SECONDS = 86_400.0
 """That parts of a check are kept beyond their last use: for its second stage, and for the same
 upload with another profile."""
-_OURS = ("uploads", "results", "incoming", "parts", "cache", "lock")
+_OURS = ("uploads", "results", "incoming", "parts", "workers", "cache", "lock")
 _KEY = re.compile(r"[0-9a-f]{64}")
 
 
@@ -163,6 +163,11 @@ class Store(Record):
             # 0.1.0 shared what it had worked out between uploads.
             with suppress(FileNotFoundError):
                 (self.folder / "cache").rename(place / "cache")
+
+    @property
+    def workers(self) -> Path:
+        """The folder of `checker.service.store.life`."""
+        return self.folder / "workers"
 
     def sweep(self) -> None:
         """Remove the temporary files of processes that have died."""

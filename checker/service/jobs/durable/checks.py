@@ -1,4 +1,4 @@
-"""What DBOS cannot know of a check: what was asked for, how far it is, and what was told of it.
+"""The table of checks: what was asked for, how far it is, who has it in hand, and what was told.
 
 Every change is one transaction that holds only if the check is where it was thought to be: what a
 worker says that was taken for dead and comes back is not written. Checks go by their keys here and
@@ -18,21 +18,37 @@ from msgspec import field
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.service.jobs.durable.database import now
-from checker.service.jobs.durable.tables import CHECKS, EVENTS
-from checker.service.jobs.durable.workflows import WAITS
+from checker.service.jobs.durable.database import WAITS, now
+from checker.service.jobs.durable.queue import STAGES, ahead, next_in, queue_of, rank
+from checker.service.jobs.durable.tables import CHECKS, EVENTS, WORKERS
 from checker.service.jobs.outcome import UNFINISHED
 from checker.service.jobs.port import Event, Order, Stage, State
 
-WORKERS_LOST = 3
-"""A check that so many workers died of is not given to another one."""
-GIVEN_UP = f"{UNFINISHED}: its worker process ended three times"
+PAUSES = (1.0, 5.0, 30.0, 120.0)
+"""Seconds before each further try of what came to nothing through no fault of the package. A disk
+that is full, or a machine that is out of memory, may need minutes."""
+TRIES = len(PAUSES) + 1
+"""The last one is alone on its machine."""
+WORKER_ENDED = "its worker process ended"
 EVENTS_AT_ONCE = 100
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
-_BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
-Change = Callable[[sa.Connection], None]
-"""What holds as a part of a transaction, or not at all."""
+_BEGINS = {
+    Stage.STATIC: "the static rules are running",
+    Stage.TRIAL: "the trial is running",
+}
+
+
+class Taker(Record):
+    """A worker process that takes checks.
+
+    Attributes:
+        name: No other one has it at the same time.
+        host: Machine or container that it shares with others.
+    """
+
+    name: str
+    host: str
 
 
 class Held(Record):
@@ -43,12 +59,14 @@ class Held(Record):
         worker: Its name.
         stage: What it does.
         order: What was asked for.
+        is_last: Whether this is its last try, to be made alone.
     """
 
     id: str
     worker: str
     stage: Stage
     order: Order
+    is_last: bool = False
 
 
 class Step(Record):
@@ -77,7 +95,7 @@ class Checks(Record, dict=True):
     engine: sa.Engine
     _writing: Lock = field(default_factory=Lock)
 
-    def enter(self, id: str, order: Order, keep_seconds: float, step: Step, then: Change) -> None:
+    def enter(self, id: str, order: Order, keep_seconds: float, step: Step, cost: float) -> None:
         """Write down a new check.
 
         Args:
@@ -85,7 +103,7 @@ class Checks(Record, dict=True):
             order: What is asked for.
             keep_seconds: After which all of it is deleted.
             step: What it begins with.
-            then: What else is to hold, or nothing does.
+            cost: Seconds that its first stage takes, as far as one can tell.
         """
         entry = {
             "id": id,
@@ -93,62 +111,119 @@ class Checks(Record, dict=True):
             "name": order.name,
             "profile": order.profile,
             "keep_seconds": keep_seconds,
+            "cost": cost,
+            "sender": "" if step.stage.is_final else order.sender,
             **_values(step),
         }
         # SQLite has writers ask again after a while; among many, some would wait for seconds.
         with self._writing, self.engine.begin() as connection:
+            entry["rank"] = rank(connection, Stage.STATIC, order.sender, cost)
             connection.execute(self._entering, entry)
             self._tell(connection, id, step)
-            then(connection)
 
-    def begin(self, id: str, worker: str, step: Step) -> Held | None:
-        """Write down that a worker begins a stage of a check.
-
-        A worker that has it in hand still is dead: only then its workflow is run again.
+    def take(self, taker: Taker, stage: Stage, *, others: bool = False) -> Held | None:
+        """Give the next check of a queue into the hands of a worker.
 
         Args:
-            id: Key of the check.
-            worker: Name of the worker.
-            step: What it does now; its stage says what the check must have come to.
+            taker: The worker.
+            stage: Of the queue.
+            others: Whether only senders count of whom nothing is in hand.
 
         Returns:
-            None if there is nothing to do any more: the check is over or further on.
+            None if there is none, or if one is in hand that has to be alone.
         """
-        before = (Stage.QUEUED, step.stage) if step.stage is Stage.STATIC else (step.stage,)
-        with self.engine.begin() as connection:
-            row = connection.execute(
-                sa.select(CHECKS).where(CHECKS.c.id == id).with_for_update()
-            ).one_or_none()
-            if row is None or row.stage not in before:
-                return None
-            losses = [*row.losses, *_loss(row)]
-            if len(losses) >= WORKERS_LOST:
-                given_up = Step("end", Stage.FAILED, GIVEN_UP, data={"losses": losses})
-                self._move(connection, id, given_up, losses=losses)
-                return None
-            self._move(connection, id, step, worker=worker, losses=losses)
-            if len(losses) > len(row.losses):
-                again = (
-                    f"starts again: its worker process ended ({len(losses)} of {WORKERS_LOST} "
-                    "times)"
-                )
-                self._tell(connection, id, Step(f"lost{len(losses)}", step.stage, again))
-        order = Order(row.upload, row.name, row.profile)
-        return Held(id, worker, step.stage, order)
+        question = next_in(stage, now(self.engine), others=others)
+        while True:
+            with self.engine.begin() as connection:
+                row = connection.execute(question).one_or_none()
+                if row is None or self._is_held_up(connection, taker):
+                    return None
+                step = Step(stage.value, stage, _BEGINS[stage])
+                # Another worker may have been faster.
+                if self._move(connection, row.id, step, *_as_in(row), worker=taker.name):
+                    order = Order(row.upload, row.name, row.profile, row.sender)
+                    return Held(row.id, taker.name, stage, order, row.tries >= TRIES - 1)
 
-    def settle(self, held: Held, step: Step, then: Change | None = None) -> bool:
+    def _is_held_up(self, connection: sa.Connection, taker: Taker) -> bool:
+        """Whether a check on the machine of a worker has to be alone."""
+        alone = self._on_host(taker.host).where(CHECKS.c.tries >= TRIES - 1)
+        return connection.execute(alone).first() is not None
+
+    def is_alone(self, held: Held, taker: Taker) -> bool:
+        """Whether nothing else is in hand on the machine of a worker."""
+        # Of two that have to be alone, the first goes on.
+        first = sa.or_(CHECKS.c.tries < TRIES - 1, CHECKS.c.id < held.id)
+        others = self._on_host(taker.host).where(CHECKS.c.id != held.id, first)
+        with self.engine.connect() as connection:
+            return connection.execute(others).first() is None
+
+    def _on_host(self, host: str) -> sa.Select[tuple[str]]:
+        """Return the question for checks in hand on a machine."""
+        workers = sa.select(WORKERS.c.name).where(WORKERS.c.host == host)
+        in_hand = (CHECKS.c.stage.not_in(_FINAL), CHECKS.c.worker.in_(workers))
+        return sa.select(CHECKS.c.id).where(*in_hand).limit(1)
+
+    def settle(self, held: Held, step: Step, cost: float = 0.0) -> bool:
         """Write down what a stage has come to; False if the worker has lost it before.
 
         Args:
             held: By the worker that asks.
             step: What the stage has come to.
-            then: What else is to hold, or nothing does.
+            cost: Seconds that the next stage takes, as far as one can tell.
         """
         with self.engine.begin() as connection:
-            moved = self._move(connection, held.id, step, *_is(held))
-            if moved and then is not None:
-                then(connection)
-        return moved
+            place: dict[str, Any] = {}
+            if not step.stage.is_final:
+                at = rank(connection, step.stage, held.order.sender, cost)
+                place = {"cost": cost, "rank": at}
+            return self._move(connection, held.id, step, *_is(held), **place)
+
+    def put_off(self, held: Held, reason: str) -> bool:
+        """Have a stage tried again later, or give it up; False if the worker has lost it before.
+
+        Args:
+            held: By the worker that asks.
+            reason: What happened to it, no fault of the package; the beginning of a sentence.
+        """
+        with self.engine.begin() as connection:
+            row = connection.execute(sa.select(CHECKS).where(*_is(held))).one_or_none()
+            return row is not None and self._again(connection, row, reason)
+
+    def recover(self, is_dead: Callable[[str], bool]) -> Sequence[str]:
+        """Have all be tried again that dead workers have in hand, and return their names.
+
+        Args:
+            is_dead: Whether a worker is dead, by its name.
+        """
+        held = sa.select(CHECKS).where(CHECKS.c.stage.not_in(_FINAL), CHECKS.c.worker != "")
+        with self.engine.connect() as connection:
+            rows = connection.execute(held).all()
+        dead = {name for name in {row.worker for row in rows} if is_dead(name)}
+        for row in rows:
+            if row.worker in dead:
+                with self.engine.begin() as connection:
+                    self._again(connection, row, WORKER_ENDED)
+        return sorted(dead)
+
+    def _again(self, connection: sa.Connection, row: sa.Row[Any], reason: str) -> bool:
+        """Let go of a check that came to nothing, if it is still as it was."""
+        loss = {
+            "worker": row.worker,
+            "stage": row.stage,
+            "found": round(time.time(), 1),
+            "reason": _storable(reason),
+        }
+        losses, tries = [*row.losses, loss], row.tries + 1
+        if tries >= TRIES:
+            words = f"{UNFINISHED}: {reason}; it was tried {TRIES} times, at last alone"
+            end = Step("end", Stage.FAILED, words, data={"losses": losses})
+            return self._move(connection, row.id, end, *_as_in(row), losses=losses, tries=tries)
+        pause = PAUSES[row.tries]
+        words = f"starts again in {pause:g} s: {reason} (try {tries + 1} of {TRIES})"
+        step = Step(f"again{tries}", Stage(row.stage), words)
+        moment = now(self.engine) + pause
+        waits = {"losses": losses, "tries": tries, "not_before": moment}
+        return self._move(connection, row.id, step, *_as_in(row), **waits)
 
     def release(self, held: Held) -> bool:
         """Let a stage go unfinished, through no fault of its own; False if it was lost before."""
@@ -180,7 +255,7 @@ class Checks(Record, dict=True):
                 order=Order(row.upload, row.name, row.profile),
                 stage=stage,
                 words=row.words,
-                ahead=_ahead(connection, row) if waits else 0,
+                ahead=ahead(connection, row) if waits else 0,
                 created=row.created,
                 result=row.result,
                 packages=tuple(row.packages),
@@ -205,9 +280,9 @@ class Checks(Record, dict=True):
                 .where(CHECKS.c.stage.not_in(_FINAL))
                 .group_by(CHECKS.c.stage, in_hand)
             ).all()
-        waiting = {"static": 0, "trial": 0}
+        waiting = {stage.value: 0 for stage in STAGES}
         for stage, held, number in counted:
-            waiting["static" if stage in _BEFORE_TRIAL else "trial"] += 0 if held else number
+            waiting[queue_of(stage).value] += 0 if held else number
         return waiting, sum(number for _, held, number in counted if held)
 
     def _move(
@@ -221,6 +296,8 @@ class Checks(Record, dict=True):
         """Take a step, unless the check is over or one of the conditions does not hold."""
         there = (CHECKS.c.id == id, CHECKS.c.stage.not_in(_FINAL), *conditions)
         values = {"worker": ""} | hand | _values(step)
+        if step.stage.is_final:
+            values["sender"] = ""
         moved = connection.execute(sa.update(CHECKS).where(*there).values(values)).rowcount == 1
         if moved:
             self._tell(connection, id, step)
@@ -264,14 +341,6 @@ class Checks(Record, dict=True):
         return sa.insert(EVENTS).from_select(list(event), chosen)
 
 
-def _ahead(connection: sa.Connection, row: sa.Row[Any]) -> int:
-    """Return how many checks wait in the same queue for longer."""
-    stages = _BEFORE_TRIAL if row.stage in _BEFORE_TRIAL else (Stage.TRIAL.value,)
-    longer = (CHECKS.c.stage.in_(stages), CHECKS.c.worker == "", CHECKS.c.created < row.created)
-    question = sa.select(sa.func.count()).select_from(CHECKS).where(*longer)
-    return int(connection.execute(question).scalar_one())
-
-
 def forget(connection: sa.Connection, ids: Collection[str]) -> None:
     """Delete checks and all that was told of them."""
     connection.execute(sa.delete(EVENTS).where(EVENTS.c.check_id.in_(ids)))
@@ -290,11 +359,13 @@ def _is(held: Held) -> Sequence[sa.ColumnElement[bool]]:
     return CHECKS.c.id == held.id, CHECKS.c.worker == held.worker, CHECKS.c.stage == held.stage
 
 
-def _loss(row: sa.Row[Any]) -> list[dict[str, Any]]:
-    """Return the worker that died with a check in hand, if one did."""
-    if not row.worker:
-        return []
-    return [{"worker": row.worker, "stage": row.stage, "found": round(time.time(), 1)}]
+def _as_in(row: sa.Row[Any]) -> Sequence[sa.ColumnElement[bool]]:
+    """Return the conditions under which a check is where a row of the table has it."""
+    return (
+        CHECKS.c.worker == row.worker,
+        CHECKS.c.stage == row.stage,
+        CHECKS.c.tries == row.tries,
+    )
 
 
 def _storable(words: str) -> str:

@@ -12,15 +12,16 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.checks import Checks, Step
-from checker.service.jobs.durable.database import open_database, prepare, reachable
+from checker.service.jobs.durable.database import WAITS, open_database, prepare, reachable
 from checker.service.jobs.durable.tables import key_of_check
 from checker.service.jobs.durable.workers import Workers
-from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.outcome import Checked
 from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
 from checker.service.store.store import Store
 
 _DAY = 86400.0
+_LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
+"""Of the static rules: of real packages, those of a megabyte take about a second."""
 
 
 class DurableJobs(Record, dict=True):
@@ -30,13 +31,11 @@ class DurableJobs(Record, dict=True):
 
     Attributes:
         engine: Of the database, prepared.
-        queues: Of the same database.
         store: Uploads and results.
         retention_days: After which all of a check is deleted.
     """
 
     engine: sa.Engine
-    queues: Queues
     store: Store
     retention_days: float = RETENTION_DAYS
 
@@ -55,14 +54,15 @@ class DurableJobs(Record, dict=True):
         key = key_of_check(id)
         known = stored_result(self.store, order, Stage.TRIAL)
         step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
-
-        def then(connection: sa.Connection) -> None:
-            if known is None:
-                self.queues.put(connection, key, Stage.STATIC)
-
         with reachable():
-            self.checks.enter(key, order, self.retention_days * _DAY, step, then)
+            self.checks.enter(key, order, self.retention_days * _DAY, step, self._cost(order))
         return id
+
+    def _cost(self, order: Order) -> float:
+        """Return the seconds that the static rules take, as far as the size of an upload tells."""
+        upload = self.store.upload(order.upload)
+        size = upload.stat().st_size if upload is not None else 0
+        return _LEAST_SECONDS + size * _SECONDS_PER_BYTE
 
     def status(self, id: str) -> State | None:
         """Return where a check stands; None for an id that was never given or is forgotten."""
@@ -77,12 +77,8 @@ class DurableJobs(Record, dict=True):
 
     def cancel(self, id: str) -> bool:
         """End a check; False if there was nothing to end."""
-        key = key_of_check(id)
         with reachable():
-            was_open = self.checks.cancel(key)
-            if was_open:
-                self.queues.cancel(key)
-        return was_open
+            return self.checks.cancel(key_of_check(id))
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""
@@ -112,10 +108,7 @@ def durable_jobs(
     """
     engine = open_database(database_url)
     prepare(engine)
-    queues = queues_of(engine)
-    with reachable():
-        queues.declare()
-    return DurableJobs(engine, queues, store, retention_days)
+    return DurableJobs(engine, store, retention_days)
 
 
 def finished(checked: Checked) -> Step:

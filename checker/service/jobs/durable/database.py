@@ -14,53 +14,39 @@ import sqlalchemy as sa
 from checker.base.files import tighten
 from checker.base.words import plain, shortened
 from checker.service.jobs.durable.tables import CHECKS, EVENTS, LENGTH, key_of_check, make_tables
-from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.place import DATABASE, data_folder
 
-# Books in which ids of checks stand in the clear, as version 0.1.0 writes them, are hashed.
+# What older versions left: version 0.1.0 wrote ids of checks in the clear, and until then the queues
+# were those of a library (DBOS), with ids of their own.
 #
 # Old links lead to their checks as before. Any number of processes may do this at once, and any of
 # them may be killed: the next one goes on.
 
 
 _AT_ONCE = 200
-_LOCK = 7_302_815_602
-"""Of PostgreSQL's advisory locks, beside that of `checker.service.jobs.durable.database`."""
 _FINAL = [stage.value for stage in Stage if stage.is_final]
+_OF_LIBRARY = (
+    *("operation_outputs", "notifications", "workflow_events", "workflow_events_history"),
+    *("streams", "workflow_schedules", "application_versions", "queues", "workflow_input"),
+    *("workflow_output", "workflow_status", "dbos_migrations"),
+)
+"""Tables that it made in SQLite's file; in PostgreSQL they have a schema of their own."""
+_IN_QUEUES = "DELETE FROM dbos.workflow_status WHERE name IN ('static', 'trial')"
 
 
-def hash_clear_ids(engine: sa.Engine) -> None:
-    """Put keys in place of all ids; checks that are not over wait again, under their keys.
+def upgrade(engine: sa.Engine) -> None:
+    """Put keys in place of all ids, and have what was in the library's queues wait in ours.
 
     SQLite's file is written anew, so that no id is left in what is free there. What PostgreSQL has
     replaced is in no dump; its own files hold it until `VACUUM FULL`.
     """
-    if _in_clear(engine):
-        with _alone(engine):
-            _hash_all(engine)
+    while ids := _in_clear(engine):
+        with engine.begin() as connection:
+            _hash(connection, ids)
+    _leave_library(engine)
     if engine.dialect.name == "sqlite":
         _write_anew(engine)
-
-
-@contextmanager
-def _alone(engine: sa.Engine) -> Iterator[None]:
-    """Have others wait: PostgreSQL ends one of two that change the same rows in another order."""
-    with engine.begin() as connection:
-        if engine.dialect.name != "sqlite":
-            connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_LOCK)))
-        yield
-
-
-def _hash_all(engine: sa.Engine) -> None:
-    queues = queues_of(engine)
-    while ids := _in_clear(engine):
-        # Before, or they would stay if this process died behind the change; and after, since a
-        # worker of the old version may have queued a trial meanwhile.
-        queues.forget(ids)
-        with engine.begin() as connection:
-            _hash(connection, queues, ids)
-        queues.forget(ids)
 
 
 def _in_clear(engine: sa.Engine) -> Sequence[str]:
@@ -70,29 +56,44 @@ def _in_clear(engine: sa.Engine) -> Sequence[str]:
         return connection.execute(clear.order_by(CHECKS.c.created).limit(_AT_ONCE)).scalars().all()
 
 
-def _hash(connection: sa.Connection, queues: Queues, ids: Sequence[str]) -> None:
+def _hash(connection: sa.Connection, ids: Sequence[str]) -> None:
+    _lock(connection)
     if connection.dialect.name == "sqlite":
-        # Before it is read: a worker of the old version may be about to change it.
-        connection.exec_driver_sql("BEGIN IMMEDIATE")
         connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
-    these = sa.select(CHECKS).where(CHECKS.c.id.in_(ids)).order_by(CHECKS.c.created)
-    for row in connection.execute(these.with_for_update()).all():
-        key = key_of_check(row.id)
-        is_over = row.stage in _FINAL
-        values = {"id": key} if is_over else {"id": key, **_waiting(row)}
-        connection.execute(sa.update(CHECKS).where(CHECKS.c.id == row.id).values(values))
-        update = sa.update(EVENTS).where(EVENTS.c.check_id == row.id)
+    these = sa.select(CHECKS.c.id).where(CHECKS.c.id.in_(ids))
+    for id in connection.execute(these).scalars().all():
+        key = key_of_check(id)
+        connection.execute(sa.update(CHECKS).where(CHECKS.c.id == id).values(id=key))
+        update = sa.update(EVENTS).where(EVENTS.c.check_id == id)
         connection.execute(update.values(check_id=key))
-        if not is_over:
-            trial = row.stage == Stage.TRIAL
-            queues.put(connection, key, Stage.TRIAL if trial else Stage.STATIC)
 
 
-def _waiting(row: sa.Row[Any]) -> dict[str, Any]:
-    """Return what makes a check wait: who has it in hand loses its turn, through no fault."""
-    if not row.worker:
-        return {}
-    return {"worker": "", "turn": row.turn + 1, "words": WAITS}
+def _leave_library(engine: sa.Engine) -> None:
+    """Have checks of its queues wait: who had one in hand has lost it, through no fault."""
+    in_hand = (CHECKS.c.worker != "", CHECKS.c.stage.not_in(_FINAL))
+    waits = sa.update(CHECKS).where(*in_hand).values(worker="", words=WAITS)
+    is_sqlite = engine.dialect.name == "sqlite"
+    with engine.begin() as connection:
+        _lock(connection)
+        inspector = sa.inspect(connection)
+        if not inspector.has_table("workflow_status", schema=None if is_sqlite else "dbos"):
+            return
+        if is_sqlite:
+            for name in _OF_LIBRARY:
+                connection.exec_driver_sql(f"DROP TABLE IF EXISTS {name}")
+            connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
+            connection.execute(waits)
+        # Another program may use the library in the same database.
+        elif connection.exec_driver_sql(_IN_QUEUES).rowcount:
+            connection.execute(waits)
+
+
+def _lock(connection: sa.Connection) -> None:
+    """Have others wait until the end of this transaction."""
+    if connection.dialect.name == "sqlite":
+        connection.exec_driver_sql("BEGIN IMMEDIATE")
+    else:
+        connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_LOCK)))
 
 
 def _write_anew(engine: sa.Engine) -> None:
@@ -128,8 +129,10 @@ _NO_ADDRESS = (
 """Said without the address: it may hold a password."""
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
-_MIGRATION_LOCK = 7_302_815_601
+_LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
+WAITS = "waiting in the queue"
+"""Said of a check that nobody has in hand."""
 
 
 def database_url() -> str:
@@ -183,26 +186,18 @@ def reachable() -> Iterator[None]:
 
 
 def prepare(engine: sa.Engine) -> None:
-    """Make the tables that are missing, DBOS's and our own, and upgrade older ones.
+    """Make the tables that are missing, and upgrade older ones.
 
     Many may do so at once.
 
     Raises:
         JobsUnreachable: The database does not answer.
     """
-    from dbos import DBOS
-
     with reachable():
-        with engine.connect():
-            pass
-        DBOS.migrate(engine.url.render_as_string(hide_password=False))
         with engine.begin() as connection:
-            if engine.dialect.name == "sqlite":
-                connection.exec_driver_sql("BEGIN IMMEDIATE")
-            else:
-                connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_MIGRATION_LOCK)))
+            _lock(connection)
             make_tables(connection)
-        hash_clear_ids(engine)
+        upgrade(engine)
 
 
 def now(engine: sa.Engine) -> sa.ColumnElement[float]:

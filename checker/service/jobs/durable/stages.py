@@ -1,7 +1,7 @@
-"""What a worker does with a stage of a check that the queue gives it.
+"""What a worker does with a stage of a check that it has taken from a queue.
 
-A workflow is one stage. It may begin again at any point, after a crash, in another process: a
-result that is in the store already is found there, and each step is written down once.
+A stage may begin again at any point, after a crash, in another process: a result that is in the
+store already is found there, and each step is written down once.
 """
 
 from __future__ import annotations
@@ -18,12 +18,18 @@ from msgspec import field
 from checker.base.record import Record
 from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
-from checker.service.jobs.durable.checks import Change, Checks, Held, Step, forget
+from checker.service.jobs.durable.checks import Checks, Held, Step, Taker, forget
 from checker.service.jobs.durable.client import finished
 from checker.service.jobs.durable.database import now, reachable
 from checker.service.jobs.durable.tables import CHECKS
-from checker.service.jobs.durable.workflows import Queues
-from checker.service.jobs.outcome import FAILED_INSIDE, Cancelled, Checked, Died, Refused
+from checker.service.jobs.outcome import (
+    FAILED_INSIDE,
+    Cancelled,
+    Checked,
+    Died,
+    Disturbed,
+    Refused,
+)
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.store import Store
 
@@ -38,20 +44,17 @@ class Retention(Record):
 
     Attributes:
         engine: Of the database.
-        queues: Of the same database.
         store: Uploads and results.
         grace_seconds: That a file stays which no check refers to: one may be about to.
     """
 
     engine: sa.Engine
-    queues: Queues
     store: Store
     grace_seconds: float
 
     def delete(self) -> None:
         """Delete what has had its time."""
         while ids := self._expired():
-            self.queues.forget(ids)
             with self.engine.begin() as connection:
                 forget(connection, ids)
         self.store.expire(time.time() - self.grace_seconds, self._referred())
@@ -72,11 +75,11 @@ class Retention(Record):
 _T = TypeVar("_T")
 _LOG = logging.getLogger(__name__)
 _RETRY_SECONDS = 1.0
-_BEGINS = {
-    Stage.STATIC: Step("static", Stage.STATIC, "the static rules are running"),
-    Stage.TRIAL: Step("trial", Stage.TRIAL, "the trial is running"),
-}
+_ALONE_LOOK_SECONDS = 0.5
 _READ = "the static rules are finished; the trial is waiting in the queue"
+_TRIAL_SECONDS, _TRIAL_SHARE = 3.0, 2.0
+"""A trial and the drawing of all that was found take so long, and so many times as long as the
+rules did: of real packages, within a factor of two."""
 
 
 class Stages(Record):
@@ -84,42 +87,51 @@ class Stages(Record):
 
     Attributes:
         checks: The table of checks.
-        queues: Of the same database.
         store: Uploads and results.
-        worker: Name of this process.
+        taker: This process.
         children: Do the work.
         hand_back: Set when there is no more time to finish what is in hand.
     """
 
     checks: Checks
-    queues: Queues
     store: Store
-    worker: str
+    taker: Taker
     children: Children
     hand_back: threading.Event = field(default_factory=threading.Event)
 
-    def run(self, id: str, stage: Stage) -> None:
+    def run(self, held: Held) -> None:
         """Do a stage of a check, and write down what came of it."""
-        held = _patiently(lambda: self.checks.begin(id, self.worker, _BEGINS[stage]))
-        if held is None:
-            return
         try:
             self._do(held)
         except Exception:  # noqa: BLE001 - whatever it is
             # Left alone, the check would stay in hand for ever.
-            _LOG.exception("a check fails in its stage %s", stage)
-            _patiently(lambda: self.checks.settle(held, Step("end", Stage.FAILED, FAILED_INSIDE)))
+            _LOG.exception("a check fails in its stage %s", held.stage)
+            patiently(lambda: self.checks.settle(held, Step("end", Stage.FAILED, FAILED_INSIDE)))
 
     def _do(self, held: Held) -> None:
+        self._wait_until_alone(held)
+        begun = time.monotonic()
         outcome = check_upload(
             self.store, self.children, held.order, held.stage, lambda: self._unwanted(held)
         )
-        if isinstance(outcome, Cancelled):
-            if self.hand_back.is_set() and _patiently(lambda: self.checks.release(held)):
-                _patiently(lambda: self.queues.put_back(held.id, held.stage))
-            return
-        step = _conclusion(outcome, held.stage)
-        _patiently(lambda: self.checks.settle(held, step, self._next(held, step)))
+        match outcome:
+            case Cancelled():
+                if self.hand_back.is_set():
+                    patiently(lambda: self.checks.release(held))
+            case Disturbed(reason):
+                _LOG.warning("a check comes to nothing in its stage %s: %s", held.stage, reason)
+                patiently(lambda: self.checks.put_off(held, reason))
+            case _:
+                step = _conclusion(outcome, held.stage)
+                cost = _TRIAL_SECONDS + _TRIAL_SHARE * (time.monotonic() - begun)
+                patiently(lambda: self.checks.settle(held, step, cost))
+
+    def _wait_until_alone(self, held: Held) -> None:
+        """Let what else is in hand on this machine end before a last try."""
+        while held.is_last and not self._unwanted(held):
+            if patiently(lambda: self.checks.is_alone(held, self.taker)):
+                return
+            self.hand_back.wait(_ALONE_LOOK_SECONDS)
 
     def _unwanted(self, held: Held) -> bool:
         """Whether to stop: no time is left, somebody cancelled it, or another worker has it."""
@@ -128,15 +140,6 @@ class Stages(Record):
                 return self.hand_back.is_set() or not self.checks.holds(held)
         except JobsUnreachable:
             return False
-
-    def _next(self, held: Held, step: Step) -> Change:
-        """Return what follows a step, in the same transaction: the trial, or nothing."""
-
-        def then(connection: sa.Connection) -> None:
-            if step.stage is Stage.TRIAL:
-                self.queues.put(connection, held.id, Stage.TRIAL)
-
-        return then
 
 
 def _conclusion(outcome: Checked | Refused | Died, stage: Stage) -> Step:
@@ -156,7 +159,7 @@ def _conclusion(outcome: Checked | Refused | Died, stage: Stage) -> Step:
             return Step("end", Stage.FAILED, reason)
 
 
-def _patiently(ask: Callable[[], _T]) -> _T:
+def patiently(ask: Callable[[], _T]) -> _T:
     """Ask the database until it answers: what came of minutes of work is not thrown away."""
     while True:
         try:

@@ -1,4 +1,4 @@
-"""Our tables, beside those of DBOS in the same database, and the digests that are their keys."""
+"""The tables of the service, and the digests that are the keys of checks."""
 
 from __future__ import annotations
 
@@ -47,10 +47,18 @@ CHECKS = sa.Table(
     sa.Column("worker", sa.Text, nullable=False, default=""),
     sa.Column("turn", sa.Integer, nullable=False, default=0),
     sa.Column("losses", sa.JSON, nullable=False, default=list),
+    sa.Column("sender", sa.String(64), nullable=False, server_default=""),
+    sa.Column("cost", sa.Double, nullable=False, server_default="0"),
+    sa.Column("rank", sa.Double, nullable=False, server_default="0"),
+    sa.Column("tries", sa.Integer, nullable=False, server_default="0"),
+    sa.Column("not_before", sa.Double, nullable=False, server_default="0"),
 )
-"""Each check. `id` is its key, which opens nothing (`keys.py`). `worker` has it
-in hand; empty while it waits or when it is over. `losses` are the workers that died with it in
-hand. `turn` is for workers of version 0.1.0: who knows an older one has lost the check."""
+"""Each check. `id` is its key, which opens nothing. `worker` has it in hand; empty while it waits or
+when it is over. `losses` are the tries that came to nothing through no fault of the package, and
+`tries` is their number; it is not tried again before `not_before`. `sender` is who asked (see
+`Order`), until it is over; `cost` is what the next stage takes, in seconds as far as one can tell,
+and `rank` its place in the queue (`checker.service.jobs.durable.queue`). Version 0.1.0 wrote
+`turn`."""
 
 EVENTS = sa.Table(
     "subt_events",
@@ -72,14 +80,18 @@ WORKERS = sa.Table(
     sa.Column("name", sa.String(128), primary_key=True),
     sa.Column("beat", sa.Double, nullable=False),
     sa.Column("layers", sa.JSON),
+    sa.Column("host", sa.Text),
 )
-"""The last sign of life of each worker, by the clock of the database, and layers of its sandbox;
-version 0.1.0 knows none."""
+"""The last sign of life of each worker, by the clock of the database, layers of its sandbox, and the
+machine it runs on; version 0.1.0 knows none of the last two."""
 
 
 def make_tables(connection: sa.Connection) -> None:
-    """Make what is missing: tables, and the column that those of version 0.1.0 lack."""
+    """Make what is missing: tables, and the columns that those of older versions lack."""
     METADATA.create_all(connection)
-    known = {column["name"] for column in sa.inspect(connection).get_columns(WORKERS.name)}
-    if WORKERS.c.layers.name not in known:
-        connection.exec_driver_sql("ALTER TABLE subt_workers ADD COLUMN layers JSON")
+    for table in METADATA.sorted_tables:
+        known = {column["name"] for column in sa.inspect(connection).get_columns(table.name)}
+        for column in table.columns:
+            if column.name not in known:
+                made = sa.schema.CreateColumn(column).compile(dialect=connection.dialect)
+                connection.exec_driver_sql(f"ALTER TABLE {table.name} ADD COLUMN {made}")

@@ -6,10 +6,12 @@ import logging
 import os
 import secrets
 import signal
+import socket
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
+from time import monotonic
 
 from msgspec import field
 
@@ -18,13 +20,15 @@ from checker.base.sandbox.layers import Layer, hides_files
 from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
-from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.changes import Changes
+from checker.service.jobs.durable.checks import Checks, Taker
 from checker.service.jobs.durable.database import open_database, prepare, reachable
+from checker.service.jobs.durable.dispatcher import Dispatcher
 from checker.service.jobs.durable.stages import Retention, Stages
 from checker.service.jobs.durable.workers import Workers
-from checker.service.jobs.durable.workflows import land, launch, queues_of, recover
-from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
+from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable, Stage
 from checker.service.jobs.sandbox import layers_of_checks
+from checker.service.store.life import forget, has_died, living
 from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)
@@ -46,7 +50,8 @@ class WorkerOptions(Record):
         store: Uploads and results.
         name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
             that is started again under its old name takes up at once what it had in hand.
-        trials: At once in each worker of the database; None keeps what was said last, at first 1.
+        trials: At once.
+        host: Machine or container, as workers on it call it.
         grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
         beat_seconds: Between two signs of life.
         silence_seconds: After which other workers take this one for dead.
@@ -58,7 +63,8 @@ class WorkerOptions(Record):
     database_url: str
     store: Store
     name: str = field(default_factory=_some_name)
-    trials: int | None = None
+    trials: int = 1
+    host: str = field(default_factory=socket.gethostname)
     grace_seconds: float = 20.0
     beat_seconds: float = 10.0
     silence_seconds: float = SILENCE_SECONDS
@@ -70,8 +76,7 @@ class WorkerOptions(Record):
 def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     """Take checks from the queues until `stop` is set, then finish or hand back what is in hand.
 
-    One worker runs in a process. Threads of DBOS that wait for what was handed back outlive it:
-    end the process by `os._exit`, as `work` does.
+    Threads of what was handed back may outlive it: end the process by `os._exit`, as `work` does.
 
     Raises:
         JobsUnreachable: The database does not answer at the start.
@@ -80,34 +85,78 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     prepare(engine)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
-    queues, workers = queues_of(engine), Workers(engine, layers)
+    workers, checks = Workers(engine, layers, options.host), Checks(engine)
+    taker = Taker(options.name, options.host)
     children = Children(options.store, options.ahead)
-    stages = Stages(Checks(engine), queues, options.store, options.name, children)
-    retention = Retention(engine, queues, options.store, options.unused_seconds)
+    stages = Stages(checks, options.store, taker, children)
+    retention = Retention(engine, options.store, options.unused_seconds)
     # What every result depends on takes 0.1 s to look through: now no upload waits for it.
     program_parts()
+    places = {Stage.STATIC: 1, Stage.TRIAL: options.trials}
+    dispatcher = Dispatcher(checks, taker, places, stages.run)
+    with living(options.store.workers, options.name):
+        _begin(Deaths(checks, workers, options), retention, stop)
+        children.get_ready()
+        _LOG.info("%s is waiting for checks", options.name)
+        with closing(Changes(engine)) as changes:
+            dispatcher.take_until(stop, changes)
+        _LOG.info("%s stops; it has %g s to finish its checks", taker.name, options.grace_seconds)
+        if not dispatcher.wait(options.grace_seconds):
+            stages.hand_back.set()
+            dispatcher.wait(_LANDING_SECONDS)
+        children.close()
+        with suppress(JobsUnreachable), reachable():
+            workers.strike(options.name)
+
+
+def _begin(deaths: Deaths, retention: Retention, stop: threading.Event) -> None:
+    """Take over what is left from before, and begin what a worker does all the time.
+
+    Raises:
+        JobsUnreachable: The database does not answer.
+    """
+    options = deaths.options
     with reachable():
-        queues.declare(options.trials)
-        workers.beat(options.name)
-        launch(engine, options.name, stages.run)
-    children.get_ready()
-
-    def show_life() -> None:
-        workers.beat(options.name)
-        recover(options.name, lambda: workers.living(options.silence_seconds))
-        workers.strike_silent(_KNOWN_SILENCES * options.silence_seconds)
-
-    landed = threading.Event()
-    _in_background(show_life, options.beat_seconds, landed)
+        deaths.take_over()
+    _in_background(deaths.look, options.beat_seconds, threading.Event())
     _in_background(retention.delete, options.cleaning_seconds, stop)
-    _LOG.info("%s is waiting for checks", options.name)
-    stop.wait()
-    _LOG.info("%s stops; it has %g s to finish its checks", options.name, options.grace_seconds)
-    _land(stages, options.grace_seconds)
-    children.close()
-    landed.set()
-    with suppress(JobsUnreachable), reachable():
-        workers.strike(options.name)
+
+
+class Deaths:
+    """Shows that this worker lives, and sees to what dead ones had in hand."""
+
+    def __init__(self, checks: Checks, workers: Workers, options: WorkerOptions) -> None:
+        """Begin to count the time without a gap in this worker's own signs of life."""
+        self._checks, self._workers, self.options = checks, workers, options
+        self._last = self._since = monotonic()
+
+    def look(self) -> None:
+        """Show a sign of life, and have what is in the hands of the dead wait again.
+
+        When the database was away, or this machine slept, all workers have been silent: the first
+        one that is back must not take the others for dead.
+        """
+        silence, name = self.options.silence_seconds, self.options.name
+        self._workers.beat(name)
+        now = monotonic()
+        if now - self._last > silence / 2.0:
+            self._since = now
+        self._last = now
+        living = self._workers.living(silence)
+        steady = now - self._since >= silence
+        self._recover(lambda other: other != name and steady and other not in living)
+        self._workers.strike_silent(_KNOWN_SILENCES * silence)
+
+    def take_over(self) -> None:
+        """Show the first sign of life; what this worker had in hand before it died waits again."""
+        self._workers.beat(self.options.name)
+        self._recover(lambda other: other == self.options.name)
+
+    def _recover(self, is_dead: Callable[[str], bool]) -> None:
+        folder = self.options.store.workers
+        for dead in self._checks.recover(lambda name: is_dead(name) or has_died(folder, name)):
+            _LOG.warning("%s died; what it had in hand waits again", dead)
+            forget(folder, dead)
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
@@ -131,7 +180,6 @@ def work(options: WorkerOptions) -> None:
         stream=sys.stderr,
         format="%(asctime)s %(levelname)s %(name)s: %(message)s",
     )
-    logging.getLogger("dbos").setLevel(logging.WARNING)
     stop = threading.Event()
     # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
     both = (signal.SIGTERM, signal.SIGINT)
@@ -140,15 +188,6 @@ def work(options: WorkerOptions) -> None:
     run_worker(stop, options)
     logging.shutdown()
     os._exit(0)
-
-
-def _land(stages: Stages, grace_seconds: float) -> None:
-    """Finish what is in hand; hand it back when the time is over."""
-    timer = threading.Timer(grace_seconds, stages.hand_back.set)
-    timer.daemon = True
-    timer.start()
-    land(grace_seconds + _LANDING_SECONDS)
-    timer.cancel()
 
 
 def _in_background(do: Callable[[], None], every_seconds: float, stop: threading.Event) -> None:

@@ -19,14 +19,17 @@ class Workers(Record):
     Attributes:
         engine: Of the database.
         layers: Of the sandbox in which this worker checks.
+        host: The machine that it runs on.
     """
 
     engine: sa.Engine
     layers: Sequence[Layer] = ()
+    host: str = ""
 
     def beat(self, worker: str) -> None:
         """Show a sign of life."""
-        alive = {"beat": now(self.engine), "layers": [to_builtins(layer) for layer in self.layers]}
+        layers = [to_builtins(layer) for layer in self.layers]
+        alive = {"beat": now(self.engine), "layers": layers, "host": self.host}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
             if connection.execute(mine).rowcount == 0:

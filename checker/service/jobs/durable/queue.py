@@ -1,0 +1,86 @@
+"""Which check is next: fair among senders, short ones before long ones, and none for ever last.
+
+Each stage has a queue. A check that enters it is given a rank, and the lowest is next. The rank is
+the time at which the check would be over if all senders were served side by side, each with an
+equal share of one processor (weighted fair queueing, Demers, Keshav and Shenker 1989), and each had
+its own shorter checks done before its longer ones. The clock of that imagined processor stands at
+the rank of what is in hand.
+
+So the first check of somebody who sends one comes before the fifth of somebody who sends a hundred,
+and a long one comes at the latest when as much has been done for each other sender.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import sqlalchemy as sa
+
+from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.port import Stage
+
+STAGES = (Stage.STATIC, Stage.TRIAL)
+"""Each has a queue."""
+_BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
+
+
+def stands_in(stage: Stage) -> Sequence[str]:
+    """Return how the table calls checks in the queue of a stage, waiting or in hand."""
+    return (Stage.TRIAL.value,) if stage is Stage.TRIAL else _BEFORE_TRIAL
+
+
+def queue_of(stage: str) -> Stage:
+    """Return the queue of a check by how far it is."""
+    return Stage.STATIC if stage in _BEFORE_TRIAL else Stage.TRIAL
+
+
+def rank(connection: sa.Connection, stage: Stage, sender: str, cost: float) -> float:
+    """Return the rank of a check that enters a queue.
+
+    Args:
+        connection: Of the database.
+        stage: Of the queue.
+        sender: Who asks.
+        cost: Of the check, seconds.
+    """
+    waits = CHECKS.c.worker == ""
+    before = (CHECKS.c.sender == sender) & (CHECKS.c.cost <= cost)
+    question = sa.select(
+        sa.func.max(sa.case((~waits, CHECKS.c.rank))),
+        sa.func.min(sa.case((waits, CHECKS.c.rank - CHECKS.c.cost))),
+        sa.func.sum(sa.case((before & waits, CHECKS.c.cost), else_=0.0)),
+    ).where(CHECKS.c.stage.in_(stands_in(stage)))
+    in_hand, first, own = connection.execute(question).one()
+    moment = in_hand if in_hand is not None else (first or 0.0)
+    return float(moment + (own or 0.0) + cost)
+
+
+def next_in(stage: Stage, moment: sa.ColumnElement[float], *, others: bool) -> sa.Select[Any]:
+    """Return the question for the check that is next.
+
+    Args:
+        stage: Of the queue.
+        moment: Now, by the clock of the database.
+        others: Whether only senders count of whom nothing is in hand.
+    """
+    there = (CHECKS.c.stage.in_(stands_in(stage)), CHECKS.c.not_before <= moment)
+    question = sa.select(CHECKS).where(*there, CHECKS.c.worker == "")
+    if others:
+        busy = CHECKS.alias()
+        served = sa.select(busy.c.sender).where(
+            busy.c.stage.in_(stands_in(stage)), busy.c.worker != ""
+        )
+        question = question.where(CHECKS.c.sender.not_in(served))
+    return question.order_by(CHECKS.c.rank, CHECKS.c.created).limit(1)
+
+
+def ahead(connection: sa.Connection, row: sa.Row[Any]) -> int:
+    """Return how many checks that wait come before one that waits."""
+    earlier = sa.or_(
+        CHECKS.c.rank < row.rank,
+        (CHECKS.c.rank == row.rank) & (CHECKS.c.created < row.created),
+    )
+    there = (CHECKS.c.stage.in_(stands_in(queue_of(row.stage))), CHECKS.c.worker == "", earlier)
+    question = sa.select(sa.func.count()).select_from(CHECKS).where(*there)
+    return int(connection.execute(question).scalar_one())
