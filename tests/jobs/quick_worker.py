@@ -2,7 +2,8 @@
 
 Arguments: the fields of `WorkerOptions` as JSON, `store` as a folder, and the file of the log.
 Profiles: `static:2` and `trial:2` take two seconds, `kill:static` and `kill:trial` kill the worker,
-`refused`, `died` and `raises` come out so at once. `static:1 trial:2` is both.
+`refused`, `died` and `raises` come out so at once, `full:static:2` finds a full disk two times.
+`static:1 trial:2` is both.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from checker.service.jobs.check import result_key
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable import stages
 from checker.service.jobs.durable.worker import WorkerOptions, work
-from checker.service.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.service.jobs.outcome import Cancelled, Checked, Died, Disturbed, Outcome, Refused
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
 
@@ -35,7 +36,9 @@ PACKAGE = {
 }
 WORDS = "Ready: no error"
 REFUSAL = "robot.zip is not an archive"
-DEATH = "the checker could not finish: it was killed"
+DEATH = "the checker could not finish: it needs more than 4 GB of memory"
+FULL = "the system of the service says: No space left on device"
+PAUSES = (0.1, 0.2, 0.3, 0.4)
 
 
 def quick_check(
@@ -56,6 +59,8 @@ def quick_check(
                 os.kill(os.getpid(), signal.SIGKILL)
             if what == "raises":
                 raise RuntimeError("as a fault of ours would")
+            if what == "full" and _is_full(log, detail, f"{stage} {order.name} "):
+                return Disturbed(FULL)
             if what in ("refused", "died"):
                 return Refused(REFUSAL) if what == "refused" else Died(DEATH)
             if what == stage and not _passed(float(detail), cancelled):
@@ -80,6 +85,12 @@ def _note(log: Path, line: str) -> None:
         file.write(line + "\n")
 
 
+def _is_full(log: Path, detail: str, line: str) -> bool:
+    """Whether the disk is full at this try, by what a profile says of a stage."""
+    stage, _, tries = detail.partition(":")
+    return line.startswith(stage) and log.read_text().count(line) <= int(tries)
+
+
 def _passed(seconds: float, cancelled: Callable[[], bool]) -> bool:
     deadline = monotonic() + seconds
     while monotonic() < deadline:
@@ -92,7 +103,11 @@ def _passed(seconds: float, cancelled: Callable[[], bool]) -> bool:
 def main() -> None:
     options: dict[str, Any] = json.loads(sys.argv[1])
     stages.check_upload = partial(quick_check, Path(sys.argv[2]))
-    work(WorkerOptions(**options | {"store": Store(Path(options["store"])), "ahead": False}))
+    work(
+        WorkerOptions(
+            **options | {"store": Store(Path(options["store"])), "ahead": False, "pauses": PAUSES}
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -4,37 +4,50 @@ from __future__ import annotations
 
 import secrets
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-import sqlalchemy as sa
 from hypothesis import settings
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from checker.service.jobs.durable.checks import GIVEN_UP, Checks, Held, Step, forget
+from checker.service.jobs.durable.checks import PAUSES, TRIES, Checks, Held, Step, Taker, forget
 from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.tables import METADATA
+from checker.service.jobs.durable.tables import make_tables
 from checker.service.jobs.port import Event, Order, Stage, State
 from tests.effort import examples
 
 ORDER = Order("0" * 64, "robot.zip", "subt")
 QUEUED = Step("queued", Stage.QUEUED, "waits")
-STATIC = Step("static", Stage.STATIC, "looks")
 READ = Step("read", Stage.TRIAL, "has looked", "a" * 64)
-TRIAL = Step("trial", Stage.TRIAL, "drives")
 DONE = Step("end", Stage.DONE, "ready", "b" * 64)
 
 
-def checks_in(folder: Path) -> Checks:
+AT_ONCE = (0.0,) * (TRIES - 1)
+"""Pauses before further tries."""
+
+
+def checks_in(folder: Path, pauses: Sequence[float] = PAUSES) -> Checks:
     engine = open_database(f"sqlite:///{folder}/jobs.sqlite")
-    METADATA.create_all(engine)
-    return Checks(engine)
+    with engine.begin() as connection:
+        make_tables(connection)
+    return Checks(engine, pauses)
 
 
 def entered(checks: Checks, step: Step = QUEUED) -> str:
     id = secrets.token_urlsafe(16)
-    checks.enter(id, ORDER, 60.0, step, lambda _: None)
+    checks.enter(id, ORDER, 60.0, step, 1.0)
     return id
+
+
+def taker(number: int) -> Taker:
+    return Taker(f"w{number}", "here")
+
+
+def take(checks: Checks, number: int = 0) -> Held | None:
+    """Take what there is, from whichever queue."""
+    stages = (Stage.STATIC, Stage.TRIAL)
+    return next(filter(None, (checks.take(taker(number), stage) for stage in stages)), None)
 
 
 def state(checks: Checks, id: str) -> State:
@@ -58,7 +71,7 @@ class AnyStory(RuleBasedStateMachine):
     @initialize()
     def submit(self) -> None:
         self.folder = tempfile.TemporaryDirectory()
-        self.checks = checks_in(Path(self.folder.name))
+        self.checks = checks_in(Path(self.folder.name), AT_ONCE)
         self.id = entered(self.checks)
         self.held: list[Held] = []
         self.before = state(self.checks, self.id)
@@ -69,16 +82,24 @@ class AnyStory(RuleBasedStateMachine):
 
     @rule()
     def take(self) -> None:
-        """A queue gives it out: what had it in hand before is dead, or only thought to be."""
-        step = TRIAL if self.stage is Stage.TRIAL else STATIC
-        held = self.checks.begin(self.id, f"w{len(self.held)}", step)
+        """A worker asks for what is next."""
+        in_hand = any(map(self.checks.holds, self.held))
+        held = take(self.checks, len(self.held))
+        assert (held is None) is (in_hand or self.stage.is_final)
         if held is not None:
             self.held.append(held)
 
     @rule()
-    def take_again_what_is_through(self) -> None:
-        if self.stage not in (Stage.QUEUED, Stage.STATIC):
-            assert self.checks.begin(self.id, "late", STATIC) is None
+    def die(self) -> None:
+        """Whoever has it in hand is dead, or only thought to be."""
+        self.checks.recover(lambda _: True)
+        assert not any(map(self.checks.holds, self.held))
+
+    @precondition(lambda self: self.held)
+    @rule()
+    def put_off(self) -> None:
+        """The disk is full."""
+        self.checks.put_off(self.held[-1], "the disk is full")
 
     @precondition(lambda self: self.held)
     @rule()
@@ -92,6 +113,7 @@ class AnyStory(RuleBasedStateMachine):
         """A worker that was taken for dead comes back with a result."""
         assert not self.checks.settle(self.held[-2], DONE)
         assert not self.checks.release(self.held[-2])
+        assert not self.checks.put_off(self.held[-2], "the disk is full")
         assert not self.checks.holds(self.held[-2])
 
     @precondition(lambda self: self.held)
@@ -139,30 +161,26 @@ TestAnyStory = AnyStory.TestCase
 TestAnyStory.settings = settings(max_examples=examples(25), stateful_step_count=15, deadline=None)
 
 
-def test_a_check_is_given_up_after_its_third_worker(checks: Checks) -> None:
+def test_a_check_is_given_up_after_its_last_try(tmp_path: Path) -> None:
+    checks = checks_in(tmp_path, AT_ONCE)
     id = entered(checks)
-    assert all(checks.begin(id, f"w{n}", STATIC) for n in range(3))
-    assert checks.begin(id, "w3", STATIC) is None
-    assert (state(checks, id).stage, state(checks, id).words) == (Stage.FAILED, GIVEN_UP)
+    held = [take(checks, n) for n in range(TRIES) if n == 0 or checks.recover(lambda _: True)]
+    assert [each and each.is_last for each in held] == [False] * (TRIES - 1) + [True]
+    checks.recover(lambda _: True)
+    assert take(checks) is None
+    assert state(checks, id).stage is Stage.FAILED
     losses = told(checks, id)[-1].data["losses"]
-    assert [loss["worker"] for loss in losses] == ["w0", "w1", "w2"]
+    assert [loss["worker"] for loss in losses] == [f"w{n}" for n in range(TRIES)]
+    assert {loss["reason"] for loss in losses} == {"its worker process ended"}
 
 
-def test_what_belongs_together_holds_together_or_not_at_all(checks: Checks) -> None:
-    def fail(_connection: sa.Connection) -> None:
-        raise RuntimeError("no queue")
-
-    with pytest.raises(RuntimeError):
-        checks.enter("one", ORDER, 60.0, QUEUED, fail)
-    assert checks.state("one") is None
-    assert told(checks, "one") == []
+def test_what_is_put_off_waits_for_its_pause(checks: Checks) -> None:
     id = entered(checks)
-    held = checks.begin(id, "w", STATIC)
+    held = take(checks)
     assert held is not None
-    with pytest.raises(RuntimeError):
-        checks.settle(held, READ, fail)
-    assert (state(checks, id).stage, state(checks, id).result) == (Stage.STATIC, "")
-    assert checks.holds(held)
+    assert checks.put_off(held, "the disk is full")
+    assert take(checks) is None
+    assert state(checks, id).words == "starts again in 1 s: the disk is full (try 2 of 5)"
 
 
 def test_words_are_kept_as_every_database_takes_them(checks: Checks) -> None:

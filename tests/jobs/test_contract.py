@@ -13,9 +13,10 @@ import sqlalchemy as sa
 from msgspec.structs import replace
 
 from checker.service.jobs.check import result_key
+from checker.service.jobs.durable.checks import TRIES
 from checker.service.jobs.durable.tables import CHECKS, key_of_check
 from checker.service.jobs.port import Stage, State
-from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
+from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, PAUSES, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
 
@@ -185,19 +186,93 @@ class TestAKilledWorker:
 
     def test_is_not_replaced_for_ever(self, site: Site) -> None:
         id = site.submit("kill:trial")
-        for _ in range(3):
-            site.worker("slot-1").wait()
+        for _ in range(TRIES):
             assert not site.state(id).stage.is_final
+            site.worker("slot-1").wait()
         site.worker("slot-1")
         state = site.end(id)
         assert state.stage is Stage.FAILED
-        assert state.words == "the checker could not finish: its worker process ended three times"
+        assert state.words == (
+            "the checker could not finish: its worker process ended; it was tried 5 times, at last "
+            "alone"
+        )
         read = site.jobs.events(id)[2]
         assert (read.stage, read.data["result"]) == (Stage.TRIAL, state.result)
         assert site.jobs.result(id) == ""
         losses = site.jobs.events(id)[-1].data["losses"]
-        assert [(loss["worker"], loss["stage"]) for loss in losses] == [("slot-1", "trial")] * 3
-        assert site.begun()[f"trial {state.order.name}"] == 3
+        assert [(loss["worker"], loss["stage"]) for loss in losses] == [("slot-1", "trial")] * TRIES
+        assert site.begun()[f"trial {state.order.name}"] == TRIES
+
+
+class TestWhatTheServiceSuffers:
+    @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
+    def test_is_tried_again_until_it_goes_well(self, site: Site, stage: Stage) -> None:
+        site.worker()
+        id = site.submit(f"full:{stage}:{TRIES - 1}")
+        state = site.end(id)
+        assert (state.stage, state.words) == (Stage.DONE, WORDS)
+        assert site.begun()[f"{stage} {state.order.name}"] == TRIES
+        told = [event.words for event in site.jobs.events(id) if "again" in event.words]
+        assert told == [
+            f"starts again in {pause:g} s: {FULL} (try {number} of 5)"
+            for number, pause in enumerate(PAUSES, 2)
+        ]
+
+    def test_ends_in_an_honest_sentence_and_is_nobodys_result(self, site: Site) -> None:
+        site.worker()
+        order = site.order(f"full:static:{TRIES}")
+        state = site.end(site.jobs.submit(order))
+        assert state.stage is Stage.FAILED
+        assert state.words.startswith("the checker could not finish: the system of the service")
+        assert state.words.endswith("No space left on device; it was tried 5 times, at last alone")
+        again = site.end(site.jobs.submit(order))
+        assert (again.stage, again.words) == (Stage.DONE, WORDS)
+
+    def test_the_last_try_is_alone_on_its_machine(self, site: Site) -> None:
+        for name in ("left", "right"):
+            site.worker(name)
+        hard = site.submit(f"full:trial:{TRIES - 1} trial:1")
+        site.until(hard, lambda state: "try 5 of 5" in state.words)
+        others = [site.submit("static:0.3 trial:0.3") for _ in range(4)]
+        site.until(hard, lambda state: state.words == "the trial is running")
+        seen = 0
+        while not site.state(hard).stage.is_final:
+            is_last = site.begun()[f"trial {site.state(hard).order.name}"] == TRIES
+            running = site.jobs.alive().running
+            if is_last and not site.state(hard).stage.is_final:
+                assert running == 1
+                seen += 1
+        assert seen
+        assert {site.end(id).stage for id in (hard, *others)} == {Stage.DONE}
+
+
+class TestSenders:
+    def sent(self, site: Site, sender: str, profile: str) -> str:
+        return site.jobs.submit(replace(site.order(profile), sender=sender))
+
+    def test_of_one_check_do_not_wait_for_those_of_many(self, site: Site) -> None:
+        many = [self.sent(site, "many", "static:1 trial:1") for _ in range(8)]
+        one = self.sent(site, "one", "static:0.1")
+        assert site.state(one).ahead == 1
+        site.worker()
+        site.end(one)
+        assert sum(site.state(id).stage is Stage.DONE for id in many) <= 2
+
+    def test_find_a_place_though_long_checks_are_in_hand(self, site: Site) -> None:
+        site.worker()
+        long = [self.sent(site, "many", f"{stage}:4") for stage in ("static", "static")]
+        site.in_hand(long[0], Stage.STATIC)
+        short = self.sent(site, "one", "")
+        state = site.end(short)
+        assert state.stage is Stage.DONE
+        assert not site.state(long[0]).stage.is_final
+        assert site.state(long[1]).stage is Stage.QUEUED
+
+    def test_are_not_known_when_their_checks_are_over(self, site: Site) -> None:
+        site.worker()
+        id = self.sent(site, "somebody", "trial:0.3")
+        assert site.state(id).order.sender == "somebody"
+        assert site.end(id).order.sender == ""
 
 
 class TestCancelling:
@@ -288,8 +363,6 @@ class TestRetention:
         assert site.store.names(gone.result) == ()
         assert site.jobs.status(goes) is None
         assert site.jobs.events(goes) == []
-        workflows = site.jobs.queues.client.list_workflows(workflow_ids=[key, f"{key}.trial"])
-        assert workflows == []
         assert site.state(keeps) == kept
         assert site.store.names(kept.result)
         assert site.store.upload(kept.order.upload)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import logging
 import secrets
+import signal
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain
@@ -21,7 +22,7 @@ from checker.base.cache import key_of
 from checker.base.child_process import from_json
 from checker.base.files import NotReadable, make_folder, read_bytes
 from checker.base.sandbox.files import Content, Files
-from checker.base.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY
+from checker.base.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY, OUT_OF_REACH
 from checker.base.words import plain
 from checker.engine.report_cache import program_parts
 from checker.report.files import ARTEFACT_NAME
@@ -33,6 +34,7 @@ from checker.service.jobs.outcome import (
     Cancelled,
     Checked,
     Died,
+    Disturbed,
     Outcome,
     Refused,
 )
@@ -74,8 +76,8 @@ def check_upload(
         known = stored_result(store, order, stage)
         return known or _checked(store, children, order, stage, cancelled, limits or LIMITS[stage])
     except OSError as error:
-        _LOG.exception("the disk or the system failed")
-        return Died(f"{UNFINISHED}: {error.strerror or 'the system failed'}")
+        _LOG.warning("the disk or the system failed", exc_info=True)
+        return Disturbed(f"the system of the service says: {error.strerror or error}")
 
 
 def _checked(
@@ -97,11 +99,10 @@ def _checked(
     }
     content = read_bytes(upload, order.name, UPLOAD_LIMIT)
     if isinstance(content, NotReadable):
-        _LOG.error("an upload %s", content.reason)
-        return Died(FAILED_INSIDE)
+        return Disturbed(f"the stored upload {content.reason}")
     contents = chain(((UPLOAD, content),), _known_parts(store, order.upload))
     with children.checked(
-        json.dumps(request).encode(), contents, limits.seconds, cancelled
+        json.dumps(request).encode(), contents, limits.clock_seconds, cancelled
     ) as ended:
         if ended.cancelled:
             return Cancelled()
@@ -124,6 +125,8 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
     match _parsed(ended.answer) if ended.code == 0 else None:
         case {"refused": str(reason)}:
             return Refused(plain(reason))
+        case {"disturbed": str(reason)} if reason:
+            return Disturbed(plain(reason))
         case {"crashed": bool(crashed)} as answer:
             # What went wrong with us may go right the next time: nobody else gets this result.
             checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
@@ -132,7 +135,7 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
     last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
     how = "overdue" if ended.overdue else f"code {ended.code}"
     _LOG.error("the child process ended (%s) with the output: %s", how, last_words)
-    return Died(_cause(ended, limits))
+    return _failure(ended, limits)
 
 
 def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome:
@@ -210,12 +213,28 @@ def _parsed(data: bytes) -> Any:
         return None
 
 
-def _cause(ended: Ended, limits: StageLimits) -> str:
+def _failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
+    """Say what has ended a process: its own work, or somebody from outside."""
     if ended.overdue:
-        advice = "check fewer packages at a time"
-        return f"{UNFINISHED}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
-    if ended.code is None or ended.code < 0:
-        return f"{UNFINISHED}: it was killed; it may have needed too much time or memory"
-    if ended.code == OUT_OF_MEMORY:
-        return f"{UNFINISHED}: it needed more than {limits.memory / 1e9:g} GB of memory"
-    return FAILED_INSIDE
+        return Disturbed(f"the service had no time for it within {limits.clock_seconds:g} s")
+    if ended.code in _FROM_OUTSIDE:
+        return Disturbed(_FROM_OUTSIDE[ended.code])
+    too_much = {
+        -signal.SIGXCPU: f"{limits.seconds:g} s of processor time",
+        OUT_OF_MEMORY: f"{limits.memory / 1e9:g} GB of memory",
+    }
+    if ended.code in too_much:
+        limit = f"it needs more than {too_much[ended.code]}"
+        return Died(f"{UNFINISHED}: {limit}; check fewer packages at a time")
+    return Died(FAILED_INSIDE)
+
+
+_FROM_OUTSIDE: Mapping[int | None, str] = {
+    None: "its process could not be started, or was ended with all others",
+    OUT_OF_REACH: "the disk or the system of the service failed",
+    **{
+        -number: f"its process was killed ({number.name})"
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT)
+    },
+}
+"""Ends of a process that its own work does not lead to, by exit code; limits have other signals."""

@@ -32,7 +32,7 @@ class StageLimits(Record):
     """What the check of an upload may use.
 
     Attributes:
-        seconds: By the clock, for all processes together; and of processor time, for each.
+        seconds: Of processor time, for each process.
         memory: Bytes of address space of the process that checks. Not below what the children of
             the check ask for themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
         file_bytes: Size of one file that it writes.
@@ -43,6 +43,11 @@ class StageLimits(Record):
     memory: int = 4_000_000_000
     file_bytes: int = 1_000_000_000
     open_files: int = 512
+
+    @property
+    def clock_seconds(self) -> float:
+        """Seconds by the clock after which the check is stopped, on however busy a machine."""
+        return 5.0 * self.seconds + 60.0
 
 
 def limit(limits: StageLimits) -> None:

@@ -41,7 +41,11 @@ def living(folder: Path, name: str) -> Iterator[None]:
 
 def _locks_soon(descriptor: int) -> bool:
     """Lock a file, at which others may be looking just now."""
-    return any(_locks(descriptor) or sleep(_LOOK_SECONDS) for _ in range(_LOOKS))
+    for _ in range(_LOOKS):
+        if _locks(descriptor):
+            return True
+        sleep(_LOOK_SECONDS)
+    return False
 
 
 def has_died(folder: Path, name: str) -> bool:

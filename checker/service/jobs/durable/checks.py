@@ -18,9 +18,10 @@ from msgspec import field
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
+from checker.service.jobs.durable.changes import tell
 from checker.service.jobs.durable.database import WAITS, now
-from checker.service.jobs.durable.queue import STAGES, ahead, next_in, queue_of, rank
-from checker.service.jobs.durable.tables import CHECKS, EVENTS, WORKERS
+from checker.service.jobs.durable.queue import ahead, next_in, queue_of, rank, set_clock
+from checker.service.jobs.durable.tables import CHECKS, EVENTS, STAGES, WORKERS
 from checker.service.jobs.outcome import UNFINISHED
 from checker.service.jobs.port import Event, Order, Stage, State
 
@@ -90,9 +91,15 @@ class Step(Record):
 
 
 class Checks(Record, dict=True):
-    """The table of checks, and that of their events."""
+    """The table of checks, and that of their events.
+
+    Attributes:
+        engine: Of the database.
+        pauses: Seconds before each further try.
+    """
 
     engine: sa.Engine
+    pauses: Sequence[float] = PAUSES
     _writing: Lock = field(default_factory=Lock)
 
     def enter(self, id: str, order: Order, keep_seconds: float, step: Step, cost: float) -> None:
@@ -141,6 +148,7 @@ class Checks(Record, dict=True):
                 step = Step(stage.value, stage, _BEGINS[stage])
                 # Another worker may have been faster.
                 if self._move(connection, row.id, step, *_as_in(row), worker=taker.name):
+                    set_clock(connection, stage, row.rank)
                     order = Order(row.upload, row.name, row.profile, row.sender)
                     return Held(row.id, taker.name, stage, order, row.tries >= TRIES - 1)
 
@@ -218,7 +226,7 @@ class Checks(Record, dict=True):
             words = f"{UNFINISHED}: {reason}; it was tried {TRIES} times, at last alone"
             end = Step("end", Stage.FAILED, words, data={"losses": losses})
             return self._move(connection, row.id, end, *_as_in(row), losses=losses, tries=tries)
-        pause = PAUSES[row.tries]
+        pause = self.pauses[row.tries]
         words = f"starts again in {pause:g} s: {reason} (try {tries + 1} of {TRIES})"
         step = Step(f"again{tries}", Stage(row.stage), words)
         moment = now(self.engine) + pause
@@ -229,6 +237,7 @@ class Checks(Record, dict=True):
         """Let a stage go unfinished, through no fault of its own; False if it was lost before."""
         with self.engine.begin() as connection:
             waits = sa.update(CHECKS).where(*_is(held)).values(worker="", words=WAITS)
+            tell(connection, held.id)
             return connection.execute(waits).rowcount == 1
 
     def holds(self, held: Held) -> bool:
@@ -252,7 +261,7 @@ class Checks(Record, dict=True):
             waits = not stage.is_final and not row.worker
             return State(
                 id=id,
-                order=Order(row.upload, row.name, row.profile),
+                order=Order(row.upload, row.name, row.profile, row.sender),
                 stage=stage,
                 words=row.words,
                 ahead=ahead(connection, row) if waits else 0,
@@ -313,6 +322,7 @@ class Checks(Record, dict=True):
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
+        tell(connection, id)
 
     @cached_property
     def _entering(self) -> sa.Insert:

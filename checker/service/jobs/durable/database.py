@@ -17,8 +17,8 @@ from checker.service.jobs.durable.tables import CHECKS, EVENTS, LENGTH, key_of_c
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.place import DATABASE, data_folder
 
-# What older versions left: version 0.1.0 wrote ids of checks in the clear, and until then the queues
-# were those of a library (DBOS), with ids of their own.
+# What older versions left: 0.1.0 wrote ids of checks in the clear, and had its queues in tables of
+# a library (DBOS), with ids of their own.
 #
 # Old links lead to their checks as before. Any number of processes may do this at once, and any of
 # them may be killed: the next one goes on.

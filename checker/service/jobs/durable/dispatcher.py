@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks, Held, Taker
 from checker.service.jobs.durable.database import reachable
-from checker.service.jobs.durable.queue import STAGES
+from checker.service.jobs.durable.tables import STAGES
 from checker.service.jobs.port import JobsUnreachable, Stage
 
 _LOG = logging.getLogger(__name__)

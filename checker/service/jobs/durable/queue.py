@@ -4,7 +4,7 @@ Each stage has a queue. A check that enters it is given a rank, and the lowest i
 the time at which the check would be over if all senders were served side by side, each with an
 equal share of one processor (weighted fair queueing, Demers, Keshav and Shenker 1989), and each had
 its own shorter checks done before its longer ones. The clock of that imagined processor stands at
-the rank of what is in hand.
+the highest rank of all that was taken.
 
 So the first check of somebody who sends one comes before the fifth of somebody who sends a hundred,
 and a long one comes at the latest when as much has been done for each other sender.
@@ -17,11 +17,9 @@ from typing import Any
 
 import sqlalchemy as sa
 
-from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.durable.tables import CHECKS, QUEUES
 from checker.service.jobs.port import Stage
 
-STAGES = (Stage.STATIC, Stage.TRIAL)
-"""Each has a queue."""
 _BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
 
 
@@ -44,16 +42,20 @@ def rank(connection: sa.Connection, stage: Stage, sender: str, cost: float) -> f
         sender: Who asks.
         cost: Of the check, seconds.
     """
-    waits = CHECKS.c.worker == ""
-    before = (CHECKS.c.sender == sender) & (CHECKS.c.cost <= cost)
-    question = sa.select(
-        sa.func.max(sa.case((~waits, CHECKS.c.rank))),
-        sa.func.min(sa.case((waits, CHECKS.c.rank - CHECKS.c.cost))),
-        sa.func.sum(sa.case((before & waits, CHECKS.c.cost), else_=0.0)),
-    ).where(CHECKS.c.stage.in_(stands_in(stage)))
-    in_hand, first, own = connection.execute(question).one()
-    moment = in_hand if in_hand is not None else (first or 0.0)
-    return float(moment + (own or 0.0) + cost)
+    shorter = (CHECKS.c.sender == sender, CHECKS.c.cost <= cost, CHECKS.c.worker == "")
+    before = sa.select(sa.func.coalesce(sa.func.sum(CHECKS.c.cost), 0.0)).where(
+        CHECKS.c.stage.in_(stands_in(stage)), *shorter
+    )
+    clock = sa.select(QUEUES.c.moment).where(QUEUES.c.stage == stage.value)
+    question = sa.select(before.scalar_subquery(), clock.scalar_subquery())
+    own, moment = connection.execute(question).one()
+    return float(moment + own + cost)
+
+
+def set_clock(connection: sa.Connection, stage: Stage, rank: float) -> None:
+    """Set the clock of a queue to the rank of what was taken, unless it is further on."""
+    later = (QUEUES.c.stage == stage.value, QUEUES.c.moment < rank)
+    connection.execute(sa.update(QUEUES).where(*later).values(moment=rank))
 
 
 def next_in(stage: Stage, moment: sa.ColumnElement[float], *, others: bool) -> sa.Select[Any]:

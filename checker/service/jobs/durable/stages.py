@@ -79,7 +79,7 @@ _ALONE_LOOK_SECONDS = 0.5
 _READ = "the static rules are finished; the trial is waiting in the queue"
 _TRIAL_SECONDS, _TRIAL_SHARE = 3.0, 2.0
 """A trial and the drawing of all that was found take so long, and so many times as long as the
-rules did: of real packages, within a factor of two."""
+rules did, in whole seconds: of real packages, within a factor of two."""
 
 
 class Stages(Record):
@@ -123,7 +123,7 @@ class Stages(Record):
                 patiently(lambda: self.checks.put_off(held, reason))
             case _:
                 step = _conclusion(outcome, held.stage)
-                cost = _TRIAL_SECONDS + _TRIAL_SHARE * (time.monotonic() - begun)
+                cost = _TRIAL_SECONDS + round(_TRIAL_SHARE * (time.monotonic() - begun))
                 patiently(lambda: self.checks.settle(held, step, cost))
 
     def _wait_until_alone(self, held: Held) -> None:

@@ -6,6 +6,8 @@ from hashlib import sha256
 
 import sqlalchemy as sa
 
+from checker.service.jobs.port import Stage
+
 # What stands for a check in the books: a digest of its id, which opens no report.
 #
 # The id is in the answer to who uploads and in the addresses that they pass on, and nowhere else.
@@ -30,6 +32,8 @@ def key_of_check(id: str) -> str:
 
 
 METADATA = sa.MetaData()
+STAGES = (Stage.STATIC, Stage.TRIAL)
+"""Each has a queue."""
 
 CHECKS = sa.Table(
     "subt_checks",
@@ -53,8 +57,8 @@ CHECKS = sa.Table(
     sa.Column("tries", sa.Integer, nullable=False, server_default="0"),
     sa.Column("not_before", sa.Double, nullable=False, server_default="0"),
 )
-"""Each check. `id` is its key, which opens nothing. `worker` has it in hand; empty while it waits or
-when it is over. `losses` are the tries that came to nothing through no fault of the package, and
+"""Each check. `id` is its key, which opens nothing. `worker` has it in hand; empty while it waits
+or when it is over. `losses` are the tries that came to nothing through no fault of the package, and
 `tries` is their number; it is not tried again before `not_before`. `sender` is who asked (see
 `Order`), until it is over; `cost` is what the next stage takes, in seconds as far as one can tell,
 and `rank` its place in the queue (`checker.service.jobs.durable.queue`). Version 0.1.0 wrote
@@ -74,6 +78,14 @@ EVENTS = sa.Table(
 )
 """What happened to each check. A stage that is repeated finds its `key` and tells nothing again."""
 
+QUEUES = sa.Table(
+    "subt_queues",
+    METADATA,
+    sa.Column("stage", sa.String(16), primary_key=True),
+    sa.Column("moment", sa.Double, nullable=False),
+)
+"""The queue of each stage, and its clock: the highest rank of all that was taken from it."""
+
 WORKERS = sa.Table(
     "subt_workers",
     METADATA,
@@ -82,8 +94,8 @@ WORKERS = sa.Table(
     sa.Column("layers", sa.JSON),
     sa.Column("host", sa.Text),
 )
-"""The last sign of life of each worker, by the clock of the database, layers of its sandbox, and the
-machine it runs on; version 0.1.0 knows none of the last two."""
+"""The last sign of life of each worker, by the clock of the database, layers of its sandbox, and
+the machine it runs on; version 0.1.0 knows none of the last two."""
 
 
 def make_tables(connection: sa.Connection) -> None:
@@ -95,3 +107,7 @@ def make_tables(connection: sa.Connection) -> None:
             if column.name not in known:
                 made = sa.schema.CreateColumn(column).compile(dialect=connection.dialect)
                 connection.exec_driver_sql(f"ALTER TABLE {table.name} ADD COLUMN {made}")
+    queues = set(connection.execute(sa.select(QUEUES.c.stage)).scalars())
+    for stage in STAGES:
+        if stage.value not in queues:
+            connection.execute(sa.insert(QUEUES).values(stage=stage.value, moment=0.0))

@@ -21,7 +21,7 @@ from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.changes import Changes
-from checker.service.jobs.durable.checks import Checks, Taker
+from checker.service.jobs.durable.checks import PAUSES, Checks, Taker
 from checker.service.jobs.durable.database import open_database, prepare, reachable
 from checker.service.jobs.durable.dispatcher import Dispatcher
 from checker.service.jobs.durable.stages import Retention, Stages
@@ -57,6 +57,7 @@ class WorkerOptions(Record):
         silence_seconds: After which other workers take this one for dead.
         cleaning_seconds: Between two rounds that delete what has had its time.
         unused_seconds: That files stay which no check refers to.
+        pauses: Seconds before each further try of what came to nothing (see `checks.PAUSES`).
         ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
     """
 
@@ -70,6 +71,7 @@ class WorkerOptions(Record):
     silence_seconds: float = SILENCE_SECONDS
     cleaning_seconds: float = 3600.0
     unused_seconds: float = 3600.0
+    pauses: Sequence[float] = PAUSES
     ahead: bool = True
 
 
@@ -85,7 +87,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     prepare(engine)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
-    workers, checks = Workers(engine, layers, options.host), Checks(engine)
+    workers, checks = Workers(engine, layers, options.host), Checks(engine, options.pauses)
     taker = Taker(options.name, options.host)
     children = Children(options.store, options.ahead)
     stages = Stages(checks, options.store, taker, children)
