@@ -27,6 +27,11 @@ def answer(request, files):
     global count
     count += 1
     asked = json.loads(request)
+    if "killed" in asked["items"]:
+        os.kill(os.getpid(), 9)
+    if "told" in asked["items"]:
+        told = {"failed": {"reason": "was killed", "momentary": True}}
+        return json.dumps([told] * len(asked["items"])).encode()
     if "dies" in asked["items"]:
         os._exit(1)
     if "silent" in asked["items"]:
@@ -87,6 +92,25 @@ def test_no_proper_answer_is_a_reason(item: str, tmp_path: Path) -> None:
     failed = results(Background(work("a", item), cache))
     assert all(isinstance(each, WorkerFailed) and each.reason for each in failed)
     assert not list((tmp_path / "cache").rglob("*.json"))
+
+
+@pytest.mark.parametrize("item", ["killed", "told"])
+def test_what_may_be_there_the_next_time_is_told_apart(item: str, tmp_path: Path) -> None:
+    lasting, passing = Cache(tmp_path / "one"), Cache(tmp_path / "two")
+    Background(work("dies"), lasting).results()
+    assert (lasting.is_whole, lasting.disturbed) == (False, "")
+    (failed,) = results(Background(work(item), passing))
+    assert isinstance(failed, WorkerFailed)
+    assert failed.momentary
+    assert passing.disturbed == f"words: {failed.reason}"
+
+
+def test_a_full_disk_is_a_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cache = Cache(tmp_path / "cache")
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
+    (failed,) = results(Background(work("a"), cache))
+    assert failed == WorkerFailed("could not be started: No such file or directory", True)
+    assert cache.disturbed.startswith("words: could not be started")
 
 
 def test_small_work_needs_no_process(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -61,6 +61,8 @@ def test_an_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         ("return b''", "ended without an answer"),
         ("return b'x' * 2_000_000_000", "needs more than 1000 MB of memory"),
         ("import os; os.kill(os.getpid(), 11)", "crashed (signal SIGSEGV)"),
+        ("raise OSError(12, 'Cannot allocate memory')", "needs more than 1000 MB of memory"),
+        ("raise FileNotFoundError(2, 'none')", "failed"),
     ],
 )
 def test_a_child_that_dies(
@@ -69,6 +71,23 @@ def test_a_child_that_dies(
     died = ask_for(body, tmp_path, monkeypatch, LIMITS)
     assert isinstance(died, WorkerFailed)
     assert died.reason.startswith(reason)
+    assert not died.momentary
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        ("import os; os.kill(os.getpid(), 9)", "was killed from outside"),
+        ("raise OSError(28, 'No space left on device')", "failed because the disk or the system"),
+    ],
+)
+def test_a_child_that_dies_of_what_may_pass(
+    body: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    died = ask_for(body, tmp_path, monkeypatch, LIMITS)
+    assert isinstance(died, WorkerFailed)
+    assert died.reason.startswith(reason)
+    assert died.momentary
 
 
 def test_an_answer_that_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -88,8 +107,15 @@ def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         child = Child("some_work", b"", LIMITS, starter=found)
         assert child.alive
         child.deadline = 0.0
-        assert isinstance(child.answer(), WorkerFailed)
+        stopped = child.answer()
+        assert isinstance(stopped, WorkerFailed)
+        assert stopped.momentary
         assert not child.alive
+
+
+def test_a_busy_machine_stops_no_child() -> None:
+    """What counts is processor time; where five processes share two cores, clocks run fast."""
+    assert Limits(seconds=20).clock_seconds >= 10 * 20
 
 
 def test_files_are_handed_over_and_no_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -55,6 +55,19 @@ print(first, type(others[0]).__name__, type(others[1]).__name__, others[2:] == [
     assert run(body) == ["b'1' WorkerFailed WorkerFailed True"]
 
 
+def test_who_was_killed_from_outside_may_do_well_the_next_time() -> None:
+    body = """
+def killed():
+    os.kill(os.getpid(), 9)
+def full():
+    raise OSError(28, "No space left on device")
+def spins():
+    [0 for _ in iter(int, 1)]
+print(*(in_fork(work, 1).momentary for work in (killed, full, spins)))
+"""
+    assert run(body) == ["True True False"]
+
+
 def test_they_share_a_fork_until_one_ends_it() -> None:
     body = """
 def dies():
@@ -129,7 +142,7 @@ def waits():
     return b"done"
 print(in_forks([waits] * 4, 5, until, "came too late"))
 """
-    late = "WorkerFailed(reason='came too late')"
+    late = "WorkerFailed(reason='came too late', momentary=True)"
     assert run(body) == [f"[b'done', {late}, {late}, {late}]"]
 
 

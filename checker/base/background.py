@@ -43,7 +43,7 @@ class Work(Record, Generic[T], eq=False):
     """What is to be worked out: some items, by one process.
 
     Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with
-    a JSON list of as many results.
+    a JSON list of as many results; in place of one, `failed` says why there is none.
 
     Attributes:
         kind: Of the results in the cache.
@@ -84,6 +84,7 @@ class Background(Generic[T]):
         self._asked: Child | Asked | None = None
         self._results: dict[str, T | WorkerFailed] = {}
         self._unknown: Sequence[str] | None = None
+        self._not_given: WorkerFailed | None = None
 
     @property
     def known(self) -> bool:
@@ -115,7 +116,7 @@ class Background(Generic[T]):
                 if not isinstance(result, WorkerFailed) and self._work.lasts(result):
                     self._cache.put(self._work.kind, key, answer)
                 else:
-                    self._cache.pass_over(self._work.kind)
+                    self._cache.pass_over(self._work.kind, _disturbance(result))
             self._unknown = ()
         return self._results
 
@@ -132,16 +133,19 @@ class Background(Generic[T]):
         work = self._work
         request = json.dumps({**work.common, "items": items}).encode()
         contents = from_disk(dict(file for item in items for file in work.files(item)).items())
-        if self._waiting is None:
-            self._asked = Child(work.module, request, work.limits, contents)
-        else:
-            self._asked = self._waiting.give(request, contents)
+        try:
+            if self._waiting is None:
+                self._asked = Child(work.module, request, work.limits, contents)
+            else:
+                self._asked = self._waiting.give(request, contents)
+        except OSError as error:  # such as a full disk
+            self._not_given = WorkerFailed(f"could not be started: {error.strerror}", True)
 
     def _answers(self, unknown: Sequence[str]) -> Sequence[Any]:
         """Return as many answers as were asked for, or why there are none."""
         if self._work.here is not None:
             return [self._work.here(self._work.items[key]) for key in unknown]
-        answer = self._asked.answer() if self._asked is not None else _NONSENSE
+        answer = self._asked.answer() if self._asked is not None else self._not_given or _NONSENSE
         if isinstance(answer, WorkerFailed):
             return [answer] * len(unknown)
         try:
@@ -152,7 +156,15 @@ class Background(Generic[T]):
         return answers if fits else [_NONSENSE] * len(unknown)
 
     def _decoded(self, answer: Any) -> T | WorkerFailed:
+        match answer:
+            case {"failed": {"reason": str(reason), "momentary": bool(momentary)}}:
+                return WorkerFailed(reason, momentary)
         try:
             return self._work.decode(answer)
         except NONSENSE:
             return _NONSENSE
+
+
+def _disturbance(result: object) -> str:
+    """Return why there is no result, if the cause is momentary."""
+    return result.reason if isinstance(result, WorkerFailed) and result.momentary else ""

@@ -83,15 +83,28 @@ class Cache(Record):
 
     folder: Path | None
     _passing: list[str] = field(default_factory=list)
+    _disturbances: list[str] = field(default_factory=list)
 
-    def pass_over(self, kind: str) -> None:
-        """Note that a result is not kept, as of a process that ran out of time."""
+    def pass_over(self, kind: str, disturbance: str = "") -> None:
+        """Note that a result is not kept, as of a process that ran out of time.
+
+        Args:
+            kind: Of the result.
+            disturbance: Why there is none, where the cause is momentary.
+        """
         self._passing.append(kind)
+        if disturbance:
+            self._disturbances.append(f"{kind}: {disturbance}")
 
     @property
     def is_whole(self) -> bool:
         """Whether all results so far would be the same the next time."""
         return not self._passing
+
+    @property
+    def disturbed(self) -> str:
+        """Why the first of some results is missing that may be there the next time; else empty."""
+        return self._disturbances[0] if self._disturbances else ""
 
     def get(self, kind: str, key: str) -> Any:
         """Return a result as the JSON that was put; None when it is not known."""

@@ -18,17 +18,20 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, BinaryIO
 
+from checker.base.exit_causes import cause_of
 from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.launcher import Launcher, Order, launcher
-from checker.base.sandbox.task import FAILED, OUT_OF_MEMORY
+from checker.base.sandbox.task import FAILED
 
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
-_STARTUP_SECONDS = 10.0
+_STARTUP_SECONDS = 60.0
 """For the imports, on a machine that does something else as well."""
+_CLOCK = 10.0
+"""Seconds by the clock for one of processor time: a busy machine is no reason to stop anything."""
 _ENDS_SECONDS = 5.0
 """Until a process that is killed has ended, at most."""
 _CODE_LIMIT = 16
@@ -38,7 +41,8 @@ class Limits(Record):
     """What a process may use.
 
     Attributes:
-        seconds: Of processor time; four times as many pass on the clock before it is stopped.
+        seconds: Of processor time. By the clock it may take far longer (`clock_seconds`), since a
+            machine that does other things is not to decide what is checked.
         memory: Bytes of address space.
         draws: Whether it may use graphics cards.
     """
@@ -50,7 +54,7 @@ class Limits(Record):
     @property
     def clock_seconds(self) -> float:
         """How long the process may take by the clock."""
-        return 4.0 * self.seconds + _STARTUP_SECONDS
+        return _CLOCK * self.seconds + _STARTUP_SECONDS
 
 
 class Child:
@@ -128,7 +132,7 @@ class Child:
             if not self.ends(self.deadline - monotonic()):
                 return overdue(self.limits)
             if self.code != 0:
-                return cause_of(self.code, self.limits)
+                return cause_of(self.code, self.limits.seconds, self.limits.memory)
             answer = self.answered(ANSWER_LIMIT)
             return answer if isinstance(answer, WorkerFailed) else answer[0]
         finally:
@@ -215,19 +219,4 @@ def _code(data: bytes) -> int | None:
 
 def overdue(limits: Limits) -> WorkerFailed:
     """Return what is said of a process that was stopped."""
-    return WorkerFailed(f"took longer than {limits.clock_seconds:g} s and was stopped")
-
-
-def cause_of(code: int | None, limits: Limits) -> WorkerFailed:
-    """Return what is said of a process that ended with an exit code other than 0."""
-    if code is None:
-        return WorkerFailed("could not be started")
-    if code == OUT_OF_MEMORY:
-        return WorkerFailed(f"needs more than {limits.memory / 1e6:.0f} MB of memory")
-    if code == -signal.SIGXCPU:
-        return WorkerFailed(f"needs more than {limits.seconds:g} s of processor time")
-    if code == -signal.SIGKILL:
-        return WorkerFailed("was killed: it needs too much time or memory")
-    if code < 0:
-        return WorkerFailed(f"crashed (signal {signal.Signals(-code).name})")
-    return WorkerFailed("failed with an error")
+    return WorkerFailed(f"took longer than {limits.clock_seconds:g} s and was stopped", True)

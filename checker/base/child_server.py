@@ -13,7 +13,8 @@ from contextlib import suppress
 from time import monotonic
 
 from checker.base import child_process
-from checker.base.child_process import Child, Limits, cause_of, overdue
+from checker.base.child_process import Child, Limits, overdue
+from checker.base.exit_causes import cause_of
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content
@@ -62,10 +63,10 @@ class _Process(Child):
             place = os.read(self._done, PLACE.size)
             if len(place) < PLACE.size:
                 self.ends(_ENDS_SECONDS)
-                return cause_of(self.code, self.limits)
+                return cause_of(self.code, self.limits.seconds, self.limits.memory)
             self._places.append(PLACE.unpack(place))
         if self._stopped:
-            return WorkerFailed("was stopped")
+            return WorkerFailed("was stopped", momentary=True)
         answer = self.answered(child_process.ANSWER_LIMIT, *self._places[number])
         return answer if isinstance(answer, WorkerFailed) else answer[0]
 

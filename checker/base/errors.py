@@ -6,7 +6,20 @@ find anything in.
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
+
+_MOMENTARY = frozenset(
+    (
+        *(errno.EAGAIN, errno.EDQUOT, errno.EIO, errno.EMFILE),
+        *(errno.ENFILE, errno.ENOSPC, errno.EROFS, errno.ESTALE),
+    )
+)
+
+
+def is_momentary(error: BaseException) -> bool:
+    """Say whether the disk or the system failed: nothing that a package can do, and may pass."""
+    return isinstance(error, OSError) and error.errno in _MOMENTARY
 
 
 class CheckerError(Exception):

@@ -6,18 +6,16 @@ import gc
 import math
 import os
 import resource
-import signal
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
+from checker.base.exit_causes import cause_of
 from checker.base.parts import WorkerFailed
-from checker.base.sandbox.task import end_with_parent, tighter
+from checker.base.sandbox.task import code_of, end_with_parent, tighter
 
-_OUT_OF_MEMORY, _FAILED = 71, 70
-"""Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 _RESULT_LIMIT = 200_000_000
 """Bytes."""
 _HEAD = 8
@@ -41,7 +39,7 @@ def in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
         seconds: Of processor time.
     """
     read, code = _forked([work], seconds, math.inf)
-    return read[0] if read and code == 0 else WorkerFailed(_cause(code, seconds))
+    return read[0] if read and code == 0 else _cause(code, seconds)
 
 
 def in_forks(
@@ -61,10 +59,12 @@ def in_forks(
     results: list[bytes | WorkerFailed] = []
     while len(results) < len(works):
         if until - monotonic() < _LEAST:
-            return results + [WorkerFailed(late)] * (len(works) - len(results))
+            return results + [WorkerFailed(late, momentary=True)] * (len(works) - len(results))
         read, code = _forked(works[len(results) :], seconds, until)
         in_time = until - monotonic() >= _LEAST
-        results += read or [WorkerFailed(_cause(code, seconds) if in_time else late)]
+        results += read or [
+            _cause(code, seconds) if in_time else WorkerFailed(late, momentary=True)
+        ]
     return results
 
 
@@ -113,10 +113,8 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: 
                 pipe.write(len(result).to_bytes(_HEAD, "big") + result)
                 pipe.flush()
                 del result
-    except MemoryError:
-        return _OUT_OF_MEMORY
-    except BaseException:  # noqa: BLE001 - whatever it is, the fork must not go on as its parent
-        return _FAILED
+    except BaseException as error:  # noqa: BLE001 - it must not go on as its parent
+        return code_of(error)
     return 0
 
 
@@ -135,11 +133,5 @@ def _memory() -> int:
         return 0
 
 
-def _cause(code: int, seconds: int) -> str:
-    if code == _OUT_OF_MEMORY:
-        return "needs more memory than allowed"
-    if code == -signal.SIGXCPU:
-        return f"needs more than {seconds} s of processor time"
-    if code < 0:
-        return f"crashed its reader (signal {-code})"
-    return "cannot be read: its reader failed"
+def _cause(code: int, seconds: int) -> WorkerFailed:
+    return cause_of(code, seconds, resource.getrlimit(resource.RLIMIT_AS)[0])

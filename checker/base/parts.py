@@ -25,9 +25,17 @@ class WorkerFailed(Record):
 
     Attributes:
         reason: Why, as the end of a sentence whose subject is the work.
+        momentary: Whether the cause is not in the work, so that it may go well the next time: it
+            was killed from outside, the machine was too busy, or the disk was full.
     """
 
     reason: str
+    momentary: bool = False
+
+    @property
+    def entry(self) -> dict[str, object]:
+        """How a process says it in place of one of its results (`checker.base.background`)."""
+        return {"failed": {"reason": self.reason, "momentary": self.momentary}}
 
 
 class Parts(Protocol):

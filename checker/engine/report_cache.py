@@ -88,11 +88,12 @@ def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless it may be another the next time.
 
-    It may where a process failed, a rule crashed or nothing could be drawn. A sibling that was not
-    found is no reason: the key holds which files lie beside the package.
+    It may where a process or the system failed, a rule crashed or nothing could be drawn. A sibling
+    that was not found is no reason: the key holds which files lie beside the package.
     """
     undrawn = report.display is not None and not report.display.pictures
-    if key and cache.is_whole and not report.crashed and not undrawn:
+    lasts = cache.is_whole and not report.crashed and not report.disturbed
+    if key and lasts and not undrawn:
         cache.put(KIND, key, msgspec.to_builtins(report, enc_hook=str))
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from msgspec.structs import replace
+
 from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
@@ -13,7 +15,7 @@ from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.engine.facts import facts_of, trials_of
 from checker.engine.options import check_against_rules
-from checker.engine.run import Outcome, crashed, joined, needed_parts, run_rules
+from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.model.devices.known import known_devices
 from checker.package.package import Package
@@ -126,7 +128,9 @@ def judged(
             subject.start_meshes()
         known = rules(cache)
         check_against_rules(settings, known)
-        return _report_or_crash(subject, shown, settings, known)
+        report = _report_or_crash(subject, shown, settings, known)
+        momentary = (unseen.reason for unseen in report.not_checked if unseen.momentary)
+        return replace(report, disturbed=cache.disturbed or next(momentary, ""))
     finally:
         subject.close()
 
@@ -156,7 +160,7 @@ def _report_or_crash(
     try:
         return _report(subject, shown, settings, known)
     except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
-        broken = (crashed("check", error),)
+        broken = (unfinished("check", error),)
         return PackageReport(subject.package.name, shown, "unknown", (), broken)
 
 
@@ -203,7 +207,7 @@ def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotCh
     try:
         return facts_of(subject), ()
     except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return (), (crashed("facts", error),)
+        return (), (unfinished("facts", error),)
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
@@ -218,4 +222,4 @@ def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
     try:
         return subject.physics.display.made(next(trials, None)), ()
     except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
-        return None, (crashed("display", error),)
+        return None, (unfinished("display", error),)

@@ -10,6 +10,7 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
+from checker.base.errors import is_momentary
 from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
@@ -217,11 +218,17 @@ def _run_isolated(
     except MissingExtra as missing:
         return NotChecked(rule.id, missing.extra.missing, Cause.SWITCHED_OFF)
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
-        return crashed(rule.id, error)
+        return unfinished(rule.id, error)
 
 
-def crashed(what: str, error: Exception) -> NotChecked:
-    """Say that a part of the check could not run because of the checker itself."""
+def unfinished(what: str, error: Exception) -> NotChecked:
+    """Say why a part of the check did not come to its end.
+
+    The disk or the system may have failed; all else is the checker's own fault.
+    """
+    if is_momentary(error):
+        reason = f"{what} could not run because the system failed ({error}); check again"
+        return NotChecked(what, shortened(reason, TEXT_LIMIT), Cause.NOT_AT_HAND, momentary=True)
     problem = shortened(f"{type(error).__name__}: {error}", TEXT_LIMIT)
     reason = f"{what} could not run ({problem}); please report this"
     return NotChecked(what, reason, Cause.CRASHED)

@@ -77,7 +77,8 @@ def _package_json(package: PackageReport) -> PackageJson:
         findings=tuple(map(_finding_json, package.findings)),
         suppressed=tuple(map(_suppressed_json, package.suppressed)),
         not_checked=tuple(
-            NotCheckedJson(*msgspec.structs.astuple(unseen)) for unseen in package.not_checked
+            NotCheckedJson(each.rule, each.reason, each.cause, each.severity, each.concern)
+            for each in package.not_checked
         ),
         trial=cast("TrialJson | None", package.trial),
         facts=package.facts,

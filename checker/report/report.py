@@ -65,6 +65,7 @@ class NotChecked(Record):
     Attributes:
         severity: Of what it may have missed; None where that is not known.
         concern: What it may have missed is about; None where that is not known.
+        momentary: Whether it may look the next time: the disk or the system failed.
     """
 
     rule: str
@@ -72,6 +73,7 @@ class NotChecked(Record):
     cause: Cause
     severity: Severity | None = None
     concern: Concern | None = None
+    momentary: bool = False
 
     @property
     def may_hide_error(self) -> bool:
@@ -199,6 +201,8 @@ class PackageReport(Record):
         looked: Ids of the rules that had all they asked for.
         other_robots: Facts of the further robots of the package.
         other_trials: The trials of further robots that were driven.
+        disturbed: Why something was not checked that may be the next time, such as a process that
+            was killed from outside: the first of these reasons; empty without any.
     """
 
     name: str
@@ -219,6 +223,7 @@ class PackageReport(Record):
     looked: tuple[str, ...] = ()
     other_robots: tuple[Mapping[str, Any], ...] = ()
     other_trials: tuple[Mapping[str, Any], ...] = ()
+    disturbed: str = ""
 
     @property
     def verdict(self) -> VerdictKind:

@@ -14,6 +14,7 @@ from msgspec import to_builtins
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
+from checker.base.child_process import Limits
 from checker.engine.report_cache import from_stored, memory_key, recalled, remember
 from checker.package.inputs import open_input
 from checker.pipeline import check_package
@@ -132,6 +133,16 @@ def test_what_crashed_or_failed_is_tried_again(tmp_path: Path) -> None:
     failed.pass_over("mesh")
     remember(failed, "key", static_report(GOOD))
     assert recalled(Cache(tmp_path), "key", "path") is None
+
+
+def test_what_was_disturbed_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SUBT_CHECK_CACHE", str(tmp_path))
+    monkeypatch.setattr(Limits, "clock_seconds", 0.0)
+    path = SAMPLES / "subtcheck_quadro_sensor_config_1"
+    (report,) = check_package(path, Settings(trial=False)).packages
+    assert "took longer" in report.disturbed
+    assert not report.crashed
+    assert not list(tmp_path.glob("report/*/*.json"))
 
 
 def test_a_missing_sibling_is_remembered_until_it_is_there(packages: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from typing import Any
 
 import pytest
@@ -46,6 +47,17 @@ def test_a_rule_that_crashes_is_named_and_the_others_go_on(check: object, error:
     (crash,) = outcome.not_checked
     assert (crash.rule, crash.cause) == ("TST009", Cause.CRASHED)
     assert error in crash.reason
+
+
+def without_disk(_: Wheel) -> Findings:
+    raise OSError(errno.ENOSPC, "No space left on device")
+    yield
+
+
+def test_a_rule_that_the_system_stops_did_not_crash() -> None:
+    (stopped,) = run(rule_of(without_disk)).not_checked
+    assert (stopped.rule, stopped.cause, stopped.momentary) == ("TST009", Cause.NOT_AT_HAND, True)
+    assert "No space left on device" in stopped.reason
 
 
 def test_a_rule_gets_the_parts_and_the_context_that_it_asks_for() -> None:

@@ -11,18 +11,20 @@ import signal
 import socket
 from collections.abc import Iterable
 from contextlib import suppress
+from errno import ENOMEM
 from importlib import import_module
 from struct import Struct
 from types import ModuleType
 from typing import Any, BinaryIO
 
+from checker.base.errors import is_momentary
 from checker.base.sandbox.files import Content, read, write
 from checker.base.sandbox.layers import Sandbox, narrow
 
 Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 """What comes back; files are made one by one, while they are written."""
-OUT_OF_MEMORY, FAILED = 71, 70
-"""Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+OUT_OF_MEMORY, FAILED, DISTURBED = 71, 70, 75
+"""Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE, EX_TEMPFAIL (the disk or the system)."""
 _PR_SET_PDEATHSIG = 1
 PLACE = Struct("<QQ")
 """Where one of several requests or answers begins and ends in the file of all."""
@@ -70,12 +72,19 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
             message, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
                 _write(file, module.answer(message, files))
-    except MemoryError:
-        return OUT_OF_MEMORY
-    except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
-        _tell_fault(answer)
-        return FAILED
+    except BaseException as error:  # noqa: BLE001 - who waits is told that there is no answer
+        code = code_of(error)
+        if code != OUT_OF_MEMORY:
+            _tell_fault(answer)
+        return code
     return 0
+
+
+def code_of(error: BaseException) -> int:
+    """Return the exit code of a process that ends with an error."""
+    if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == ENOMEM):
+        return OUT_OF_MEMORY
+    return DISTURBED if is_momentary(error) else FAILED
 
 
 def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> None:

@@ -9,7 +9,7 @@ import json
 import os
 import resource
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from time import monotonic
 from typing import Any
@@ -80,14 +80,16 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
         done = processor.expand(data, job["file"], job["args"], as_melodic=as_melodic, call=call)
         return json.dumps(done).encode()
 
-    done = []
+    done: list[Mapping[str, object]] = []
     for job in data["items"]:
         seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
         if seconds < _SHORTEST:
             done.append({"unread": f"the other files took {SECONDS_FOR_ALL:g} s"})
             continue
         result = in_fork(lambda job=job: work(job), seconds)  # type: ignore[misc]
-        if isinstance(result, WorkerFailed):
+        if isinstance(result, WorkerFailed) and result.momentary:
+            done.append(result.entry)
+        elif isinstance(result, WorkerFailed):
             done.append({"kind": "limit", "message": f"expanding it {result.reason}"})
         else:
             done.append(json.loads(result))

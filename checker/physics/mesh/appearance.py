@@ -112,9 +112,7 @@ def appearances(
     shared = _shared_pictures(items, files, run_in_forks)
     read = run_in_forks([partial(_as_json, item, files, shared) for item in items])
     return [
-        json.dumps(appearance_to_json(answer.reason)).encode()
-        if isinstance(answer, WorkerFailed)
-        else answer
+        json.dumps(answer.entry).encode() if isinstance(answer, WorkerFailed) else answer
         for answer in read
     ]
 

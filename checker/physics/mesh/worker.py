@@ -57,7 +57,10 @@ def _facts(
     Each item has a `file`, the `name` that the model knows, and the parts `picked`.
     """
     read = run_in_forks([partial(_fact, item, files) for item in items])
-    return [_failed(result) if isinstance(result, WorkerFailed) else result for result in read]
+    return [
+        json.dumps(result.entry).encode() if isinstance(result, WorkerFailed) else result
+        for result in read
+    ]
 
 
 def _fact(item: Mapping[str, Any], files: Files) -> bytes:
@@ -65,10 +68,6 @@ def _fact(item: Mapping[str, Any], files: Files) -> bytes:
     if isinstance(data, NotReadable):
         return _as_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason))
     return _as_json(read_mesh(data, item["name"], item.get("picked", ())))
-
-
-def _failed(failed: WorkerFailed) -> bytes:
-    return _as_json(_given_up(failed))
 
 
 def _given_up(failed: WorkerFailed) -> MeshFault:
@@ -95,6 +94,9 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> di
         return json.dumps(seen_of_mesh(sensors, mesh, data, item.get("lights", ()))).encode()
 
     results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
+    for result in results:
+        if isinstance(result, WorkerFailed) and result.momentary:
+            return result.entry
     read = [
         unseen(_given_up(result)) if isinstance(result, WorkerFailed) else json.loads(result)
         for result in results

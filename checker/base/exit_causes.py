@@ -1,0 +1,34 @@
+"""Why a process that worked for us has ended without an answer, by its exit code."""
+
+from __future__ import annotations
+
+import signal
+
+from checker.base.parts import WorkerFailed
+from checker.base.sandbox.task import DISTURBED, OUT_OF_MEMORY
+
+_MOMENTARY = {
+    None: "could not be started",
+    DISTURBED: "failed because the disk or the system did",
+    # Not by limits of ours: of processor time, SIGXCPU comes first; of memory, Python says so.
+    -signal.SIGKILL: "was killed from outside",
+}
+
+
+def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
+    """Return what is said of a process that ended with an exit code other than 0.
+
+    Args:
+        code: Of a signal, its negative number; None where there is none.
+        seconds: Of processor time that it had.
+        memory: Bytes of address space that it had.
+    """
+    if code in _MOMENTARY:
+        return WorkerFailed(_MOMENTARY[code], momentary=True)
+    if code == OUT_OF_MEMORY:
+        return WorkerFailed(f"needs more than {memory / 1e6:.0f} MB of memory")
+    if code == -signal.SIGXCPU:
+        return WorkerFailed(f"needs more than {seconds:g} s of processor time")
+    if code is not None and code < 0:
+        return WorkerFailed(f"crashed (signal {signal.Signals(-code).name})")
+    return WorkerFailed("failed with an error")
