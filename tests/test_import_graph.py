@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 HEAVY = {
-    "dbos",
+    "psycopg",
     "fastapi",
     "mujoco",
     "numpy",

@@ -79,7 +79,7 @@ PHYSICS = Extra(
 SERVICE = Extra(
     "service",
     (
-        *("blake3", "dbos", "fastapi", "httpx", "multipart", "prometheus_client"),
+        *("blake3", "fastapi", "httpx", "multipart", "prometheus_client", "psycopg"),
         *("sqlalchemy", "uvicorn"),
     ),
 )

@@ -11,9 +11,8 @@ import pytest
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.changes import AWAY_SECONDS, CHANNEL, Changes
-from checker.service.jobs.durable.checks import Checks, Step
-from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.tables import METADATA
+from checker.service.jobs.durable.checks import Checks, Step, Taker
+from checker.service.jobs.durable.database import open_database, prepare
 from checker.service.jobs.port import Order, Stage
 from tests.effort import limited
 from tests.postgres import DATABASES, fresh_database
@@ -29,7 +28,7 @@ def engine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[sa.Engine
     else:
         url = fresh_database(request.getfixturevalue("postgres_url"))
     made = open_database(url)
-    METADATA.create_all(made)
+    prepare(made)
     yield made
     made.dispose()
 
@@ -46,13 +45,13 @@ def changes(engine: sa.Engine) -> Iterator[Changes]:
 
 def enter(engine: sa.Engine, key: str = KEY) -> None:
     queued = Step("queued", Stage.QUEUED, "waits")
-    Checks(engine).enter(key, Order("0" * 64, "robot.zip"), 60.0, queued, lambda _: None)
+    Checks(engine).enter(key, Order("0" * 64, "robot.zip"), 60.0, queued, 1.0)
 
 
 def test_a_new_check_and_each_of_its_steps_is_a_change(engine: sa.Engine, changes: Changes) -> None:
     enter(engine)
     assert changes.wait(LONG)
-    held = Checks(engine).begin(KEY, "w1", Step("static", Stage.STATIC, "looks"))
+    held = Checks(engine).take(Taker("w1", "here"), Stage.STATIC)
     assert held is not None
     assert changes.wait(LONG)
     assert Checks(engine).settle(held, Step("end", Stage.DONE, "ready", "b" * 64))
@@ -78,12 +77,11 @@ def test_many_changes_are_heard_of_as_one(engine: sa.Engine, changes: Changes) -
 
 
 def test_what_is_taken_back_is_none(engine: sa.Engine, changes: Changes) -> None:
-    def fail(_: sa.Connection) -> None:
-        raise ZeroDivisionError
-
-    queued = Step("queued", Stage.QUEUED, "waits")
-    with pytest.raises(ZeroDivisionError):
-        Checks(engine).enter(KEY, Order("0" * 64, "robot.zip"), 60.0, queued, fail)
+    enter(engine)
+    assert changes.wait(LONG)
+    assert not changes.wait(0.3)
+    with pytest.raises(sa.exc.IntegrityError):
+        enter(engine)
     assert not changes.wait(0.3)
 
 
@@ -116,7 +114,7 @@ def test_it_takes_no_connection_of_the_pool(engine: sa.Engine, changes: Changes)
 @pytest.mark.service
 def test_a_lost_connection_counts_as_a_change_and_is_made_anew(postgres_url: str) -> None:
     engine = open_database(fresh_database(postgres_url))
-    METADATA.create_all(engine)
+    prepare(engine)
     changes = Changes(engine)
     assert changes.wait(LONG)
     cut = sa.text("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE query = :listens")

@@ -10,7 +10,7 @@ import signal
 import sys
 import zipfile
 from collections.abc import Callable, Iterable
-from contextlib import closing
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
@@ -18,9 +18,10 @@ import pytest
 from checker.service.jobs.check import check_upload, stored_result
 from checker.service.jobs.children import Children
 from checker.service.jobs.exchange import StageLimits
-from checker.service.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.service.jobs.outcome import Cancelled, Checked, Died, Disturbed, Outcome, Refused
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
+from tests.jobs.disk import full, needs_mount, small_disk
 from tests.jobs.launched import tasks
 from tests.web.server import eventually
 
@@ -253,15 +254,65 @@ def test_the_child_is_killed(
         return False
 
     outcome = check(store, order, cancelled=murder)
-    assert isinstance(outcome, Died)
-    assert outcome.reason.startswith("the checker could not finish: it was killed")
+    assert outcome == Disturbed("its process was killed (SIGKILL)")
     assert "code -9" in caplog.text
+
+
+def test_a_process_of_the_trial_is_killed(store: Store, samples: Path, tmp_path: Path) -> None:
+    order = given(store, "buggy.zip", packed([samples / BUGGY], tmp_path))
+    with closing(Children(store, ahead=False)) as children:
+
+        def murder() -> bool:
+            """Kill what the process that checks has started, and not that one itself."""
+            for each in tasks()[1:]:
+                os.kill(each, signal.SIGKILL)
+            return False
+
+        outcome = check_upload(store, children, order, Stage.TRIAL, murder)
+    assert isinstance(outcome, Disturbed), outcome
+    assert stored_result(store, order, Stage.TRIAL) is None
+    assert isinstance(check(store, order, Stage.TRIAL), Checked)
+
+
+@needs_mount
+@pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
+def test_the_disk_is_full(stage: Stage, store: Store, samples: Path, tmp_path: Path) -> None:
+    with small_disk(store.folder, 100_000_000) as disk:
+        order = given(store, "buggy.zip", packed([samples / BUGGY], tmp_path))
+        with full(disk):
+            outcome = check(store, order, stage)
+        assert isinstance(outcome, Disturbed), outcome
+        assert stored_result(store, order, stage) is None
+        assert isinstance(check(store, order, stage), Checked)
+
+
+@needs_mount
+def test_the_disk_gets_full_meanwhile(store: Store, samples: Path, tmp_path: Path) -> None:
+    with small_disk(store.folder, 100_000_000) as disk, ExitStack() as later:
+        order = given(store, "buggy.zip", packed([samples / BUGGY], tmp_path))
+
+        def fills() -> bool:
+            if tasks()[1:] and not (disk / "filler").exists():
+                later.enter_context(full(disk))
+            return False
+
+        outcome = check(store, order, Stage.TRIAL, cancelled=fills)
+        assert (disk / "filler").exists()
+        later.close()
+        assert isinstance(outcome, Disturbed), outcome
+        assert isinstance(check(store, order, Stage.TRIAL), Checked)
+
+
+def test_the_machine_has_no_time(store: Store) -> None:
+    limits = StageLimits(seconds=60.0, clock_seconds=0.1)
+    outcome = check(store, given(store, "model.sdf", LARGE), limits=limits)
+    assert outcome == Disturbed("the service had no time for it within 0.1 s")
 
 
 @pytest.mark.parametrize(
     ("limits", "model", "reason"),
     [
-        (StageLimits(seconds=0.1), b"<sdf/>", "it took longer than 0.1 s and was stopped"),
+        (StageLimits(seconds=1.0), LARGE, "it needs more than 1 s of processor time; check"),
         # A small model is checked in the memory that was taken before there was a limit.
         (StageLimits(seconds=60.0, memory=60_000_000), LARGE, "it "),
         (

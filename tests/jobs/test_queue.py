@@ -1,4 +1,4 @@
-"""Which check is next: whoever sends them, in whatever order, none waits for more than its share."""
+"""Which check is next: whoever sends them, none waits for more than its share."""
 
 from __future__ import annotations
 

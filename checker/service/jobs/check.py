@@ -22,7 +22,7 @@ from checker.base.cache import key_of
 from checker.base.child_process import from_json
 from checker.base.files import NotReadable, make_folder, read_bytes
 from checker.base.sandbox.files import Content, Files
-from checker.base.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY, OUT_OF_REACH
+from checker.base.sandbox.task import DISTURBED, FAULT_LIMIT, OUT_OF_MEMORY
 from checker.base.words import plain
 from checker.engine.report_cache import program_parts
 from checker.report.files import ARTEFACT_NAME
@@ -43,7 +43,7 @@ from checker.service.store.store import RESULT_LIMIT, SUMMARY, Store
 
 LIMITS: Mapping[Stage, StageLimits] = {
     Stage.STATIC: StageLimits(seconds=300.0),
-    Stage.TRIAL: StageLimits(seconds=900.0),
+    Stage.TRIAL: StageLimits(seconds=600.0),
 }
 UPLOAD_LIMIT = 2_000_000_000
 """Bytes of an upload that is read here; the service takes no larger ones."""
@@ -231,7 +231,7 @@ def _failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
 
 _FROM_OUTSIDE: Mapping[int | None, str] = {
     None: "its process could not be started, or was ended with all others",
-    OUT_OF_REACH: "the disk or the system of the service failed",
+    DISTURBED: "the disk or the system of the service failed",
     **{
         -number: f"its process was killed ({number.name})"
         for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT)

@@ -33,6 +33,7 @@ class StageLimits(Record):
 
     Attributes:
         seconds: Of processor time, for each process.
+        clock_seconds: For all of it, on however busy a machine.
         memory: Bytes of address space of the process that checks. Not below what the children of
             the check ask for themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
         file_bytes: Size of one file that it writes.
@@ -40,14 +41,10 @@ class StageLimits(Record):
     """
 
     seconds: float
+    clock_seconds: float = 3600.0
     memory: int = 4_000_000_000
     file_bytes: int = 1_000_000_000
     open_files: int = 512
-
-    @property
-    def clock_seconds(self) -> float:
-        """Seconds by the clock after which the check is stopped, on however busy a machine."""
-        return 5.0 * self.seconds + 60.0
 
 
 def limit(limits: StageLimits) -> None:
@@ -55,7 +52,8 @@ def limit(limits: StageLimits) -> None:
     from resource import RLIMIT_AS, RLIMIT_CPU
 
     seconds = max(1, int(limits.seconds))
-    tighten(RLIMIT_CPU, seconds, seconds)
+    # At the soft limit the system sends SIGXCPU: SIGKILL would look as if it came from outside.
+    tighten(RLIMIT_CPU, seconds, seconds + 1)
     tighten(RLIMIT_AS, limits.memory, limits.memory)
     hold_files_to(limits.file_bytes, limits.open_files)
 
@@ -72,7 +70,8 @@ def summary(report: Report) -> dict[str, Any]:
     """Return what a report says in short.
 
     "packages", as in `State.packages`; "words": what came out, one sentence; "crashed": whether a
-    rule could not run because of the checker itself.
+    rule could not run because of the checker itself; "disturbed": why something is missing in it
+    that may be there the next time, empty if nothing is.
     """
     packages = [
         {
@@ -87,7 +86,9 @@ def summary(report: Report) -> dict[str, Any]:
     ]
     words = shortened(_words(report), _TEXT_LIMIT)
     crashed = any(package.crashed for package in report.packages)
-    return {"packages": packages, "words": words, "crashed": crashed}
+    disturbed = next((package.disturbed for package in report.packages if package.disturbed), "")
+    short = shortened(plain(disturbed), _TEXT_LIMIT)
+    return {"packages": packages, "words": words, "crashed": crashed, "disturbed": short}
 
 
 def _words(report: Report) -> str:
