@@ -16,7 +16,7 @@ from typing import Any
 
 from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.client import DurableJobs, durable_jobs
-from checker.service.jobs.port import Order, Stage, State
+from checker.service.jobs.port import Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 ROOT = Path(__file__).parent.parent.parent
@@ -60,6 +60,9 @@ class Site:
         return Order(upload, name or f"{secrets.token_hex(4)}.zip", profile)
 
     def submit(self, profile: str = "") -> str:
+        return self.receipt(profile).id
+
+    def receipt(self, profile: str = "") -> Receipt:
         return self.jobs.submit(self.order(profile))
 
     def state(self, id: str) -> State:

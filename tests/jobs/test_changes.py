@@ -45,7 +45,7 @@ def changes(engine: sa.Engine) -> Iterator[Changes]:
 
 def enter(engine: sa.Engine, key: str = KEY) -> None:
     queued = Step("queued", Stage.QUEUED, "waits")
-    Checks(engine).enter(key, Order("0" * 64, "robot.zip"), 60.0, queued, 1.0)
+    Checks(engine).enter(key, "1" * 64, Order("0" * 64, "robot.zip"), 60.0, queued, 1.0)
 
 
 def test_a_new_check_and_each_of_its_steps_is_a_change(engine: sa.Engine, changes: Changes) -> None:

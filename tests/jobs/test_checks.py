@@ -18,6 +18,7 @@ from checker.service.jobs.port import Event, Order, Stage, State
 from tests.effort import examples
 
 ORDER = Order("0" * 64, "robot.zip", "subt")
+SECRET = "1" * 64
 QUEUED = Step("queued", Stage.QUEUED, "waits")
 READ = Step("read", Stage.TRIAL, "has looked", "a" * 64)
 DONE = Step("end", Stage.DONE, "ready", "b" * 64)
@@ -36,7 +37,7 @@ def checks_in(folder: Path, pauses: Sequence[float] = PAUSES) -> Checks:
 
 def entered(checks: Checks, step: Step = QUEUED) -> str:
     id = secrets.token_urlsafe(16)
-    checks.enter(id, ORDER, 60.0, step, 1.0)
+    assert checks.enter(id, SECRET, ORDER, 60.0, step, 1.0)
     return id
 
 
@@ -189,6 +190,28 @@ def test_words_are_kept_as_every_database_takes_them(checks: Checks) -> None:
     assert words == told(checks, id)[0].words
     assert words.startswith("a\ufffdb\ufffd\ufffda")
     assert len(words) == 2000
+
+
+def test_one_that_is_there_already_stays_as_it_is(checks: Checks) -> None:
+    id = entered(checks)
+    held = checks.begin(id, "w", STATIC)
+    before, events = state(checks, id), told(checks, id)
+    assert checks.enter(id, "2" * 64, ORDER, 9.0, DONE, lambda _: None) is False
+    assert (state(checks, id), told(checks, id)) == (before, events)
+    assert held is not None
+    assert checks.holds(held)
+    assert checks.has_secret(id, SECRET)
+
+
+def test_one_that_is_deleted_is_lost_to_who_has_it_in_hand(checks: Checks) -> None:
+    id = entered(checks)
+    held = checks.begin(id, "w", STATIC)
+    assert held is not None
+    checks.delete(id)
+    assert not checks.holds(held)
+    assert checks.settle(held, READ) is checks.release(held) is False
+    assert checks.begin(id, "w", STATIC) is None
+    assert (checks.state(id), told(checks, id)) == (None, [])
 
 
 def test_what_is_forgotten_leaves_nothing(checks: Checks) -> None:

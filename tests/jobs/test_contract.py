@@ -5,12 +5,13 @@ from __future__ import annotations
 import ctypes
 import signal
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import sleep
 
 import pytest
 import sqlalchemy as sa
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.checks import TRIES
@@ -38,7 +39,8 @@ def site(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Site]:
 class TestACheck:
     def test_comes_to_static_findings_and_then_to_its_report(self, site: Site) -> None:
         order = site.order("trial:0.5")
-        id = site.jobs.submit(order)
+        receipt = site.jobs.submit(order)
+        id = receipt.id
         queued = site.state(id)
         assert (queued.stage, queued.order, queued.result) == (Stage.QUEUED, order, "")
         assert queued.expires - queued.created == pytest.approx(30 * 86400)
@@ -54,7 +56,8 @@ class TestACheck:
         events = site.jobs.events(id)
         assert [event.time for event in events] == sorted(event.time for event in events)
         assert site.jobs.events(id, after=3) == events[3:]
-        assert site.jobs.cancel(id) is False
+        assert site.jobs.cancel(id, receipt.secret)
+        assert site.state(id) == done
 
     def test_that_is_refused_or_dies_says_whose_fault_it_is(self, site: Site) -> None:
         site.worker()
@@ -72,21 +75,40 @@ class TestACheck:
     def test_of_the_same_upload_is_a_new_one_with_the_same_report(self, site: Site) -> None:
         order = site.order()
         site.worker()
-        first = site.end(site.jobs.submit(order))
-        again = site.jobs.submit(order)
+        first = site.end(site.jobs.submit(order).id)
+        again = site.jobs.submit(order).id
         state = site.state(again)
         assert again != first.id
         assert (state.stage, state.result) == (Stage.DONE, first.result)
         assert (state.words, state.packages) == (first.words, first.packages)
         assert site.stages(again) == [(1, "done")]
-        other = site.end(site.jobs.submit(replace(order, name="other.zip")))
+        other = site.end(site.jobs.submit(replace(order, name="other.zip")).id)
         assert other.result != first.result
+
+    def test_of_the_same_upload_and_key_is_the_same_one(self, site: Site) -> None:
+        order, key = site.order("static:1"), "k" * 22
+        first = site.jobs.submit(order, key)
+        with ThreadPoolExecutor(4) as pool:
+            again = list(pool.map(lambda _: site.jobs.submit(order, key), range(8)))
+        assert again == [first] * 8
+        assert site.jobs.alive().waiting == {"static": 1, "trial": 0}
+        others = [
+            site.jobs.submit(replace(order, name="other.zip"), key),
+            site.jobs.submit(order, "l" * 22),
+            site.jobs.submit(order),
+        ]
+        assert len({first.id, *(other.id for other in others)}) == 4
+        site.worker()
+        assert site.end(first.id).stage is Stage.DONE
+        assert site.jobs.submit(order, key) == first
+        assert site.stages(first.id) == WHOLE
+        assert site.begun()[f"static {order.name}"] >= 1
 
     def test_that_nobody_knows_is_none(self, site: Site) -> None:
         for id in ("", "x" * 22, "' or 1=1 --", "\N{ROBOT FACE}", "\ud800", "x.trial"):
             assert site.jobs.status(id) is None
             assert site.jobs.events(id) == []
-            assert site.jobs.cancel(id) is False
+            assert site.jobs.cancel(id, "") is site.jobs.delete(id, "") is False
             assert site.jobs.result(id) == ""
 
 
@@ -152,10 +174,10 @@ class TestAKilledWorker:
 
     def test_leaves_what_waits_in_the_queue(self, site: Site) -> None:
         worker = site.worker("slot-1")
-        first, second = site.submit("static:30"), site.submit()
-        site.in_hand(first, Stage.STATIC)
+        first, second = site.receipt("static:30"), site.submit()
+        site.in_hand(first.id, Stage.STATIC)
         worker.kill()
-        assert site.jobs.cancel(first)
+        assert site.jobs.cancel(first.id, first.secret)
         site.worker("slot-2")
         assert site.end(second).stage is Stage.DONE
         assert site.stages(second) == WHOLE
@@ -277,9 +299,11 @@ class TestSenders:
 
 class TestCancelling:
     def test_in_the_queue(self, site: Site) -> None:
-        id = site.submit()
-        assert site.jobs.cancel(id)
-        assert site.jobs.cancel(id) is False
+        id, secret = astuple(site.receipt())
+        assert site.jobs.cancel(id, "s" * 22) is False
+        assert site.state(id).stage is Stage.QUEUED
+        assert site.jobs.cancel(id, secret)
+        assert site.jobs.cancel(id, secret)
         site.worker()
         assert site.end(site.submit()).stage is Stage.DONE
         assert site.state(id).stage is Stage.CANCELLED
@@ -289,15 +313,58 @@ class TestCancelling:
     @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
     def test_while_it_is_worked_on(self, site: Site, stage: Stage) -> None:
         site.worker()
-        id = site.submit(f"{stage}:300")
+        id, secret = astuple(site.receipt(f"{stage}:300"))
         site.in_hand(id, stage)
-        assert site.jobs.cancel(id)
+        assert site.jobs.cancel(id, secret)
         stopped = f"stopped-{stage} {site.state(id).order.name}"
         site.until(id, lambda _: site.begun()[stopped] == 1)
         assert site.end(site.submit()).stage is Stage.DONE
         assert site.state(id).stage is Stage.CANCELLED
         assert site.stages(id)[-1][1] == "cancelled"
         assert site.jobs.result(id) == ""
+
+
+class TestDeleting:
+    def test_in_the_queue(self, site: Site) -> None:
+        id, secret = astuple(site.receipt())
+        name = site.state(id).order.name
+        assert site.jobs.delete(id, "s" * 22) is False
+        assert site.state(id).stage is Stage.QUEUED
+        assert site.jobs.delete(id, secret)
+        assert (site.jobs.status(id), site.jobs.events(id)) == (None, [])
+        assert site.jobs.delete(id, secret) is site.jobs.cancel(id, secret) is False
+        site.worker()
+        assert site.end(site.submit()).stage is Stage.DONE
+        assert site.begun()[f"static {name}"] == 0
+
+    @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
+    def test_while_it_is_worked_on(self, site: Site, stage: Stage) -> None:
+        site.worker()
+        id, secret = astuple(site.receipt(f"{stage}:300"))
+        name = site.in_hand(id, stage).order.name
+        other = site.submit()
+        assert site.jobs.delete(id, secret)
+        site.until(other, lambda _: site.begun()[f"stopped-{stage} {name}"] == 1)
+        assert site.end(other).stage is Stage.DONE
+        assert (site.jobs.status(id), site.jobs.events(id)) == (None, [])
+
+    def test_leaves_what_others_share_and_has_the_rest_deleted(self, site: Site) -> None:
+        site.worker(cleaning_seconds=0.3, unused_seconds=3.0)
+        order = site.order()
+        kept, gone, shared = site.jobs.submit(order), site.receipt(), site.jobs.submit(order)
+        over = site.end(gone.id)
+        stays = site.end(kept.id)
+        for receipt in (gone, shared):
+            assert site.jobs.delete(receipt.id, receipt.secret)
+        for _ in range(600):
+            if not (site.store.upload(over.order.upload) or site.store.names(over.result)):
+                break
+            sleep(0.1)
+        assert site.store.upload(over.order.upload) is None
+        assert site.store.names(over.result) == ()
+        assert site.state(kept.id) == stays
+        assert site.store.names(stays.result)
+        assert site.store.upload(order.upload)
 
 
 class TestAGracefulStop:

@@ -128,14 +128,15 @@ def test_one_that_others_could_read_is_tightened(tmp_path: Path) -> None:
 def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) -> None:
     place = tmp_path / "data"
     jobs = durable_jobs(f"sqlite:///{place}/jobs.sqlite", Store(tmp_path))
-    id = jobs.submit(Order("0" * 64, "robot.zip"))
+    id = jobs.submit(Order("0" * 64, "robot.zip")).id
     jobs.engine.dispose()
     place.rename(tmp_path / "gone")
     for call in (
         lambda: jobs.submit(Order("0" * 64, "robot.zip")),
         lambda: jobs.status(id),
         lambda: jobs.events(id),
-        lambda: jobs.cancel(id),
+        lambda: jobs.cancel(id, ""),
+        lambda: jobs.delete(id, ""),
         lambda: jobs.result(id),
         jobs.alive,
     ):

@@ -58,7 +58,7 @@ def test_a_sample_is_checked_though_its_worker_is_killed(
 ) -> None:
     order = ordered(site, samples, tmp_path)
     first = worker(site)
-    id = site.jobs.submit(order)
+    id = site.jobs.submit(order).id
     site.until(id, lambda state: state.stage is Stage.STATIC)
     assert eventually(lambda: bool(tasks(first.pid)))
     children = tasks(first.pid)

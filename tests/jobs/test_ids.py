@@ -6,8 +6,14 @@ import base64
 import hashlib
 from pathlib import Path
 
+import sqlalchemy as sa
+from hypothesis import given
+from hypothesis import strategies as st
+from msgspec.structs import astuple
+
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.tables import LENGTH, key_of_check
+from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
+from checker.service.jobs.durable.tables import CHECKS, LENGTH, key_of_check
 from checker.service.jobs.port import Order
 from checker.service.store.store import Store
 
@@ -15,7 +21,7 @@ from checker.service.store.store import Store
 def test_an_id_is_128_random_bits(tmp_path: Path) -> None:
     jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
     order = Order("0" * 64, "robot.zip")
-    drawn = [base64.urlsafe_b64decode(jobs.submit(order) + "==") for _ in range(8)]
+    drawn = [base64.urlsafe_b64decode(jobs.submit(order).id + "==") for _ in range(8)]
     assert {len(bits) for bits in drawn} == {16}
     # Nothing but chance is in them: no byte is the same in all, as in a time or a number.
     assert all(len({bits[at] for bits in drawn}) > 1 for at in range(16))
@@ -32,7 +38,7 @@ def test_the_key_of_a_check_is_a_digest_of_its_own() -> None:
 
 def test_only_the_id_opens_a_check(tmp_path: Path) -> None:
     jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
-    id = jobs.submit(Order("0" * 64, "robot.zip"))
+    id, secret = astuple(jobs.submit(Order("0" * 64, "robot.zip")))
     state = jobs.status(id)
     assert state is not None
     assert state.id == id
@@ -40,7 +46,45 @@ def test_only_the_id_opens_a_check(tmp_path: Path) -> None:
     key = key_of_check(id)
     assert jobs.status(key) is None
     assert jobs.events(key) == []
-    assert jobs.cancel(key) is False
+    assert jobs.cancel(key, secret) is False
     assert jobs.result(key) == ""
-    assert jobs.cancel(id) is True
+    assert jobs.cancel(id, secret) is True
     jobs.engine.dispose()
+
+
+def test_only_the_secret_ends_a_check(tmp_path: Path) -> None:
+    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
+    id, secret = astuple(jobs.submit(Order("0" * 64, "robot.zip")))
+    other = jobs.submit(Order("0" * 64, "robot.zip"))
+    before = jobs.status(id)
+    for wrong in ("", id, other.secret, digest_of_secret(secret), secret[:-1], "\ud800"):
+        assert jobs.cancel(id, wrong) is jobs.delete(id, wrong) is False
+    assert jobs.status(id) == before
+    assert jobs.cancel(id, secret) is jobs.delete(id, secret) is True
+    assert jobs.delete(id, secret) is False
+    jobs.engine.dispose()
+
+
+def test_a_check_without_a_secret_is_nobodys(tmp_path: Path) -> None:
+    """As version 0.1.0 wrote them."""
+    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
+    id = jobs.submit(Order("0" * 64, "robot.zip")).id
+    with jobs.engine.begin() as connection:
+        connection.execute(sa.update(CHECKS).values(secret=""))
+    assert jobs.cancel(id, "") is jobs.delete(id, "") is False
+    jobs.engine.dispose()
+
+
+ORDERS = st.builds(Order, st.text(max_size=9), st.text(max_size=9), st.text(max_size=9))
+
+
+@given(ORDERS, ORDERS, st.text(), st.text())
+def test_receipts_are_alike_for_the_same_order_and_seed_alone(
+    one: Order, other: Order, seed: str, another: str
+) -> None:
+    receipt = receipt_for(one, seed)
+    assert receipt == receipt_for(one, seed)
+    assert len(receipt.id) == len(receipt.secret) == 22
+    assert receipt.id != receipt.secret
+    assert (receipt.id == receipt_for(other, another).id) is ((one, seed) == (other, another))
+    assert (receipt.secret == receipt_for(other, seed).secret) is (one == other)

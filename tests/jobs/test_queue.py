@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from checker.service.jobs.durable.checks import Checks, Step, Taker
 from checker.service.jobs.port import Stage
 from tests.effort import examples
-from tests.jobs.test_checks import DONE, ORDER, QUEUED, READ, checks_in
+from tests.jobs.test_checks import DONE, ORDER, QUEUED, READ, SECRET, checks_in
 
 HERE = Taker("w", "here")
 
@@ -29,7 +29,7 @@ def enter(checks: Checks, sender: str, cost: float = 1.0, name: str = "") -> str
     """Enter a check whose name tells the sender and the cost."""
     name = name or f"{sender} {cost:g}"
     order = replace(ORDER, sender=sender, name=name)
-    checks.enter(secrets.token_hex(32), order, 60.0, QUEUED, cost)
+    assert checks.enter(secrets.token_hex(32), SECRET, order, 60.0, QUEUED, cost)
     return name
 
 

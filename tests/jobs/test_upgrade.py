@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import open_database, prepare
 from checker.service.jobs.durable.tables import key_of_check
-from checker.service.jobs.port import Stage
+from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import Store
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
@@ -180,3 +180,19 @@ def test_a_file_that_was_not_written_anew_is_at_the_next_start(tmp_path: Path) -
         found = b"".join(each.read_bytes() for each in tmp_path.iterdir())
     assert b"an id in the clear" not in found
     engine.dispose()
+
+
+def test_columns_of_later_versions_are_added(url: str, upload: str, tmp_path: Path) -> None:
+    ids = written(url, upload)
+    engine = open_database(url)
+    with engine.begin() as connection:
+        connection.exec_driver_sql("ALTER TABLE subt_checks DROP COLUMN secret")
+    prepare(engine)
+    engine.dispose()
+    jobs = durable_jobs(url, Store(tmp_path / "store"))
+    for id in ids.values():
+        assert jobs.status(id) is not None
+        assert jobs.cancel(id, "") is False
+    new = jobs.submit(Order(upload, "robot.zip"))
+    assert jobs.cancel(new.id, new.secret)
+    jobs.engine.dispose()

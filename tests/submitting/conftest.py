@@ -20,6 +20,7 @@ from tests.command.conftest import clean_environment
 from tests.report.any_report import many
 
 ID = "A-check_of_22_letters_"
+SECRET = "A-secret-of-22_letters"  # noqa: S105
 QUICK = Patience(silence=5.0, answer=5.0, trouble=3.0, pause=0.02, longest_pause=0.1)
 
 
@@ -126,17 +127,27 @@ def in_turn(*answers: bytes | Answers) -> Answers:
     return respond
 
 
-def checking(*states: dict[str, object], report: str = "", **files: bytes) -> Answers:
-    """Take an upload, then stand as the states say, one after the other."""
+def checking(
+    *states: dict[str, object], report: str = "", secret: str = SECRET, **files: bytes
+) -> Answers:
+    """Take an upload, then stand as the states say, one after the other.
+
+    Args:
+        states: What is said of the check.
+        report: Its report in JSON; any one by default.
+        secret: Of the check; empty as by a service of version 0.1.0.
+        files: Of the result.
+    """
     standing = in_turn(*(answer(200, state) for state in states))
     written = {"report.json": (report or to_json(many(1))).encode()}
     written |= {name.replace("_", "."): content for name, content in files.items()}
 
     def respond(asked: Asked) -> bytes | None:
-        if asked.method == "POST":
-            return answer(201, {"id": ID, "url": "http://elsewhere.example/x"})
-        if asked.method == "DELETE":
+        if asked.method == "DELETE" or asked.path.endswith("/cancel"):
             return answer(200, {"stage": "cancelled"})
+        if asked.method == "POST":
+            given = {"id": ID, "secret": secret, "url": "http://elsewhere.example/x"}
+            return answer(201, {name: text for name, text in given.items() if text})
         name = asked.path.removeprefix(f"/api/checks/{ID}").lstrip("/").removeprefix("packages/")
         if not name:
             return standing(asked)

@@ -22,6 +22,7 @@ from tests.conftest import SAMPLES
 from tests.report.any_report import many
 from tests.submitting.conftest import (
     ID,
+    SECRET,
     Asked,
     Service,
     StartService,
@@ -141,6 +142,7 @@ def refused(done: subprocess.CompletedProcess[str], reason: str) -> None:
         (200, "<h1>Welcome</h1>", "answers 200, but not like a subt-check service"),
         (201, {"id": "../../x"}, "answers 201, but not like"),
         (201, {"id": 3}, "answers 201, but not like"),
+        (201, {"id": ID, "secret": "x\r\ny"}, "answers 201, but not like"),
         (201, [], "answers 201, but not like"),
     ],
 )
@@ -282,9 +284,46 @@ def test_who_interrupts_is_asked_whether_the_check_shall_end(
     os.write(terminal, typed)
     read_until(terminal, said)
     assert process.wait(20) == 130
-    cancelled = f"DELETE /api/checks/{ID}" in service.lines
-    assert cancelled == (typed == b"y\n")
+    cancelled = [each for each in service.asked if each.path.endswith("/cancel")]
+    secrets = [each.headers["subt-check-secret"] for each in cancelled]
+    assert secrets == [SECRET] * (typed == b"y\n")
+    assert not [line for line in service.lines if line.startswith("DELETE")]
     os.close(terminal)
+
+
+def test_a_check_of_version_0_1_0_is_cancelled_as_it_was_then(
+    start_service: StartService, model: Path
+) -> None:
+    service = start_service(checking(RUNNING, secret=""))
+    process, terminal = at_a_terminal(model, service)
+    read_until(terminal, "the rules look")
+    process.send_signal(signal.SIGINT)
+    read_until(terminal, "[y/N]")
+    os.write(terminal, b"y\n")
+    read_until(terminal, "the check is cancelled")
+    assert process.wait(20) == 130
+    assert service.lines[-1] == f"DELETE /api/checks/{ID}"
+    os.close(terminal)
+
+
+def test_an_upload_that_is_sent_again_is_known_by_its_key(
+    start_service: StartService, submit: Submit, model: Path
+) -> None:
+    check = checking(DONE)
+    lost = [b"", answer(503, "busy", Retry_After="0")]
+
+    def respond(asked: Asked) -> bytes | None:
+        return lost.pop() if asked.method == "POST" and lost else check(asked)
+
+    service = start_service(respond)
+    submit(model, "--server", service.url)
+    keys = [each.headers["idempotency-key"] for each in service.asked if each.method == "POST"]
+    assert len(keys) == 3
+    assert len(set(keys)) == 1
+    submit(model, "--server", service.url)
+    others = [each.headers["idempotency-key"] for each in service.asked if each.method == "POST"]
+    assert len(others[-1]) == len(keys[0]) == 43
+    assert others[-1] != keys[0]
 
 
 def test_without_a_terminal_the_check_goes_on(

@@ -21,6 +21,7 @@ import sqlalchemy as sa
 from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.port import Receipt
 from tests.postgres import DATABASES, fresh_database
 from tests.serving.conftest import (
     SECONDS,
@@ -128,10 +129,15 @@ def robot() -> bytes:
 
 def upload(url: str, name: str = "robot.sdf", content: bytes = b"") -> str:
     """Send a model; return the id of its check."""
+    return receipt(url, name, content).id
+
+
+def receipt(url: str, name: str = "robot.sdf", content: bytes = b"") -> Receipt:
+    """Send a model; return what is given for it."""
     files = {"file": (name, content or robot())}
     answer = httpx.post(f"{url}/api/checks", files=files, timeout=SECONDS)
     assert answer.status_code == 201, answer.text
-    return str(answer.json()["id"])
+    return Receipt(str(answer.json()["id"]), str(answer.json()["secret"]))
 
 
 def connected(url: str) -> socket.socket:

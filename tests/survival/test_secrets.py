@@ -6,12 +6,13 @@ from pathlib import Path
 
 import httpx
 import pytest
+from msgspec.structs import astuple
 
 from checker.service.jobs.durable.tables import key_of_check
 from tests.conftest import SAMPLES
 from tests.postgres import dump
 from tests.serving.conftest import SECONDS, Serve, Serving
-from tests.survival.conftest import Home, kill, upload, wait_for_end
+from tests.survival.conftest import Home, kill, receipt, upload, wait_for_end
 from tests.web.service import zip_of
 
 MODEL = "broken_gurdy_description"
@@ -40,8 +41,11 @@ def test_ids_are_nowhere_and_what_is_there_opens_nothing(home: Home, tmp_path: P
     assert wait_for_end(serving.url, done)["stage"] == "done"
     watched(serving.url, done)
     again = upload(serving.url, f"{MODEL}.zip", package)
-    cancelled = upload(serving.url)
-    httpx.delete(f"{serving.url}/api/checks/{cancelled}", timeout=SECONDS)
+    cancelled, secret = astuple(receipt(serving.url))
+    cancel = f"{serving.url}/api/checks/{cancelled}/cancel"
+    ended = httpx.post(cancel, headers={"Subt-Check-Secret": secret}, timeout=SECONDS)
+    assert ended.status_code == 200
+    assert secret.encode() not in everything(home)
     assert_hidden(home, [done, again, cancelled])
     assert_useless(serving, [key_of_check(done), serving.told.split('"check": "')[1][:12]])
     kill(serving)

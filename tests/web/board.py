@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import httpx
 from msgspec.structs import replace
 
-from checker.service.jobs.port import Alive, Event, Order, Stage, State
+from checker.service.jobs.port import Alive, Event, Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 KEY = "a" * 64
 ID = "0123456789abcdefghijkl"
+SECRET = "only-the-sender-has-it"  # noqa: S105
+SENDER = {"Subt-Check-Secret": SECRET, "Cookie": f"subt-check-secret={SECRET}"}
+"""What a program and a browser send of a check that they have ordered."""
 COUNTS = {"errors": 5, "warnings": 1, "infos": 0}
 ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", **COUNTS}
 QUEUED = State(ID, Order("b" * 64, "rover.zip"), Stage.QUEUED, expires=2e9)
@@ -32,10 +35,12 @@ class BoardJobs:
 
     states: dict[str, State] = field(default_factory=dict)
     cancelled: list[str] = field(default_factory=list)
+    keys: list[str] = field(default_factory=list)
 
-    def submit(self, order: Order) -> str:
+    def submit(self, order: Order, key: str = "") -> Receipt:
+        self.keys.append(key)
         self.states[ID] = replace(QUEUED, order=order)
-        return ID
+        return Receipt(ID, SECRET)
 
     def status(self, id: str) -> State | None:
         return self.states.get(id)
@@ -44,9 +49,15 @@ class BoardJobs:
         stages = (Stage.QUEUED, Stage.STATIC) if id in self.states else ()
         return [Event(n, stage, "", 0.0) for n, stage in enumerate(stages, 1)][after:]
 
-    def cancel(self, id: str) -> bool:
-        self.cancelled.append(id)
-        return True
+    def cancel(self, id: str, secret: str) -> bool:
+        if secret == SECRET:
+            self.cancelled.append(id)
+        return secret == SECRET
+
+    def delete(self, id: str, secret: str) -> bool:
+        if secret == SECRET:
+            del self.states[id]
+        return secret == SECRET
 
     def result(self, id: str) -> str:
         return self.states[id].result

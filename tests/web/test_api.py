@@ -21,7 +21,7 @@ from checker.service.web.answers.headers import file_response
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from tests.effort import examples
-from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
+from tests.web.board import DONE, ID, QUEUED, ROVER, SECRET, BoardJobs, keep_result
 from tests.web.server import eventually, served
 
 PAGE = "<meta content=\"script-src 'sha256-" + "A" * 43 + "='\">"
@@ -157,8 +157,85 @@ def test_every_unknown_check_is_answered_alike(client: TestClient, address: str,
 
 
 def test_a_check_can_be_ended(client: TestClient, jobs: BoardJobs) -> None:
-    assert client.delete(f"/api/checks/{ID}").json()["id"] == ID
+    answer = client.post(f"/api/checks/{ID}/cancel", headers={"Subt-Check-Secret": SECRET})
+    assert (answer.status_code, answer.json()["id"]) == (200, ID)
     assert jobs.cancelled == [ID]
+
+
+def test_a_check_can_be_deleted(client: TestClient, jobs: BoardJobs) -> None:
+    answer = client.delete(f"/api/checks/{ID}", headers={"Subt-Check-Secret": SECRET})
+    assert (answer.status_code, answer.content) == (204, b"")
+    assert client.get(f"/api/checks/{ID}").status_code == 404
+    assert jobs.states == {}
+
+
+@pytest.mark.parametrize("secret", ["", "x", ID, SECRET[:-1], "x" * 9_000])
+@pytest.mark.parametrize(
+    ("method", "address", "what"),
+    [
+        ("POST", f"/api/checks/{ID}/cancel", "cancel its check"),
+        ("DELETE", f"/api/checks/{ID}", "delete its check"),
+    ],
+)
+def test_only_the_sender_can_end_a_check(
+    client: TestClient, jobs: BoardJobs, method: str, address: str, what: str, secret: str
+) -> None:
+    headers = {"Subt-Check-Secret": secret} if secret else {}
+    # A browser's cookie is for pages: what a program sends is asked for by name.
+    cookie = {"Cookie": f"subt-check-secret={SECRET}"}
+    answer = client.request(method, address, headers=headers | cookie)
+    assert answer.status_code == 403
+    assert answer.json()["error"] == f"Only the person who uploaded this package can {what}."
+    assert (jobs.states, jobs.cancelled) == ({ID: QUEUED}, [])
+
+
+def sent(client: TestClient, **headers: str) -> httpx.Response:
+    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    files = {"file": ("a.sdf", b"<sdf version='1.6'/>")}
+    return client.post("/api/checks", files=files, headers=given)
+
+
+def test_who_uploads_is_given_the_secret(client: TestClient) -> None:
+    answer = sent(client)
+    assert answer.json() == {
+        "id": ID,
+        "secret": SECRET,
+        "url": f"http://localhost/checks/{ID}",
+    }
+    cookie = answer.headers["set-cookie"]
+    assert set(cookie.split("; ")) == {
+        f"subt-check-secret={SECRET}",
+        "HttpOnly",
+        "Max-Age=2592000",
+        f"Path=/checks/{ID}",
+        "SameSite=strict",
+    }
+    assert client.get(f"/api/checks/{ID}").text.count(SECRET) == 0
+
+
+def test_behind_https_the_secret_is_for_https(jobs: BoardJobs, store: Store) -> None:
+    config = Config(base_url="https://check.example", public=True)
+    client = TestClient(create_app(jobs, store, config), base_url="http://check.example")
+    assert "; Secure" in sent(client).headers["set-cookie"]
+
+
+def test_a_key_of_the_client_goes_along(client: TestClient, jobs: BoardJobs) -> None:
+    key = "4f3ab1de-7c1b-4e0c-9a3e-1f0d6c8f2b11"
+    assert sent(client).status_code == sent(client, Idempotency_Key=key).status_code == 201
+    assert jobs.keys == ["", key]
+
+
+@pytest.mark.parametrize("key", ["", "1", "x" * 21, "x" * 201, "\xe9" * 30, "x" * 30 + "\x7f"])
+def test_a_key_that_can_be_guessed_is_refused(
+    client: TestClient, jobs: BoardJobs, key: str
+) -> None:
+    files = {"file": ("a.sdf", b"<sdf version='1.6'/>")}
+    headers = [(b"idempotency-key", key.encode("latin-1"))]
+    answer = client.post("/api/checks", files=files, headers=headers)
+    assert answer.status_code == 422
+    expected = "expected 22 to 200 printable characters of ASCII."
+    assert answer.json()["error"] == f"The header Idempotency-Key is wrong, {expected}"
+    assert jobs.keys == []
 
 
 TOLD = BoardJobs()

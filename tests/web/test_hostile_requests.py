@@ -270,7 +270,7 @@ def test_a_database_that_fails_takes_no_id_into_the_log(
 ) -> None:
     store = Store(tmp_path / "data")
     jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", store)
-    id = jobs.submit(Order("a" * 64, "a.zip"))
+    id = jobs.submit(Order("a" * 64, "a.zip")).id
     with jobs.engine.begin() as connection:
         connection.exec_driver_sql("ALTER TABLE subt_checks RENAME TO elsewhere")
     with caplog.at_level(logging.INFO), served(create_app(jobs, store, Config())) as port:

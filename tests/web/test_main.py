@@ -59,13 +59,15 @@ def test_a_process_takes_an_upload_and_is_not_ready_without_a_worker(tmp_path: P
         headers = {"Authorization": "Bearer s3cret"}
         answer = client.post("/api/checks", files=model, headers=headers)
         assert answer.status_code == 201
-        id = answer.json()["id"]
+        id, secret = answer.json()["id"], answer.json()["secret"]
         state = client.get(f"/api/checks/{id}").json()
         assert (state["stage"], state["name"]) == ("queued", "a.sdf")
-        assert client.delete(f"/api/checks/{id}").json()["stage"] == "cancelled"
+        headers = {"Subt-Check-Secret": secret}
+        answer = client.post(f"/api/checks/{id}/cancel", headers=headers)
+        assert answer.json()["stage"] == "cancelled"
     requests = [line for line in process.lines if line["message"] == "request"]
     assert [line["status"] for line in requests] == [200, 503, 401, 201, 200, 200]
-    for hidden in (id, "s3cret", "a.sdf"):
+    for hidden in (id, secret, "s3cret", "a.sdf"):
         assert hidden not in json.dumps(process.lines)
 
 

@@ -26,7 +26,7 @@ from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.effort import examples
 from tests.report.any_report import HOSTILE, PACKAGES
-from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, Client, keep_result
+from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, SENDER, BoardJobs, Client, keep_result
 
 
 class Elements(HTMLParser):
@@ -219,7 +219,7 @@ def test_the_link_is_the_one_that_others_reach(jobs: BoardJobs, store: Store) ->
 
 def test_cancelling_ends_the_check_and_returns_to_it(client: Client, jobs: BoardJobs) -> None:
     jobs.states[ID] = QUEUED
-    answer = client.post(f"/checks/{ID}/cancel")
+    answer = client.post(f"/checks/{ID}/cancel", headers=SENDER)
     assert (answer.status_code, answer.headers["location"]) == (303, f"/checks/{ID}")
     assert jobs.cancelled == [ID]
 

@@ -66,7 +66,7 @@ def done(jobs: DurableJobs, folders: tuple[str, ...]) -> str:
             (made / name).write_text(report)
         (made / SUMMARY).write_text(json.dumps({"packages": packages, "words": "Ready"}))
         jobs.store.keep(result_key(order, Stage.TRIAL), made)
-    return jobs.submit(order)
+    return jobs.submit(order).id
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +77,8 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     Workers(jobs.engine).beat("worker")
     app = create_app(jobs, store, Config())
     cancelled = jobs.submit(Order("a" * 64, "a.zip"))
-    assert jobs.cancel(cancelled)
-    yield Site(app, done(jobs, ("",)), done(jobs, ("a", "b")), cancelled)
+    assert jobs.cancel(cancelled.id, cancelled.secret)
+    yield Site(app, done(jobs, ("",)), done(jobs, ("a", "b")), cancelled.id)
     jobs.engine.dispose()
 
 
@@ -112,8 +112,12 @@ def test_what_goes_well_is_answered_as_described(site: Site) -> None:
     assert taken.status_code == 201
     id = taken.json()["id"]
     assert ask("GET", "/api/checks/{id}").json()["stage"] == "queued"
-    assert ask("DELETE", "/api/checks/{id}").json()["stage"] == "cancelled"
+    secret = {"Subt-Check-Secret": taken.json()["secret"]}
+    cancelled = ask("POST", "/api/checks/{id}/cancel", headers=secret)
+    assert cancelled.json()["stage"] == "cancelled"
     assert ask("GET", "/api/checks/{id}/events").status_code == 200
+    assert ask("DELETE", "/api/checks/{id}", headers=secret).status_code == 204
+    assert ask("GET", "/api/checks/{id}").status_code == 404
     id = site.of_one
     for name in REPORTS:
         assert ask("GET", f"/api/checks/{{id}}/{name}").status_code == 200

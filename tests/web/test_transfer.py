@@ -17,7 +17,7 @@ import httpx
 import pytest
 from fastapi.testclient import TestClient
 
-from checker.service.jobs.port import JobsUnreachable, Order
+from checker.service.jobs.port import JobsUnreachable, Order, Receipt
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
@@ -70,7 +70,8 @@ def test_an_upload_is_kept_and_its_check_ordered(
 ) -> None:
     answer = client.post("/api/checks", files={"file": ("my rover.zip", GOOD)})
     assert answer.status_code == 201
-    assert answer.json() == {"id": ID, "url": f"http://localhost/checks/{ID}"}
+    given = answer.json()
+    assert (given["id"], given["url"]) == (ID, f"http://localhost/checks/{ID}")
     assert answer.headers["location"] == f"/api/checks/{ID}"
     order = jobs.states[ID].order
     assert order.name == "my_rover.zip"
@@ -130,8 +131,8 @@ def test_a_profile_that_is_none_is_refused(client: TestClient, store: Store) -> 
 
 def test_an_order_that_the_engine_cannot_take_is_said(store: Store) -> None:
     class Away(BoardJobs):
-        def submit(self, order: Order) -> str:
-            raise JobsUnreachable(order.name)
+        def submit(self, order: Order, key: str = "") -> Receipt:
+            raise JobsUnreachable(order.name + key)
 
     client = TestClient(create_app(Away(), store, Config()), base_url="http://localhost")
     answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})

@@ -40,6 +40,7 @@ class Given(Struct, frozen=True):
     """What the service answers to an upload."""
 
     id: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
+    secret: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{0,100}\Z")] = ""
 
 
 class Problem(Struct, frozen=True):
@@ -70,10 +71,15 @@ class Standing(Struct, frozen=True):
 
 
 class Check(Record):
-    """One check on a service."""
+    """One check on a service.
+
+    Attributes:
+        secret: Cancels it; empty from a service of version 0.1.0, which asks for none.
+    """
 
     connection: Connection
     id: str
+    secret: str = ""
 
     @property
     def link(self) -> str:
@@ -114,7 +120,11 @@ class Check(Record):
         Raises:
             CheckerError: The service does not do it.
         """
-        answer = self.connection.ask("DELETE", self._path)
+        if self.secret:
+            headers = {"Subt-Check-Secret": self.secret}
+            answer = self.connection.ask("POST", f"{self._path}/cancel", headers=headers)
+        else:
+            answer = self.connection.ask("DELETE", self._path)
         if answer.status not in (200, 202, 204, 404, 409):
             raise _refusal(self.connection, answer)
 
@@ -142,16 +152,17 @@ class Check(Record):
 
 
 def order(connection: Connection, upload: Upload) -> Check:
-    """Upload a file and return its check.
+    """Upload a file and return its check; sent again since an answer got lost, it is the same one.
 
     Raises:
         CheckerError: The service does not take it; the text says why.
     """
-    answer = connection.ask("POST", _CHECKS, upload)
+    headers = {"Idempotency-Key": upload.key}
+    answer = connection.ask("POST", _CHECKS, upload, headers=headers)
     created = answer.read_as(Given) if answer.status == 201 else None
     if created is None:
         raise _refusal(connection, answer)
-    return Check(connection, created.id)
+    return Check(connection, created.id, created.secret)
 
 
 def _refusal(connection: Connection, answer: Answer) -> CheckerError:

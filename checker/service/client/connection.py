@@ -95,7 +95,12 @@ class Connection(Record):
     say: Say = say_nothing
 
     def ask(
-        self, method: str, path: str, upload: Upload | None = None, limit: int = ANSWER_LIMIT
+        self,
+        method: str,
+        path: str,
+        upload: Upload | None = None,
+        limit: int = ANSWER_LIMIT,
+        headers: Mapping[str, str] | None = None,
     ) -> Answer:
         """Send a request, again and again while the service is busy or away, and return its answer.
 
@@ -104,6 +109,7 @@ class Connection(Record):
             path: Below the address of the service.
             upload: What goes with it.
             limit: Bytes of the answer that are read.
+            headers: That go with it, beside the usual ones.
 
         Raises:
             CheckerError: No answer of use comes.
@@ -112,7 +118,7 @@ class Connection(Record):
         while True:
             wanted = 0.0
             try:
-                answer = self._once(method, path, upload, limit)
+                answer = self._once(method, path, upload, limit, headers or {})
                 if answer.status not in _BUSY:
                     return self._direct(answer)
                 trouble, wanted = f"answers {answer.status}", answer.retry_after
@@ -139,7 +145,14 @@ class Connection(Record):
             )
         return answer
 
-    def _once(self, method: str, path: str, upload: Upload | None, limit: int) -> Answer:
+    def _once(
+        self,
+        method: str,
+        path: str,
+        upload: Upload | None,
+        limit: int,
+        headers: Mapping[str, str],
+    ) -> Answer:
         import httpx
 
         form: AbstractContextManager[Mapping[str, Any]] = (
@@ -149,7 +162,7 @@ class Connection(Record):
         transport = httpx.HTTPTransport(verify=_trust(), trust_env=False)
         try:
             with transport, form as members, _cut_off(self.patience.answer) as trace:
-                request = self._request(method, path, members, trace)
+                request = self._request(method, path, headers, members, trace)
                 with closing(transport.handle_request(request)) as response:
                     body = self._body(response, limit)
         except (httpx.TransportError, httpx.InvalidURL) as error:
@@ -161,11 +174,16 @@ class Connection(Record):
         return Answer(response.status_code, response.headers, body)
 
     def _request(
-        self, method: str, path: str, members: Mapping[str, Any], trace: Trace
+        self,
+        method: str,
+        path: str,
+        more: Mapping[str, str],
+        members: Mapping[str, Any],
+        trace: Trace,
     ) -> httpx.Request:
         import httpx
 
-        headers = {"Accept": "application/json", "User-Agent": "subt-check"}
+        headers = {"Accept": "application/json", "User-Agent": "subt-check", **more}
         # Nothing packed is asked for, and nothing is unpacked: it could be a bomb.
         headers |= {"Accept-Encoding": "identity", "Connection": "close"}
         if self.token:

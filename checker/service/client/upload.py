@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import secrets
 import shutil
 import tempfile
 import zipfile
@@ -10,6 +11,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO
+
+from msgspec import field
 
 from checker.base.errors import CheckerError, UnreadableInput
 from checker.base.output import Say, say_nothing
@@ -38,11 +41,13 @@ class Upload(Record):
         file: Its name goes along.
         profile: That it is checked by; empty for the service's own choice.
         say: Told how much of it is sent, each tenth once.
+        key: By which a service knows it again, however often it is sent.
     """
 
     file: Path
     profile: str = ""
     say: Say = say_nothing
+    key: str = field(default_factory=secrets.token_urlsafe)
 
     @contextmanager
     def form(self) -> Iterator[Mapping[str, Any]]:

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: six calls; `durable` implements them."""
+"""What the service needs of a job engine: seven calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -49,6 +49,18 @@ class Order(Record):
     name: str
     profile: str = ""
     sender: str = ""
+
+
+class Receipt(Record):
+    """What is given for an order, and to nobody else than who gave it.
+
+    Attributes:
+        id: Of the check, unguessable; whoever is told it may read the report.
+        secret: Ends and deletes the check; it does not follow from the id.
+    """
+
+    id: str
+    secret: str
 
 
 class State(Record):
@@ -124,10 +136,16 @@ class Alive(Record):
 
 
 class Jobs(Protocol):
-    """The six calls; none of them waits for a check, and all may be called from many threads."""
+    """The seven calls; none waits for a check, and all may be called from many threads."""
 
-    def submit(self, order: Order) -> str:
-        """Take an order and return the id of its check; once it returns, the order is not lost."""
+    def submit(self, order: Order, key: str = "") -> Receipt:
+        """Take an order and return its receipt; once it returns, the order is not lost.
+
+        Args:
+            order: What is asked for.
+            key: Of the client's own, unguessable. The same order with the same key gets the same
+                receipt and is checked once. Empty: each order is a new one.
+        """
         ...
 
     def status(self, id: str) -> State | None:
@@ -138,8 +156,15 @@ class Jobs(Protocol):
         """Return what has happened so far after event number `after`, in order."""
         ...
 
-    def cancel(self, id: str) -> bool:
-        """End a check; False if there was nothing to end."""
+    def cancel(self, id: str, secret: str) -> bool:
+        """End a check, unless it is over; False if the secret is not the one of this check."""
+        ...
+
+    def delete(self, id: str, secret: str) -> bool:
+        """End a check and forget it at once; False if the secret is not the one of this check.
+
+        Its files are deleted later, when no other check shares them.
+        """
         ...
 
     def result(self, id: str) -> str:

@@ -102,11 +102,14 @@ class Checks(Record, dict=True):
     pauses: Sequence[float] = PAUSES
     _writing: Lock = field(default_factory=Lock)
 
-    def enter(self, id: str, order: Order, keep_seconds: float, step: Step, cost: float) -> None:
-        """Write down a new check.
+    def enter(
+        self, id: str, secret: str, order: Order, keep_seconds: float, step: Step, cost: float
+    ) -> bool:
+        """Write down a new check; False if it is there already, which stays as it is.
 
         Args:
-            id: Key of a new one.
+            id: Its key.
+            secret: Digest of its secret.
             order: What is asked for.
             keep_seconds: After which all of it is deleted.
             step: What it begins with.
@@ -114,6 +117,7 @@ class Checks(Record, dict=True):
         """
         entry = {
             "id": id,
+            "secret": secret,
             "upload": order.upload,
             "name": order.name,
             "profile": order.profile,
@@ -123,10 +127,16 @@ class Checks(Record, dict=True):
             **_values(step),
         }
         # SQLite has writers ask again after a while; among many, some would wait for seconds.
-        with self._writing, self.engine.begin() as connection:
-            entry["rank"] = rank(connection, Stage.STATIC, order.sender, cost)
-            connection.execute(self._entering, entry)
-            self._tell(connection, id, step)
+        try:
+            with self._writing, self.engine.begin() as connection:
+                entry["rank"] = rank(connection, Stage.STATIC, order.sender, cost)
+                connection.execute(self._entering, entry)
+                self._tell(connection, id, step)
+        except sa.exc.IntegrityError:
+            if self.state(id) is None:
+                raise
+            return False
+        return True
 
     def take(self, taker: Taker, stage: Stage, *, others: bool = False) -> Held | None:
         """Give the next check of a queue into the hands of a worker.
@@ -245,11 +255,22 @@ class Checks(Record, dict=True):
         with self.engine.connect() as connection:
             return connection.execute(sa.select(CHECKS.c.id).where(*_is(held))).first() is not None
 
+    def has_secret(self, id: str, secret: str) -> bool:
+        """Whether a check has a secret, given by its digest."""
+        question = sa.select(CHECKS.c.id).where(CHECKS.c.id == id, CHECKS.c.secret == secret)
+        with self.engine.connect() as connection:
+            return connection.execute(question).first() is not None
+
     def cancel(self, id: str) -> bool:
         """End a check; False if it is over or unknown."""
         step = Step("end", Stage.CANCELLED, "cancelled")
         with self.engine.begin() as connection:
             return self._move(connection, id, step)
+
+    def delete(self, id: str) -> None:
+        """Forget a check, wherever it stands; a worker that has it in hand loses it."""
+        with self.engine.begin() as connection:
+            forget(connection, [id])
 
     def state(self, id: str) -> State | None:
         """Return where a check stands, with its key for an id; None if it is not known."""
@@ -352,9 +373,12 @@ class Checks(Record, dict=True):
 
 
 def forget(connection: sa.Connection, ids: Collection[str]) -> None:
-    """Delete checks and all that was told of them."""
-    connection.execute(sa.delete(EVENTS).where(EVENTS.c.check_id.in_(ids)))
+    """Delete checks and all that was told of them.
+
+    The checks first: then none of them can take a step any more that would be told behind it.
+    """
     connection.execute(sa.delete(CHECKS).where(CHECKS.c.id.in_(ids)))
+    connection.execute(sa.delete(EVENTS).where(EVENTS.c.check_id.in_(ids)))
 
 
 def _values(step: Step) -> dict[str, Any]:

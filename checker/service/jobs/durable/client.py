@@ -13,10 +13,11 @@ from checker.base.record import Record
 from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.checks import Checks, Step
 from checker.service.jobs.durable.database import WAITS, open_database, prepare, reachable
+from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
 from checker.service.jobs.durable.tables import key_of_check
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.outcome import Checked
-from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
+from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 _DAY = 86400.0
@@ -27,7 +28,8 @@ _LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
 class DurableJobs(Record, dict=True):
     """`Jobs` on a database: SQLite or PostgreSQL.
 
-    Ids, which open reports, end here: what lies behind knows checks by their keys alone.
+    Ids, which open reports, and secrets, which end checks, end here: what lies behind knows them by
+    their digests alone.
 
     Attributes:
         engine: Of the database, prepared.
@@ -44,19 +46,24 @@ class DurableJobs(Record, dict=True):
         """The table of checks."""
         return Checks(self.engine)
 
-    def submit(self, order: Order) -> str:
-        """Take an order and return the id of its check; once it returns, the order is not lost.
+    def submit(self, order: Order, key: str = "") -> Receipt:
+        """Take an order and return its receipt; once it returns, the order is not lost.
 
         What was checked before, with the same content, name, profile and program, is not checked
         again: the new check finishes at once and shares the report.
+
+        Args:
+            order: What is asked for.
+            key: The same order with the same key gets the same receipt; empty for a new one.
         """
-        id = secrets.token_urlsafe(16)
-        key = key_of_check(id)
+        receipt = receipt_for(order, key or secrets.token_urlsafe(32))
+        id, secret = key_of_check(receipt.id), digest_of_secret(receipt.secret)
         known = stored_result(self.store, order, Stage.TRIAL)
         step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
+        keep, cost = self.retention_days * _DAY, self._cost(order)
         with reachable():
-            self.checks.enter(key, order, self.retention_days * _DAY, step, self._cost(order))
-        return id
+            self.checks.enter(id, secret, order, keep, step, cost)
+        return receipt
 
     def _cost(self, order: Order) -> float:
         """Return the seconds that the static rules take, as far as the size of an upload tells."""
@@ -75,10 +82,23 @@ class DurableJobs(Record, dict=True):
         with reachable():
             return self.checks.events(key_of_check(id), after)
 
-    def cancel(self, id: str) -> bool:
-        """End a check; False if there was nothing to end."""
+    def cancel(self, id: str, secret: str) -> bool:
+        """End a check, unless it is over; False if the secret is not the one of this check."""
+        key = key_of_check(id)
         with reachable():
-            return self.checks.cancel(key_of_check(id))
+            may = self.checks.has_secret(key, digest_of_secret(secret))
+            if may:
+                self.checks.cancel(key)
+        return may
+
+    def delete(self, id: str, secret: str) -> bool:
+        """End a check and forget it at once; False if the secret is not the one of this check."""
+        key = key_of_check(id)
+        with reachable():
+            may = self.checks.has_secret(key, digest_of_secret(secret))
+            if may:
+                self.checks.delete(key)
+        return may
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""

@@ -51,18 +51,19 @@ CHECKS = sa.Table(
     sa.Column("worker", sa.Text, nullable=False, default=""),
     sa.Column("turn", sa.Integer, nullable=False, default=0),
     sa.Column("losses", sa.JSON, nullable=False, default=list),
+    sa.Column("secret", sa.Text, nullable=False, server_default=""),
     sa.Column("sender", sa.String(64), nullable=False, server_default=""),
     sa.Column("cost", sa.Double, nullable=False, server_default="0"),
     sa.Column("rank", sa.Double, nullable=False, server_default="0"),
     sa.Column("tries", sa.Integer, nullable=False, server_default="0"),
     sa.Column("not_before", sa.Double, nullable=False, server_default="0"),
 )
-"""Each check. `id` is its key, which opens nothing. `worker` has it in hand; empty while it waits
-or when it is over. `losses` are the tries that came to nothing through no fault of the package, and
-`tries` is their number; it is not tried again before `not_before`. `sender` is who asked (see
-`Order`), until it is over; `cost` is what the next stage takes, in seconds as far as one can tell,
-and `rank` its place in the queue (`checker.service.jobs.durable.queue`). Version 0.1.0 wrote
-`turn`."""
+"""Each check. `id` is its key, which opens nothing, and `secret` a digest of its secret; checks of
+version 0.1.0 have none. `worker` has it in hand; empty while it waits or when it is over. `losses`
+are the tries that came to nothing through no fault of the package, and `tries` is their number; it
+is not tried again before `not_before`. `sender` is who asked (see `Order`), until it is over;
+`cost` is what the next stage takes, in seconds as far as one can tell, and `rank` its place in the
+queue (`checker.service.jobs.durable.queue`). Version 0.1.0 wrote `turn`."""
 
 EVENTS = sa.Table(
     "subt_events",

@@ -13,6 +13,7 @@ from starlette.responses import RedirectResponse, Response
 
 from checker.base.record import Record
 from checker.service.jobs.port import State
+from checker.service.web import receipts
 from checker.service.web.answers.headers import KINDS, file_response
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused
@@ -45,19 +46,31 @@ _FORM = {
         "file": {"type": "string", "format": "binary", "description": "The file; the last field."},
     },
 }
-_UPLOAD = {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}}}
+_UPLOAD = {
+    "requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}},
+    "parameters": [
+        {
+            "name": receipts.KEY,
+            "in": "header",
+            "required": False,
+            "description": "A random text of the client's own. The same upload with the same one "
+            "is the same check: send it again where the answer got lost.",
+            "schema": {"type": "string", "pattern": f"^{receipts.KEY_PATTERN}$"},
+        }
+    ],
+}
 _OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
 _DESCRIPTIONS = {
     400: "The form cannot be read, or was cut off.",
     401: "A token is needed.",
-    403: "The request comes from another site.",
+    403: "The secret is not the one of this check, or the request comes from another site.",
     404: "Nothing is at this address, or not yet.",
     405: "Another method is expected.",
     408: "The upload is too slow.",
     413: "The file is too large.",
     415: "The file is of a kind that cannot be checked.",
     421: "The service does not answer under this name.",
-    422: "The archive, the profile or a parameter is refused, and why.",
+    422: "The archive, the profile, a parameter or a header is refused, and why.",
     429: "Too many uploads; see Retry-After.",
     503: "Too busy, or the database does not answer; see Retry-After.",
 }
@@ -80,17 +93,35 @@ def router(services: Services) -> APIRouter:
         responses=_refusals(400, 401, 403, 408, 413, 415, 421, 422, 429, 503),
     )
     add("/{id}", api.show, methods=["GET"], response_model=CheckView)
-    add(
-        "/{id}",
-        api.cancel,
-        methods=["DELETE"],
-        response_model=CheckView,
-        responses=_refusals(403, 404, 421, 422, 503),
-    )
+    _add_ends(routes, api)
     routes.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
     _add_events(routes, api)
     _add_files(routes, api)
     return routes
+
+
+def _add_ends(router: APIRouter, api: Api) -> None:
+    from fastapi import Header
+
+    told = "The secret that the answer to the upload had."
+
+    def cancel(
+        request: Request, id: str, secret: str = Header("", alias=receipts.SECRET, description=told)
+    ) -> CheckView:
+        """End a check, and tell where it stands; one that has ended stays as it is."""
+        return api.cancel(request, id, secret)
+
+    def delete(
+        id: str, secret: str = Header("", alias=receipts.SECRET, description=told)
+    ) -> Response:
+        """End a check and delete it: its link leads nowhere at once, its files go later."""
+        return api.delete(id, secret)
+
+    refusals = _refusals(403, 404, 421, 422, 503)
+    router.add_api_route(
+        "/{id}/cancel", cancel, methods=["POST"], response_model=CheckView, responses=refusals
+    )
+    router.add_api_route("/{id}", delete, methods=["DELETE"], status_code=204, responses=refusals)
 
 
 def _add_events(router: APIRouter, api: Api) -> None:
@@ -143,19 +174,25 @@ class Api(Record):
 
     async def create(self, request: Request, response: Response) -> Created:
         """Take a package, an archive or a model file, and order its check."""
-        id = await new_check(request, self.services)
-        response.headers["Location"] = f"/api/checks/{id}"
-        return Created(id=id, url=self._page(request, id))
+        receipt = await new_check(request, self.services)
+        response.headers["Location"] = f"/api/checks/{receipt.id}"
+        receipts.give(response, receipt, request, self.services)
+        url = self._page(request, receipt.id)
+        return Created(id=receipt.id, secret=receipt.secret, url=url)
 
     def show(self, request: Request, id: str) -> CheckView:
         """Tell where a check stands."""
         return self._view(request, self.services.check(id))
 
-    def cancel(self, request: Request, id: str) -> CheckView:
-        """End a check, and tell where it stands; one that has ended stays as it is."""
-        self.services.check(id)
-        self.services.jobs.cancel(id)
+    def cancel(self, request: Request, id: str, secret: str) -> CheckView:
+        """End a check, and tell where it stands."""
+        receipts.cancel(self.services, id, secret)
         return self._view(request, self.services.check(id))
+
+    def delete(self, id: str, secret: str) -> Response:
+        """End a check and delete it."""
+        receipts.delete(self.services, id, secret)
+        return Response(status_code=204)
 
     async def events(self, request: Request, id: str, after: int) -> Response:
         """Send the events of a check."""

@@ -114,6 +114,7 @@ class Created(BaseModel):
     """A check that was created."""
 
     id: str = Field(description="Id of the check; everybody who knows it can see the report.")
+    secret: str = Field(description="Cancels and deletes the check; for its sender alone.")
     url: str = Field(description="Page for people.")
 
 

@@ -15,6 +15,7 @@ from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import about, escaped, parse_page, told
 from checker.rulebook.profiles import profile, profile_names
 from checker.service.jobs.port import Stage, State
+from checker.service.web import receipts
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
 from checker.service.web.pages import progress
@@ -164,7 +165,10 @@ class _Pages(Record):
 
     async def send(self, request: Request) -> Response:
         """Take the form as a browser without scripts sends it, and go to its check."""
-        return _see_other(f"/checks/{await new_check(request, self.services)}")
+        receipt = await new_check(request, self.services)
+        answer = _see_other(f"/checks/{receipt.id}")
+        receipts.give(answer, receipt, request, self.services)
+        return answer
 
     def check(self, request: Request) -> Response:
         """Show a check: its steps, the first findings, in the end its results."""
@@ -193,9 +197,9 @@ class _Pages(Record):
 
     def cancel(self, request: Request) -> Response:
         """End a check and go back to its page."""
-        state = self.services.check(request.path_params["id"])
-        self.services.jobs.cancel(state.id)
-        return _see_other(f"/checks/{state.id}")
+        id = request.path_params["id"]
+        receipts.cancel(self.services, id, receipts.kept(request))
+        return _see_other(f"/checks/{id}")
 
 
 def _rules(_: Request) -> Response:

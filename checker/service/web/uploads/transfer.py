@@ -20,11 +20,12 @@ from checker.base.errors import UnreadableInput
 from checker.base.words import plain
 from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.profiles import profile_names
-from checker.service.jobs.port import Order
+from checker.service.jobs.port import Order, Receipt
 from checker.service.store.store import Store
 from checker.service.store.workplace import Incoming, TooLarge
 from checker.service.web.answers.refusal import Refused, sentence
 from checker.service.web.config import Config
+from checker.service.web.receipts import key_of
 from checker.service.web.services import Services
 from checker.service.web.uploads.form import ROOM, UploadForm
 
@@ -34,7 +35,7 @@ less time than it takes to change to a thread and back; more of them may have to
 """
 
 
-async def new_check(request: Request, services: Services) -> str:
+async def new_check(request: Request, services: Services) -> Receipt:
     """Take the upload form of a request and order a check of its file.
 
     Args:
@@ -43,7 +44,7 @@ async def new_check(request: Request, services: Services) -> str:
         services: Take the file and the order.
 
     Returns:
-        The id of the check.
+        The receipt of the check; the same one for the same upload with the same key.
 
     Raises:
         Refused: The upload is not taken; nothing of it is left.
@@ -56,18 +57,18 @@ async def new_check(request: Request, services: Services) -> str:
             _refuse_without_room(services.store, config)
             # Unless the store has it by then, nothing of it is left behind this.
             with services.store.incoming(config.upload_limit) as incoming:
-                id = await _received(request, services, incoming)
+                receipt = await _received(request, services, incoming)
         except TooLarge:
             raise too_large(config.upload_limit) from None
         except OSError as error:
             raise _no_room(error) from None
     services.metrics.uploads.inc()
-    return id
+    return receipt
 
 
-async def _received(request: Request, services: Services, incoming: Incoming) -> str:
+async def _received(request: Request, services: Services, incoming: Incoming) -> Receipt:
     """Read the form, and have a check of its file ordered; see `new_check`."""
-    admit = services.admission.needs_token(request)
+    key, admit = key_of(request), services.admission.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
     async for piece in _pieces(request, services.config):
         if incoming.size < AT_ONCE:
@@ -76,19 +77,19 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
             await run_in_threadpool(form.feed, piece)
     form.end()
     profile = _profile(form.fields.get("profile", ""))
-    take = partial(_ordered, services, incoming, form.name, profile)
+    take = partial(_ordered, services, incoming, form.name, profile, key)
     return await to_thread.run_sync(take, limiter=services.threads)
 
 
-def _ordered(services: Services, incoming: Incoming, name: str, profile: str) -> str:
-    """Look at an upload that has come whole, keep it, order its check, and return its id."""
+def _ordered(services: Services, incoming: Incoming, name: str, profile: str, key: str) -> Receipt:
+    """Look at an upload that has come whole, keep it, order its check, and return the receipt."""
     if name.lower().endswith(ARCHIVE_SUFFIXES):
         try:
             services.indexes.check(incoming.path, name)
         except UnreadableInput as error:
             reason = plain(f"{name} {error.reason}.")
             raise Refused(422, reason, sentence(error.advice), "archive") from None
-    return services.jobs.submit(Order(incoming.finish(), name, profile))
+    return services.jobs.submit(Order(incoming.finish(), name, profile), key)
 
 
 def too_large(limit: int) -> Refused:

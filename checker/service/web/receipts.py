@@ -1,0 +1,88 @@
+"""The secret of a check: given to who uploads a package, and asked for where a check is ended."""
+
+from __future__ import annotations
+
+import re
+from datetime import timedelta
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from checker.service.jobs.port import Receipt
+from checker.service.web.answers.refusal import Refused
+from checker.service.web.services import Services
+
+SECRET = "Subt-Check-Secret"  # noqa: S105 - the name of a header
+"""Brings the secret of a check."""
+KEY = "Idempotency-Key"
+"""Brings a key of the client's own: the same upload with the same key is one check."""
+KEY_PATTERN = "[ -~]{22,200}"
+"""Whoever guesses a key and has the upload knows the link of its check."""
+_COOKIE = "subt-check-secret"
+
+
+def key_of(request: Request) -> str:
+    """Return the key that a request brings; empty without.
+
+    Raises:
+        Refused: It could be guessed, or is too long.
+    """
+    key = request.headers.get(KEY)
+    if key is None or re.fullmatch(KEY_PATTERN, key):
+        return key or ""
+    raise Refused(
+        422,
+        f"The header {KEY} is wrong, expected 22 to 200 printable characters of ASCII.",
+        "Send a new random key with each upload, such as a UUID, and the same one to repeat it.",
+        "key",
+    )
+
+
+def give(response: Response, receipt: Receipt, request: Request, services: Services) -> None:
+    """Have a browser keep the secret of a check, for the page of this check alone."""
+    response.set_cookie(
+        _COOKIE,
+        receipt.secret,
+        max_age=int(timedelta(days=services.config.retention_days).total_seconds()),
+        path=f"/checks/{receipt.id}",
+        secure=services.address(request).startswith("https:"),
+        httponly=True,
+        samesite="strict",
+    )
+
+
+def kept(request: Request) -> str:
+    """Return the secret that a browser keeps for the page that it asks for; empty for none."""
+    return request.cookies.get(_COOKIE, "")
+
+
+def cancel(services: Services, id: str, secret: str) -> None:
+    """End a check, unless it is over.
+
+    Raises:
+        Refused: There is none, or the secret is not its own.
+    """
+    services.check(id)
+    if not services.jobs.cancel(id, secret):
+        raise _not_yours(services, id, "cancel its check")
+
+
+def delete(services: Services, id: str, secret: str) -> None:
+    """End a check and forget it.
+
+    Raises:
+        Refused: There is none, or the secret is not its own.
+    """
+    services.check(id)
+    if not services.jobs.delete(id, secret):
+        raise _not_yours(services, id, "delete its check")
+
+
+def _not_yours(services: Services, id: str, what: str) -> Refused:
+    services.check(id)  # it may have gone meanwhile
+    return Refused(
+        403,
+        f"Only the person who uploaded this package can {what}.",
+        f"Use the browser that uploaded it; programs send the secret in the header '{SECRET}'.",
+        "secret",
+    )
