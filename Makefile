@@ -68,6 +68,8 @@ bench: .venv/tested $(VIEWER)
 	$(PACKAGES) $(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
+	$(BIN)/python -m bench.watchers
+	$(BIN)/python -m bench.watchers --postgres
 	$(PACKAGES) $(BIN)/python -m bench.batch
 	$(PACKAGES) $(BIN)/python -m bench.xacro
 	$(PACKAGES) $(BIN)/python -m bench.repository

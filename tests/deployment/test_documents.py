@@ -99,7 +99,9 @@ def test_limits_are_those_of_the_code() -> None:
         f"{static.open_files} open files"
     )
     assert told["check with trial"].startswith(f"{trial.seconds:g} s")
-    assert told["streams of events"].startswith(f"{config.streams} at once")
+    assert told["streams of events"].startswith(
+        f"{config.streams} at once, {config.streams_per_client} from one address"
+    )
 
 
 def test_defaults_are_those_of_the_code() -> None:
@@ -108,6 +110,7 @@ def test_defaults_are_those_of_the_code() -> None:
     assert told["SUBT_CHECK_RETENTION_DAYS"] == str(plain.retention_days)
     assert told["SUBT_CHECK_UPLOAD_LIMIT"] == str(plain.upload_limit)
     assert told["SUBT_CHECK_UPLOADS_PER_MINUTE"] == str(plain.uploads_per_minute)
+    assert told["SUBT_CHECK_STREAMS_PER_CLIENT"] == str(plain.streams_per_client)
 
 
 def test_the_figures_that_are_named_are_counted() -> None:

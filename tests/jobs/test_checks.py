@@ -194,9 +194,9 @@ def test_words_are_kept_as_every_database_takes_them(checks: Checks) -> None:
 
 def test_one_that_is_there_already_stays_as_it_is(checks: Checks) -> None:
     id = entered(checks)
-    held = checks.begin(id, "w", STATIC)
+    held = take(checks)
     before, events = state(checks, id), told(checks, id)
-    assert checks.enter(id, "2" * 64, ORDER, 9.0, DONE, lambda _: None) is False
+    assert checks.enter(id, "2" * 64, ORDER, 9.0, DONE, 1.0) is False
     assert (state(checks, id), told(checks, id)) == (before, events)
     assert held is not None
     assert checks.holds(held)
@@ -205,12 +205,12 @@ def test_one_that_is_there_already_stays_as_it_is(checks: Checks) -> None:
 
 def test_one_that_is_deleted_is_lost_to_who_has_it_in_hand(checks: Checks) -> None:
     id = entered(checks)
-    held = checks.begin(id, "w", STATIC)
+    held = take(checks)
     assert held is not None
     checks.delete(id)
     assert not checks.holds(held)
     assert checks.settle(held, READ) is checks.release(held) is False
-    assert checks.begin(id, "w", STATIC) is None
+    assert take(checks) is None
     assert (checks.state(id), told(checks, id)) == (None, [])
 
 

@@ -243,11 +243,11 @@ class TestWhatTheServiceSuffers:
     def test_ends_in_an_honest_sentence_and_is_nobodys_result(self, site: Site) -> None:
         site.worker()
         order = site.order(f"full:static:{TRIES}")
-        state = site.end(site.jobs.submit(order))
+        state = site.end(site.jobs.submit(order).id)
         assert state.stage is Stage.FAILED
         assert state.words.startswith("the checker could not finish: the system of the service")
         assert state.words.endswith("No space left on device; it was tried 5 times, at last alone")
-        again = site.end(site.jobs.submit(order))
+        again = site.end(site.jobs.submit(order).id)
         assert (again.stage, again.words) == (Stage.DONE, WORDS)
 
     def test_the_last_try_is_alone_on_its_machine(self, site: Site) -> None:
@@ -270,7 +270,7 @@ class TestWhatTheServiceSuffers:
 
 class TestSenders:
     def sent(self, site: Site, sender: str, profile: str) -> str:
-        return site.jobs.submit(replace(site.order(profile), sender=sender))
+        return site.jobs.submit(replace(site.order(profile), sender=sender)).id
 
     def test_of_one_check_do_not_wait_for_those_of_many(self, site: Site) -> None:
         many = [self.sent(site, "many", "static:1 trial:1") for _ in range(8)]

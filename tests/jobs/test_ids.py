@@ -88,3 +88,13 @@ def test_receipts_are_alike_for_the_same_order_and_seed_alone(
     assert receipt.id != receipt.secret
     assert (receipt.id == receipt_for(other, another).id) is ((one, seed) == (other, another))
     assert (receipt.secret == receipt_for(other, seed).secret) is (one == other)
+
+
+def test_last_events_go_by_ids_as_well(tmp_path: Path) -> None:
+    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
+    one, other = (jobs.submit(Order("0" * 64, "robot.zip")) for _ in range(2))
+    jobs.cancel(other.id, other.secret)
+    assert jobs.last_events([one.id, other.id, "unknown"]) == {one.id: 1, other.id: 2}
+    assert jobs.last_events([key_of_check(one.id)]) == {}
+    assert jobs.last_events([]) == {}
+    jobs.engine.dispose()

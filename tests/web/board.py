@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from time import sleep
 from typing import TYPE_CHECKING, Any
 
 import httpx
 from msgspec.structs import replace
 
-from checker.service.jobs.port import Alive, Event, Order, Receipt, Stage, State
+from checker.service.jobs.port import Alive, Changes, Event, Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -27,6 +28,17 @@ ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", **COUNTS}
 QUEUED = State(ID, Order("b" * 64, "rover.zip"), Stage.QUEUED, expires=2e9)
 WORDS = "Not ready: 5 errors to fix"
 DONE = replace(QUEUED, stage=Stage.DONE, result=KEY, packages=(ROVER,), words=WORDS)
+
+
+class Looks:
+    """Says again and again that something may have changed."""
+
+    def wait(self, seconds: float) -> bool:
+        sleep(min(seconds, 0.02))
+        return True
+
+    def close(self) -> None:
+        pass
 
 
 @dataclass
@@ -48,6 +60,12 @@ class BoardJobs:
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         stages = (Stage.QUEUED, Stage.STATIC) if id in self.states else ()
         return [Event(n, stage, "", 0.0) for n, stage in enumerate(stages, 1)][after:]
+
+    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
+        return {id: len(self.events(id)) for id in ids if id in self.states}
+
+    def changes(self) -> Changes:
+        return Looks()
 
     def cancel(self, id: str, secret: str) -> bool:
         if secret == SECRET:

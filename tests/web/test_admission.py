@@ -254,6 +254,7 @@ def test_the_environment_says_what_is_allowed() -> None:
             "SUBT_CHECK_PUBLIC": "yes",
             "SUBT_CHECK_WITHOUT_SANDBOX": "1",
             "SUBT_CHECK_UPLOADS_PER_MINUTE": "0",
+            "SUBT_CHECK_STREAMS_PER_CLIENT": "7",
             "SUBT_CHECK_BASE_URL": "https://check.example/",
         }
     )
@@ -262,6 +263,7 @@ def test_the_environment_says_what_is_allowed() -> None:
     assert config.public
     assert config.without_sandbox
     assert config.uploads_per_minute == 0
+    assert config.streams_per_client == 7
     assert config.base_url == "https://check.example"
     assert config_from({}) == Config()
     assert Config().only_here
@@ -272,6 +274,7 @@ def test_the_environment_says_what_is_allowed() -> None:
     [
         ("SUBT_CHECK_UPLOAD_LIMIT", "100 MB"),
         ("SUBT_CHECK_UPLOAD_LIMIT", "0"),
+        ("SUBT_CHECK_STREAMS_PER_CLIENT", "0"),
         ("SUBT_CHECK_RETENTION_DAYS", "-1"),
         ("SUBT_CHECK_RETENTION_DAYS", "36501"),
         ("SUBT_CHECK_BASE_URL", "check.example"),

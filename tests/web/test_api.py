@@ -358,7 +358,7 @@ def test_who_comes_back_after_the_end_is_told_to_stop(store: Store) -> None:
 @pytest.mark.service
 def test_streams_are_bounded_and_end_with_their_readers(store: Store) -> None:
     jobs = BoardJobs({ID: QUEUED})
-    app = create_app(jobs, store, Config(streams=4))
+    app = create_app(jobs, store, Config(streams=4, public=True, streams_per_client=2))
     with served(app) as port, httpx.Client(base_url=f"http://localhost:{port}") as client:
         address = f"/api/checks/{ID}/events"
         with client.stream("GET", address) as one, client.stream("GET", address) as two:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import json
 import logging
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,9 +22,11 @@ from checker.service.jobs.port import Alive, JobsUnreachable, State
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
+from checker.service.web.limits.admission import GUESSES_PER_MINUTE
 from checker.service.web.logs import FIELDS, JsonLines, short
 from checker.service.web.metrics import BOUNDS, Metrics
 from tests.web.board import DONE, ID, BoardJobs
+from tests.web.server import left_behind
 
 
 @dataclass
@@ -67,6 +73,44 @@ def test_it_is_not_ready_without_room_for_uploads(tmp_path: Path) -> None:
     answer = client_for(tmp_path, Engine(), upload_limit=10**18).get("/readyz")
     assert answer.status_code == 503
     assert "MB free" in answer.json()["error"]
+
+
+def test_it_is_not_ready_if_it_cannot_write_its_data(tmp_path: Path) -> None:
+    client = client_for(tmp_path, Engine())
+    (tmp_path / "data/incoming").write_text("a file where uploads come in")
+    answer = client.get("/readyz")
+    assert answer.status_code == 503
+    assert answer.json()["error"].startswith("The data folder cannot be written: ")
+    (tmp_path / "data/incoming").unlink()
+    assert client.get("/readyz").status_code == 200
+    assert not left_behind(Store(tmp_path / "data"))
+
+
+def test_it_is_not_ready_if_it_may_not_write_its_data() -> None:
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place, "data")
+        client = client_for(Path(place), Engine())
+        folder.chmod(0o555)
+        with as_nobody(Path(place)):
+            answer = client.get("/readyz")
+        assert answer.status_code == 503
+        assert answer.json()["error"] == "The data folder cannot be written: Permission denied."
+
+
+@contextmanager
+def as_nobody(place: Path) -> Iterator[None]:
+    """Have no rights of root for a moment: root may write whatever the bits say."""
+    if os.geteuid() != 0:
+        yield
+        return
+    place.chmod(0o755)
+    if not all(each.stat().st_mode & 0o001 for each in place.parents):
+        pytest.skip(f"{place} is closed to users without rights")
+    os.seteuid(65534)
+    try:
+        yield
+    finally:
+        os.seteuid(0)
 
 
 WALL, FILTER = Layer("landlock", True, "version 7", hides=True), Layer("seccomp", True, "")
@@ -176,6 +220,22 @@ def test_metrics_are_for_this_machine_and_for_tokens(
     app = create_app(Engine(), Store(tmp_path), Config(tokens=("s3cret",)))
     client = TestClient(app, base_url="http://localhost", client=(address, 5_000))
     assert client.get("/metrics", headers=headers).status_code == status
+
+
+@pytest.mark.parametrize("path", ["/metrics", "/readyz"])
+def test_guesses_of_tokens_are_limited(tmp_path: Path, path: str) -> None:
+    config = Config(tokens=("s3cret",), without_sandbox=True, upload_limit=1_000)
+    app = create_app(Engine(told=MIXED), Store(tmp_path), config)
+
+    def asked(token: str, address: str = "192.0.2.1") -> int:
+        client = TestClient(app, base_url="http://localhost", client=(address, 5_000))
+        return client.get(path, headers={"Authorization": f"Bearer {token}"}).status_code
+
+    assert {asked("s3cret") for _ in range(GUESSES_PER_MINUTE + 5)} == {200}, "it is no guess"
+    wrong = [asked(f"guess {n}") for n in range(GUESSES_PER_MINUTE + 5)]
+    assert wrong == [404 if path == "/metrics" else 200] * GUESSES_PER_MINUTE + [429] * 5
+    assert asked("s3cret") == 429, "or who guesses would know"
+    assert asked("s3cret", "192.0.2.2") == 200
 
 
 class Broken(BoardJobs):

@@ -227,7 +227,8 @@ def test_links_follow_the_host_only_for_who_named_it(
 
 
 def test_streams_that_nobody_reads_leave_room_for_others(tmp_path: Path) -> None:
-    app = create_app(BoardJobs({ID: QUEUED}), Store(tmp_path), Config(streams=200))
+    config = Config(public=True, streams=200, streams_per_client=100)
+    app = create_app(BoardJobs({ID: QUEUED}), Store(tmp_path), config)
     with served(app) as port:
         deaf = [socket.create_connection(("127.0.0.1", port)) for _ in range(150)]
         for each in deaf:

@@ -1,9 +1,9 @@
-"""What the service needs of a job engine: seven calls; `durable` implements them."""
+"""What the service needs of a job engine: nine calls; `durable` implements them."""
 
 from __future__ import annotations
 
 import enum
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Protocol
 
 from msgspec import field
@@ -135,8 +135,20 @@ class Alive(Record):
         }
 
 
+class Changes(Protocol):
+    """Hears that something changed; see `checker.service.jobs.durable.changes`."""
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until something changed since the last call; False if nothing did."""
+        ...
+
+    def close(self) -> None:
+        """Hear no more; who waits returns soon."""
+        ...
+
+
 class Jobs(Protocol):
-    """The seven calls; none waits for a check, and all may be called from many threads."""
+    """The nine calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -154,6 +166,14 @@ class Jobs(Protocol):
 
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         """Return what has happened so far after event number `after`, in order."""
+        ...
+
+    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
+        """Return the number of the last event of each of these checks that is known."""
+        ...
+
+    def changes(self) -> Changes:
+        """Return what hears that something changed, at any check."""
         ...
 
     def cancel(self, id: str, secret: str) -> bool:

@@ -19,9 +19,11 @@ from checker.service.jobs.port import Jobs
 from checker.service.store.place import data_folder
 from checker.service.store.store import Store
 from checker.service.web import health
+from checker.service.web.answers.bodies import Heads
 from checker.service.web.answers.headers import SecurityHeaders
 from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
 from checker.service.web.api import routes as api
+from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
@@ -157,7 +159,13 @@ def create_app(
 
     metrics = Metrics()
     services = Services(
-        jobs, store, config, Admission(config), metrics, indexes or ArchiveIndexes()
+        jobs,
+        store,
+        config,
+        Admission(config),
+        metrics,
+        indexes or ArchiveIndexes(),
+        Watchers(jobs),
     )
     app = FastAPI(
         title="subt-check",
@@ -174,6 +182,7 @@ def create_app(
     app.include_router(health.router(services))
     app.include_router(pages.router(services))
     # The last added stands outermost.
+    app.add_middleware(Heads)
     app.add_middleware(OwnOrigin, config=config)
     app.add_middleware(UnreadBodies)
     app.add_middleware(AccessLog, metrics=metrics)

@@ -28,7 +28,9 @@ class Config(Record):
         retention_days: After which uploads and results are deleted.
         uploads_per_minute: Of one client, by its address; 0 for any number, as on this machine.
         uploads_at_once: Of all clients; half of them of one client.
-        streams: Watchers of events at once, of all clients; half of them of one client.
+        streams: Watchers of events at once, of all clients.
+        streams_per_client: Of them of one client, by its address, which a class may share; on this
+            machine, all of them.
         idle_seconds: That an upload may stand still.
         upload_seconds: That an upload may last.
         slowest: Bytes per second that an upload brings on average.
@@ -43,6 +45,7 @@ class Config(Record):
     uploads_per_minute: int = 30
     uploads_at_once: int = 200
     streams: int = 400
+    streams_per_client: int = 50
     idle_seconds: float = 20.0
     upload_seconds: float = 900.0
     slowest: int = 10_000
@@ -74,6 +77,7 @@ def config_from(environment: Mapping[str, str] = os.environ) -> Config:
         public=_says_yes(environment, "SUBT_CHECK_PUBLIC"),
         retention_days=number("SUBT_CHECK_RETENTION_DAYS", plain.retention_days, 1, _CENTURY),
         uploads_per_minute=number("SUBT_CHECK_UPLOADS_PER_MINUTE", plain.uploads_per_minute),
+        streams_per_client=number("SUBT_CHECK_STREAMS_PER_CLIENT", plain.streams_per_client, 1),
         without_sandbox=_says_yes(environment, "SUBT_CHECK_WITHOUT_SANDBOX"),
         base_url=_base_url(environment.get("SUBT_CHECK_BASE_URL", "")),
     )

@@ -18,7 +18,6 @@ from checker.service.exposure import is_loopback
 from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused, not_found
-from checker.service.web.limits.admission import bearer
 from checker.service.web.services import Services
 
 if TYPE_CHECKING:
@@ -49,7 +48,8 @@ def router(services: Services) -> APIRouter:
     health = Health(services)
     api = APIRouter(tags=["health"])
     no: dict[int | str, dict[str, Any]] = {
-        503: {"model": Problem, "description": "Not ready, and why."}
+        429: {"model": Problem, "description": "Too many wrong tokens; see Retry-After."},
+        503: {"model": Problem, "description": "Not ready, and why."},
     }
     api.add_api_route("/healthz", health.lives, response_model=Well)
     api.add_api_route(
@@ -72,14 +72,11 @@ class Health(Record):
         """Tell that the web process answers."""
         return Well()
 
-    def ready(self, request: Request) -> Ready:
+    async def ready(self, request: Request) -> Ready:
         """Tell whether a check that is ordered now would be done, in the sandbox."""
-        alive = self._alive()
-        reasons = " ".join((*self._of_workers(alive), *self._of_disk()))
-        if reasons:
-            advice = "See the logs of the service and its workers."
-            raise Refused(503, reasons, advice, "not ready", {"Retry-After": "10"})
-        return Ready(sandbox=_sandbox(alive) if self._may_see(request) else None)
+        may_see = self._may_see(request)
+        alive = await run_in_threadpool(self._ready)
+        return Ready(sandbox=_sandbox(alive) if may_see else None)
 
     async def figures(self, request: Request) -> Response:
         """Return the metrics, to this machine and to those with a token."""
@@ -88,13 +85,26 @@ class Health(Record):
         text = await run_in_threadpool(lambda: self.services.metrics.text(self._alive()))
         return Response(text, headers={"Content-Type": CONTENT_TYPE_PLAIN_0_0_4})
 
+    def _ready(self) -> Alive | None:
+        """Return what is known of the engine.
+
+        Raises:
+            Refused: A check that is ordered now would not be done.
+        """
+        alive = self._alive()
+        reasons = " ".join((*self._of_workers(alive), *self._of_disk()))
+        if reasons:
+            advice = "See the logs of the service and its workers."
+            raise Refused(503, reasons, advice, "not ready", {"Retry-After": "10"})
+        return alive
+
     def _may_see(self, request: Request) -> bool:
         """Whether it comes from this machine itself, by no proxy, or brings a token."""
         host = request.client.host if request.client else ""
         is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
         if is_loopback(host) and not is_forwarded:
             return True
-        return self.services.admission.knows(bearer(request))
+        return self.services.admission.recognizes(request)
 
     def _alive(self) -> Alive | None:
         try:
@@ -115,14 +125,19 @@ class Health(Record):
 
     def _of_disk(self) -> Iterator[str]:
         """Yield sentences about what is amiss with the data folder."""
-        least = self.services.config.room
+        least, store = self.services.config.room, self.services.store
         try:
-            free = shutil.disk_usage(self.services.store.folder).free
+            free = shutil.disk_usage(store.folder).free
         except OSError:
             yield "The data folder cannot be read."
-        else:
-            if free < least:
-                yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
+            return
+        if free < least:
+            yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
+        try:
+            with store.incoming() as incoming:  # what is not finished is not kept
+                incoming.write(b"written to see whether it can be")
+        except OSError as error:
+            yield f"The data folder cannot be written: {error.strerror or 'it fails'}."
 
 
 def _sandbox(alive: Alive | None) -> Mapping[str, Sequence[str]]:

@@ -12,6 +12,7 @@ from checker.base.record import Record
 from checker.service.jobs.port import Jobs, State
 from checker.service.store.store import Store
 from checker.service.web.answers.refusal import not_found
+from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config
 from checker.service.web.limits.admission import Admission
 from checker.service.web.metrics import Metrics
@@ -36,6 +37,7 @@ class Services(Record):
         admission: Says who may do what.
         metrics: Counts what they do.
         indexes: Reads those of archives.
+        watchers: Follow checks.
         threads: For uploads that have come whole, to be looked at, kept and ordered.
     """
 
@@ -45,6 +47,7 @@ class Services(Record):
     admission: Admission
     metrics: Metrics
     indexes: ArchiveIndexes
+    watchers: Watchers
     threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
 
     def check(self, id: str) -> State:

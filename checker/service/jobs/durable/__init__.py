@@ -1,1 +1,1 @@
-"""The engine: queues and recovery by DBOS Transact, and tables of what it cannot know."""
+"""The engine on a database: queues, recovery, and tables of all checks and workers."""

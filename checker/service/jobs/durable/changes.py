@@ -67,22 +67,29 @@ class Changes:
             False if nothing changed, and at once after `close`.
         """
         with self._waiting:
-            if self._closed.is_set():
-                return False
-            try:
-                if self._listener is None:
-                    self._listener = _listener(self._engine)
-                    return True
-                return self._hears(self._listener, seconds)
-            except self._errors:
-                self._hang_up()
-                return not self._closed.wait(AWAY_SECONDS)
+            heard = not self._closed.is_set() and self._waited(seconds)
+        if self._closed.is_set():
+            self.close()
+        return heard
 
     def close(self) -> None:
-        """End the connection; who waits returns within half a second."""
+        """End the connection; who waits returns within half a second, and ends it then."""
         self._closed.set()
-        with self._waiting:
+        if self._waiting.acquire(blocking=False):
+            try:
+                self._hang_up()
+            finally:
+                self._waiting.release()
+
+    def _waited(self, seconds: float) -> bool:
+        try:
+            if self._listener is None:
+                self._listener = _listener(self._engine)
+                return True
+            return self._hears(self._listener, seconds)
+        except self._errors:
             self._hang_up()
+            return not self._closed.wait(AWAY_SECONDS)
 
     def _hears(self, listener: _Listener, seconds: float) -> bool:
         ends = monotonic() + seconds

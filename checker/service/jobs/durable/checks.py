@@ -301,6 +301,14 @@ class Checks(Record, dict=True):
                 Event(row.number, Stage(row.stage), row.words, row.time, row.data) for row in rows
             ]
 
+    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
+        """Return the number of the last event of each of these checks that is known."""
+        last = sa.func.max(EVENTS.c.number).label("last")
+        these = sa.select(EVENTS.c.check_id, last).where(EVENTS.c.check_id.in_(ids))
+        question = these.group_by(EVENTS.c.check_id)
+        with self.engine.connect() as connection:
+            return {row.check_id: row.last for row in connection.execute(question)}
+
     def waiting(self) -> tuple[Mapping[str, int], int]:
         """Return how many checks wait, by queue, and how many are in hand."""
         in_hand = CHECKS.c.worker != ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 
 import sqlalchemy as sa
@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.service.jobs.check import stored_result
+from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks, Step
 from checker.service.jobs.durable.database import WAITS, open_database, prepare, reachable
 from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
@@ -81,6 +82,16 @@ class DurableJobs(Record, dict=True):
         """Return what has happened so far after event number `after`, in order."""
         with reachable():
             return self.checks.events(key_of_check(id), after)
+
+    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
+        """Return the number of the last event of each of these checks that is known."""
+        keys = {key_of_check(id): id for id in ids}
+        with reachable():
+            return {keys[key]: last for key, last in self.checks.last_events(keys).items()}
+
+    def changes(self) -> Changes:
+        """Return what hears that something changed, at any check."""
+        return Changes(self.engine)
 
     def cancel(self, id: str, secret: str) -> bool:
         """End a check, unless it is over; False if the secret is not the one of this check."""

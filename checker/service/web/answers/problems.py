@@ -98,7 +98,15 @@ def _of_framework(error: HTTPException) -> Refused:
             "The request cannot be understood.",
             "See /api/openapi.json for the expected form.",
         )
-    return Refused(error.status_code, *message, headers=dict(error.headers or {}))
+    return Refused(error.status_code, *message, headers=_with_head(dict(error.headers or {})))
+
+
+def _with_head(headers: dict[str, str]) -> dict[str, str]:
+    """Name HEAD wherever GET is allowed: no route knows of it (`answers.bodies`)."""
+    allowed = headers.get("Allow", "").split(", ")
+    if "GET" in allowed:
+        headers["Allow"] = ", ".join(sorted({*allowed, "HEAD"}))
+    return headers
 
 
 def _invalid(errors: Sequence[Any]) -> Refused:

@@ -59,7 +59,7 @@ _UPLOAD = {
         }
     ],
 }
-_OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
+_OTHERS = ("OPTIONS", "PATCH", "POST", "PUT", "TRACE")
 _DESCRIPTIONS = {
     400: "The form cannot be read, or was cut off.",
     401: "A token is needed.",
@@ -196,8 +196,8 @@ class Api(Record):
 
     async def events(self, request: Request, id: str, after: int) -> Response:
         """Send the events of a check."""
-        await run_in_threadpool(self.services.check, id)
-        return await event_stream(request, self.services, id, after)
+        state = await run_in_threadpool(self.services.check, id)
+        return await event_stream(request, self.services, state, after)
 
     def index(self, id: str) -> Response:
         """Lead to the list of packages, beside their folders: its links are relative."""
@@ -242,7 +242,7 @@ class Api(Record):
 
 def _other_method(_: Request) -> Response:
     """Name both methods of a check; the framework names those of one route."""
-    raise HTTPException(405, headers={"Allow": "DELETE, GET"})
+    raise HTTPException(405, headers={"Allow": "DELETE, GET, HEAD"})
 
 
 def _refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:

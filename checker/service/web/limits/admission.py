@@ -16,6 +16,9 @@ from checker.service.web.limits.rates import Rate, Slots, client_of
 _SHARE = 2
 """One client has one of so many places, rounded up."""
 
+GUESSES_PER_MINUTE = 30
+"""Wrong tokens of one client, where nothing is uploaded."""
+
 
 class Admission:
     """Lets requests pass or refuses them; used by the event loop alone."""
@@ -23,8 +26,10 @@ class Admission:
     def __init__(self, config: Config) -> None:
         self._tokens = tuple(token.encode() for token in config.tokens)
         self._rate = Rate(0 if config.only_here else config.uploads_per_minute)
+        self._guesses = Rate(GUESSES_PER_MINUTE)
         self._uploads = _slots(config.uploads_at_once)
-        self._streams = _slots(config.streams)
+        each = config.streams if config.only_here else config.streams_per_client
+        self._streams = Slots(config.streams, each)
 
     @contextmanager
     def upload(self, request: HTTPConnection) -> Iterator[None]:
@@ -64,6 +69,21 @@ class Admission:
                 self._check(fields.get("token", ""))
 
         return admit
+
+    def recognizes(self, request: HTTPConnection) -> bool:
+        """Whether a request brings one of the tokens.
+
+        Raises:
+            Refused: Too many wrong ones came from its address; a right one would not be told apart.
+        """
+        token, client = bearer(request), client_of(request)
+        if not token:
+            return False
+        if seconds := ceil(self._guesses.wait(client, 0)):
+            raise _later(429, "Too many wrong tokens come from this address.", seconds, "rate")
+        is_known = self.knows(token)
+        self._guesses.wait(client, 0 if is_known else 1)
+        return is_known
 
     def knows(self, token: str) -> bool:
         """Whether it is one of the tokens; as slow for a good guess as for a bad one."""

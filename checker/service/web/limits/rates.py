@@ -58,8 +58,13 @@ class Rate(Record):
     now: Callable[[], float] = monotonic
     _buckets: OrderedDict[str, Bucket] = msgspec.field(default_factory=OrderedDict)
 
-    def wait(self, client: str) -> float:
-        """Count one more for a client, and return 0; or the seconds until it may."""
+    def wait(self, client: str, count: int = 1) -> float:
+        """Count one more for a client, and return 0; or the seconds until it may.
+
+        Args:
+            client: Whom it counts for.
+            count: Zero to ask only.
+        """
         if not self.per_minute:
             return 0.0
         now, per_second = self.now(), self.per_minute / 60
@@ -67,7 +72,7 @@ class Rate(Record):
         full = float(self.per_minute)
         drops = min(full, bucket.drops + (now - bucket.counted) * per_second)
         allowed = drops >= 1
-        self._buckets[client] = Bucket(drops - 1 if allowed else drops, now)
+        self._buckets[client] = Bucket(drops - count if allowed else drops, now)
         if len(self._buckets) > CLIENTS:
             self._buckets.popitem(last=False)
         return 0.0 if allowed else (1 - drops) / per_second

@@ -1,0 +1,153 @@
+"""Those who follow checks: what happens to a check is looked up once for all who follow it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+from collections.abc import AsyncIterator, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import monotonic
+
+from anyio import CapacityLimiter, to_thread
+from starlette.concurrency import run_in_threadpool
+
+from checker.base.words import plain
+from checker.service.jobs.port import Event, Jobs, JobsUnreachable
+from checker.service.web.logs import LOGGER
+
+QUIET_SECONDS = 15.0
+"""After which a comment shows that the stream lives; proxies close what is silent."""
+STREAM_SECONDS = 600.0
+"""After which a stream ends; browsers come back by themselves and say where they were."""
+LOOK_SECONDS = 5.0
+"""After which all checks are looked at though no change was heard of: nothing is told of one that
+is deleted, and some ways to a database pass nothing on."""
+PAUSE_SECONDS = 0.05
+"""Between two looks, however much changes."""
+_LOG = logging.getLogger(LOGGER)
+
+
+@dataclass(eq=False)
+class Followed:
+    """A check that somebody follows.
+
+    Attributes:
+        id: Of the check.
+        followers: Number of those who follow it.
+        last: Number of its last event that is known.
+        over: Whether nothing will come any more.
+    """
+
+    id: str
+    followers: int = 0
+    last: int = 0
+    over: bool = False
+    _messages: list[tuple[int, str]] = field(default_factory=list)
+    _news: asyncio.Event = field(default_factory=asyncio.Event)
+
+    async def lines(self, after: int) -> AsyncIterator[str]:
+        """Yield the events behind number `after` as they happen, until the check ends."""
+        ends = monotonic() + STREAM_SECONDS
+        while monotonic() < ends:
+            news = self._news
+            for number, message in tuple(self._messages):
+                if number > after:
+                    yield message
+                    after = number
+            if self.over:
+                return
+            try:
+                async with asyncio.timeout(QUIET_SECONDS):
+                    await news.wait()
+            except TimeoutError:
+                yield ": still there\n\n"
+
+    def add(self, events: Sequence[Event]) -> None:
+        """Pass on events; some of them may be known."""
+        for event in events:
+            if event.number > self.last:
+                self._messages.append((event.number, _message(event)))
+                self.last, self.over = event.number, event.stage.is_final
+        self._wake()
+
+    def end(self) -> None:
+        """Send all away who follow it."""
+        self.over = True
+        self._wake()
+
+    def _wake(self) -> None:
+        self._news.set()
+        self._news = asyncio.Event()
+
+
+class Watchers:
+    """All who follow checks; used by the event loop alone.
+
+    As long as there is somebody, one task waits for changes, and looks which checks they are of.
+    """
+
+    def __init__(self, jobs: Jobs) -> None:
+        self._jobs = jobs
+        self._checks: dict[str, Followed] = {}
+        self._task: asyncio.Task[None] | None = None
+        self._waiting = CapacityLimiter(1)
+
+    @contextmanager
+    def following(self, id: str) -> Iterator[Followed]:
+        """Follow a check."""
+        check = self._checks.setdefault(id, Followed(id))
+        check.followers += 1
+        if self._task is None:
+            self._task = asyncio.create_task(self._look_on())
+        try:
+            yield check
+        finally:
+            check.followers -= 1
+            if not check.followers and self._checks.get(id) is check:
+                del self._checks[id]
+
+    async def look(self, checks: Sequence[Followed]) -> None:
+        """Look what is new of checks; a database that is away says it later."""
+        try:
+            last = await run_in_threadpool(self._jobs.last_events, [check.id for check in checks])
+            for check in checks:
+                if check.id not in last:  # it is deleted
+                    check.end()
+                while check.last < last.get(check.id, 0):
+                    events = await run_in_threadpool(self._jobs.events, check.id, check.last)
+                    check.add(events)
+                    if not events:  # it was deleted just now
+                        break
+        except JobsUnreachable:
+            return
+
+    async def _look_on(self) -> None:
+        changes = self._jobs.changes()
+        try:
+            while self._checks:
+                await to_thread.run_sync(
+                    changes.wait, LOOK_SECONDS, abandon_on_cancel=True, limiter=self._waiting
+                )
+                await self.look(tuple(self._checks.values()))
+                await asyncio.sleep(PAUSE_SECONDS)
+        except Exception:  # noqa: BLE001 - nobody waits for what raises here
+            _LOG.exception("a look at checks that are followed fails")
+        finally:
+            changes.close()
+            self._task = None
+            for check in self._checks.values():  # who follows comes back
+                check.end()
+            self._checks.clear()
+
+
+def _message(event: Event) -> str:
+    data = {
+        "number": event.number,
+        "stage": str(event.stage),
+        "words": plain(event.words),
+        "time": event.time,
+        "data": dict(event.data),
+    }
+    return f"id: {event.number}\ndata: {json.dumps(data, default=str)}\n\n"
