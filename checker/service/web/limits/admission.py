@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import secrets
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -18,6 +19,9 @@ _SHARE = 2
 
 GUESSES_PER_MINUTE = 30
 """Wrong tokens of one client, where nothing is uploaded."""
+
+_SENDER_DIGITS = 16
+"""Enough to tell senders apart."""
 
 
 class Admission:
@@ -84,6 +88,12 @@ class Admission:
         is_known = self.knows(token)
         self._guesses.wait(client, 0 if is_known else 1)
         return is_known
+
+    def sender(self, request: HTTPConnection, fields: Mapping[str, str]) -> str:
+        """Return for whom an upload counts in the queues: a digest of its token, or address."""
+        token = (bearer(request) or fields.get("token", "")) if self._tokens else ""
+        who = f"token {token}" if token else f"address {client_of(request)}"
+        return hashlib.sha256(who.encode("utf-8", "replace")).hexdigest()[:_SENDER_DIGITS]
 
     def knows(self, token: str) -> bool:
         """Whether it is one of the tokens; as slow for a good guess as for a bad one."""

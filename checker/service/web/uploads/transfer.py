@@ -77,11 +77,14 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
             await run_in_threadpool(form.feed, piece)
     form.end()
     profile = _profile(form.fields.get("profile", ""))
-    take = partial(_ordered, services, incoming, form.name, profile, key)
+    sender = services.admission.sender(request, form.fields)
+    take = partial(_ordered, services, incoming, form.name, profile, sender, key)
     return await to_thread.run_sync(take, limiter=services.threads)
 
 
-def _ordered(services: Services, incoming: Incoming, name: str, profile: str, key: str) -> Receipt:
+def _ordered(
+    services: Services, incoming: Incoming, name: str, profile: str, sender: str, key: str
+) -> Receipt:
     """Look at an upload that has come whole, keep it, order its check, and return the receipt."""
     if name.lower().endswith(ARCHIVE_SUFFIXES):
         try:
@@ -89,7 +92,7 @@ def _ordered(services: Services, incoming: Incoming, name: str, profile: str, ke
         except UnreadableInput as error:
             reason = plain(f"{name} {error.reason}.")
             raise Refused(422, reason, sentence(error.advice), "archive") from None
-    return services.jobs.submit(Order(incoming.finish(), name, profile), key)
+    return services.jobs.submit(Order(incoming.finish(), name, profile, sender), key)
 
 
 def too_large(limit: int) -> Refused:

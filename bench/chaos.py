@@ -1,0 +1,520 @@
+"""A service whose processes are killed at random: what becomes of all that was uploaded.
+
+A hundred robots are uploaded, each by a client that sends it again with the same key until it is
+answered. Meanwhile workers, processes of checks, web servers, readers of archives and whole services
+are killed, at least forty times. Each check has to end once, with the findings of the rules and the
+trial of its own robot. Then the disk is full for a minute, and the database is away for one. Run with
+`python -m bench.chaos [--postgres] [--uploads N] [--kills N]` from the top folder: SQLite has one
+service of two workers, PostgreSQL two services of one worker each, with the same data.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import re
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import threading
+import zipfile
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import httpx
+
+from bench.service import below, say, show
+from bench.static import ROOT, keep_bytecode
+from tests.jobs.disk import full, small_disk
+from tests.postgres import fresh_database, started
+
+SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
+WHOLE = ["queued", "static", "trial", "trial", "done"]
+"""Stages of the events of a check, besides those of further tries."""
+AGAIN = "starts again"
+PATIENCE = 1_800.0
+"""Seconds until the last check has to be over."""
+ANSWER_SECONDS = 30.0
+MINUTE = 60.0
+_BEAT_FILES_SECONDS = 90.0
+"""Within which nothing that the dead have left may lie in `incoming`."""
+
+
+def robot(number: int) -> bytes:
+    """Return the archive of a package with a name and a weight of its own."""
+    name, made = name_of(number), BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in sorted(SAMPLE.rglob("*")):
+            if path.is_file():
+                inner = path.relative_to(SAMPLE).as_posix()
+                content = path.read_bytes().replace(SAMPLE.name.encode(), name.encode())
+                if inner == "model.sdf":
+                    content += f"<!-- {number} -->".encode()
+                archive.writestr(f"{name}/{inner}", content)
+    return made.getvalue()
+
+
+def name_of(number: int) -> str:
+    """Return the name of a package, by which its report is known."""
+    return f"chaos_robot_sensor_config_{number}"
+
+
+@dataclass
+class Group:
+    """A service that is started again whenever it has been killed.
+
+    Attributes:
+        number: Of the port, and in the name of its log.
+        folder: Holds the data, and the log.
+        database: Its address; empty for SQLite with the data.
+        workers: That it starts.
+    """
+
+    number: int
+    folder: Path
+    database: str
+    workers: int
+    port: int = 0
+    _process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def address(self) -> str:
+        """Return where it answers."""
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def id(self) -> int:
+        """Return the id of its first process."""
+        return self._process.pid if self._process else 0
+
+    def start(self) -> None:
+        """Start it, and wait until it answers."""
+        self.port = self.port or _free_port()
+        own = {"SUBT_CHECK_DATA": str(self.folder / "data"), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
+        own |= {"SUBT_CHECK_DATABASE_URL": self.database} if self.database else {}
+        command = [sys.executable, "-m", "checker.cli", "serve", "--port", str(self.port)]
+        with (self.folder / f"log-{self.number}").open("ab") as log:
+            self._process = subprocess.Popen(
+                [*command, "--workers", str(self.workers)],
+                env=os.environ | own,
+                cwd=ROOT,
+                stdout=subprocess.DEVNULL,
+                stderr=log,
+                start_new_session=True,
+            )
+        self._wait()
+
+    def kill(self) -> None:
+        """Kill all of it at once, and start it again."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+        self.start()
+
+    def stop(self) -> int:
+        """Stop it in good order, and return its exit code."""
+        assert self._process is not None
+        self._process.send_signal(signal.SIGTERM)
+        return self._process.wait(120)
+
+    def _wait(self) -> None:
+        ends = monotonic() + 60.0
+        while monotonic() < ends:
+            with suppress(httpx.TransportError):
+                httpx.get(f"{self.address}/healthz", timeout=5)
+                return
+            sleep(0.1)
+        raise SystemExit(f"{self.address} does not answer")
+
+
+def _free_port() -> int:
+    import socket
+
+    with closing(socket.socket()) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+# What is killed.
+
+
+def _command(pid: int) -> bytes:
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    return b""
+
+
+def _parent(pid: int) -> int:
+    with suppress(OSError):
+        return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+    return 0
+
+
+def of_service(group: Group, kind: bytes) -> list[int]:
+    """Return the web process of a service, or its workers."""
+    return [pid for pid in below(group.id) if b"\0" + kind + b"\0" in _command(pid)]
+
+
+def of_launchers(pids: Sequence[int]) -> list[int]:
+    """Return the processes below others that read a stranger's files, with their launchers."""
+    found = [inner for pid in pids for inner in below(pid)]
+    return [pid for pid in found if b"launcher_process" in _command(pid)]
+
+
+def _kill_worker(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_service(group, b"worker"), dice)
+
+
+def _kill_web(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_service(group, b"web"), dice)
+
+
+def _kill_child(group: Group, dice: random.Random) -> bool:
+    """Kill a process of a check: its launcher, the one that checks, or one that reads or drives."""
+    return _kill_one(of_launchers(of_service(group, b"worker")), dice)
+
+
+def _kill_reader(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_launchers(of_service(group, b"web")), dice)
+
+
+def _kill_all(group: Group, _dice: random.Random) -> bool:
+    group.kill()
+    return True
+
+
+def _kill_one(pids: Sequence[int], dice: random.Random) -> bool:
+    if not pids:
+        return False
+    with suppress(ProcessLookupError):
+        os.kill(dice.choice(pids), signal.SIGKILL)
+        return True
+    return False
+
+
+KINDS: Mapping[str, Callable[[Group, random.Random], bool]] = {
+    "worker": _kill_worker,
+    "process of a check": _kill_child,
+    "web server": _kill_web,
+    "reader of archives": _kill_reader,
+    "everything": _kill_all,
+}
+
+
+@dataclass
+class Killer:
+    """Kills processes of services until it is told to stop.
+
+    Attributes:
+        kills: That there have to be.
+        pause: Seconds between two of them, on average.
+        done: How often each kind was killed.
+    """
+
+    groups: Sequence[Group]
+    kills: int
+    pause: float
+    seed: int = 7
+    done: Counter[str] = field(default_factory=Counter)
+
+    def run(self, is_over: Callable[[], bool]) -> None:
+        """Kill one after the other, each kind in its turn."""
+        dice, kinds = random.Random(self.seed), list(KINDS)
+        turn = 0
+        while self.done.total() < self.kills and not is_over():
+            kind = kinds[turn % len(kinds)]
+            turn += 1
+            if KINDS[kind](dice.choice(self.groups), dice):
+                self.done[kind] += 1
+                sleep(dice.uniform(0.5, 1.5) * self.pause)
+            else:
+                sleep(0.05)
+
+
+# Clients that send until they are answered, and watch until the end.
+
+
+def uploaded(groups: Sequence[Group], number: int) -> str:
+    """Send a robot, again and again with the same key, and return the id of its check."""
+    content, ends = robot(number), monotonic() + PATIENCE
+    headers = {"Idempotency-Key": f"chaos-{number:06}-{os.getpid():010}"}
+    files = {"file": (f"{name_of(number)}.zip", content)}
+    turn = number
+    while monotonic() < ends:
+        address = groups[turn % len(groups)].address
+        turn += 1
+        with suppress(httpx.TransportError):
+            answer = httpx.post(
+                f"{address}/api/checks", files=files, headers=headers, timeout=ANSWER_SECONDS
+            )
+            if answer.status_code == 201:
+                return str(answer.json()["id"])
+            if answer.status_code not in (408, 429, 500, 502, 503, 504):
+                raise SystemExit(f"an upload is refused: {answer.status_code} {answer.text}")
+        sleep(0.5)
+    raise SystemExit("an upload is never answered")
+
+
+def _asked(groups: Sequence[Group], path: str) -> httpx.Response:
+    ends, turn = monotonic() + PATIENCE, 0
+    while monotonic() < ends:
+        with suppress(httpx.TransportError):
+            address = groups[turn % len(groups)].address
+            answer = httpx.get(address + path, timeout=ANSWER_SECONDS)
+            if answer.status_code < 500:
+                return answer
+        turn += 1
+        sleep(0.5)
+    raise SystemExit(f"{path} is never answered")
+
+
+def ended(groups: Sequence[Group], id: str) -> Mapping[str, Any]:
+    """Wait until a check is over, and return how it stands."""
+    ends = monotonic() + PATIENCE
+    while monotonic() < ends:
+        state: Mapping[str, Any] = _asked(groups, f"/api/checks/{id}").json()
+        if state.get("final"):
+            return state
+        sleep(1.0)
+    raise SystemExit(f"a check does not end: {state}")
+
+
+def faults(groups: Sequence[Group], number: int, id: str) -> Iterator[str]:
+    """Yield what is wrong with a check that is over; nothing should be."""
+    text = _asked(groups, f"/api/checks/{id}/events").text
+    told = [json.loads(line[6:]) for line in text.splitlines() if line.startswith("data: ")]
+    if [event["number"] for event in told] != list(range(1, len(told) + 1)):
+        yield "events doubled or missing"
+    stages = [event["stage"] for event in told if AGAIN not in event["words"]]
+    if stages != WHOLE:
+        yield f"its stages are {', '.join(stages)}: {told[-1]['words']}"
+        return
+    (package,) = _asked(groups, f"/api/checks/{id}/report.json").json()["packages"]
+    if package["name"] != name_of(number):
+        yield "the report of another robot"
+    if not package["trial"]:
+        yield "no trial"
+    static = next(event for event in told if event["data"].get("result"))
+    if static["stage"] != "trial":
+        yield "no findings before the trial"
+    if _asked(groups, f"/api/checks/{id}/report.html").status_code != 200:
+        yield "no page"
+
+
+def left_over(data: Path) -> list[str]:
+    """Wait a while for the service to clean up, and return the files that are left at work."""
+    ends = monotonic() + _BEAT_FILES_SECONDS
+    while (left := _at_work(data)) and monotonic() < ends:
+        sleep(1.0)
+    return left
+
+
+def _at_work(data: Path) -> list[str]:
+    """Return what lies in `incoming` that nobody holds: processes that wait have a folder each."""
+    import fcntl
+
+    left = []
+    for path in (data / "incoming").iterdir():
+        with suppress(OSError):
+            if path.is_file():
+                with path.open("rb") as file:
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    left.append(path.name)
+    return left
+
+
+def number_of_checks(group: Group) -> int:
+    """Return how many checks the database knows."""
+    question = "SELECT count(*) FROM subt_checks"
+    if group.database:
+        import psycopg
+
+        with psycopg.connect(group.database) as connection:
+            return int(connection.execute(question).fetchone()[0])  # type: ignore[index]
+    with closing(sqlite3.connect(group.folder / "data/jobs.sqlite")) as connection:
+        return int(connection.execute(question).fetchone()[0])
+
+
+# What happens to the service meanwhile.
+
+
+@contextmanager
+def database_away(group: Group, server: int) -> Iterator[None]:
+    """Have the database answer nobody for a while.
+
+    Args:
+        group: Uses it.
+        server: Process of PostgreSQL, which stands still; 0 for SQLite, whose file is locked.
+    """
+    if server:
+        for pid in (server, *below(server)):
+            os.kill(pid, signal.SIGSTOP)
+        yield
+        for pid in (server, *below(server)):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGCONT)
+        return
+    with closing(sqlite3.connect(group.folder / "data/jobs.sqlite", timeout=60)) as connection:
+        connection.execute("PRAGMA locking_mode=EXCLUSIVE")
+        connection.execute("BEGIN EXCLUSIVE")
+        yield
+        connection.rollback()
+
+
+@dataclass
+class Trouble:
+    """What went wrong in all.
+
+    Attributes:
+        kills: How often each kind of process was killed.
+        ends: How many checks ended how.
+        faults: What is wrong with them.
+        extra: Checks that nobody ordered, or that are missing.
+        left: Files that are left at work.
+        seconds: Until all was over.
+    """
+
+    kills: Counter[str]
+    ends: Counter[str]
+    faults: Counter[str]
+    extra: int
+    left: Sequence[str]
+    seconds: float
+
+    @property
+    def is_none(self) -> bool:
+        """Whether all went well."""
+        well = self.ends.keys() <= {"done"}
+        return well and not (self.faults or self.extra or self.left)
+
+
+def suffered(
+    groups: Sequence[Group],
+    uploads: int,
+    kills: int = 0,
+    pause: float = 4.0,
+    meanwhile: Callable[[], None] = lambda: None,
+) -> Trouble:
+    """Upload robots, have processes killed and whatever else, and return what came of it.
+
+    Args:
+        groups: That run, and share one store and database.
+        uploads: Robots.
+        kills: Of processes.
+        pause: Seconds between two kills.
+        meanwhile: What else happens, once all uploads are on their way.
+    """
+    before, begun = number_of_checks(groups[0]), monotonic()
+    killer, over = Killer(groups, kills, pause), threading.Event()
+    numbers = range(before, before + uploads)
+    with ThreadPoolExecutor(uploads + 2) as threads:
+        murder = threads.submit(killer.run, over.is_set)
+        other = threads.submit(meanwhile)
+        ids = dict(zip(numbers, threads.map(lambda n: uploaded(groups, n), numbers), strict=True))
+        say(f"{len(ids)} uploads are taken after {monotonic() - begun:.0f} s")
+        ends = Counter(ended(groups, id)["stage"] for id in ids.values())
+        over.set()
+        murder.result()
+        other.result()
+    wrong = Counter(fault for n, id in ids.items() for fault in faults(groups, n, id))
+    extra = number_of_checks(groups[0]) - before - len(set(ids.values()))
+    left = left_over(groups[0].folder / "data")
+    return Trouble(killer.done, ends, wrong, extra, left, monotonic() - begun)
+
+
+@contextmanager
+def services(folder: Path, server: str, size: int = 0) -> Iterator[list[Group]]:
+    """Start one service on SQLite, or two on a PostgreSQL server.
+
+    Args:
+        folder: Holds data and logs.
+        server: Address of PostgreSQL; empty for SQLite.
+        size: Bytes of the disk of the data; 0 for that of the folder.
+    """
+    with ExitStack() as stack:
+        if size:
+            stack.enter_context(small_disk(folder / "data", size))
+        database = fresh_database(server) if server else ""
+        count, workers = (2, 1) if server else (1, 2)
+        groups = [Group(number, folder, database, workers) for number in range(count)]
+        for group in groups:
+            group.start()
+            stack.callback(group.stop)
+        yield groups
+
+
+def server_process(server: str) -> int:
+    """Return the process of PostgreSQL that listens at an address; 0 without one."""
+    port = re.search(r":(\d+)/", server)
+    word = f"--port={port[1]}".encode() if port else b"none"
+    pids = (int(path.name) for path in Path("/proc").glob("[0-9]*"))
+    return next((pid for pid in pids if word in _command(pid) and b"-D" in _command(pid)), 0)
+
+
+def _show(what: str, trouble: Trouble) -> None:
+    print(what)
+    if trouble.kills:
+        print(f"  killed {trouble.kills.total()}:", _listed(trouble.kills))
+    print("  ended:", _listed(trouble.ends))
+    print("  wrong:", _listed(trouble.faults) or "nothing")
+    print(f"  lost or doubled: {trouble.extra}; files left: {len(trouble.left)}")
+    show("  until the last one was over", trouble.seconds, "s")
+
+
+def _listed(counts: Counter[str]) -> str:
+    return ", ".join(f"{number} {name}" for name, number in counts.most_common())
+
+
+def main() -> None:
+    """Have everything happen, and print what came of it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--uploads", type=int, default=100)
+    parser.add_argument("--kills", type=int, default=40)
+    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
+    options = parser.parse_args()
+    keep_bytecode()
+    well = []
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        server = stack.enter_context(started()) if options.postgres else ""
+        with services(folder, server) as groups:
+            trouble = suffered(groups, options.uploads, options.kills)
+            _show("processes are killed at random", trouble)
+            well.append(trouble.is_none and trouble.kills.total() >= options.kills)
+            trouble = suffered(groups, 10, meanwhile=lambda: _away(groups[0], server))
+            _show("the database is away for a minute", trouble)
+            well.append(trouble.is_none)
+        (folder / "small").mkdir()
+        with services(folder / "small", server, 700_000_000) as groups:
+            trouble = suffered(groups, 10, meanwhile=lambda: _full(groups[0]))
+            _show("the disk is full for a minute", trouble)
+            well.append(trouble.is_none)
+    if not all(well):
+        raise SystemExit("NO: something was lost, doubled, failed or left")
+
+
+def _away(group: Group, server: str) -> None:
+    sleep(3.0)
+    with database_away(group, server_process(server)):
+        sleep(MINUTE)
+
+
+def _full(group: Group) -> None:
+    sleep(3.0)
+    with full(group.folder / "data"):
+        sleep(MINUTE)
+
+
+if __name__ == "__main__":
+    main()
