@@ -1,11 +1,12 @@
 """A service whose processes are killed at random: what becomes of all that was uploaded.
 
 A hundred robots are uploaded, each by a client that sends it again with the same key until it is
-answered. Meanwhile workers, processes of checks, web servers, readers of archives and whole services
-are killed, at least forty times. Each check has to end once, with the findings of the rules and the
-trial of its own robot. Then the disk is full for a minute, and the database is away for one. Run with
-`python -m bench.chaos [--postgres] [--uploads N] [--kills N]` from the top folder: SQLite has one
-service of two workers, PostgreSQL two services of one worker each, with the same data.
+answered. Meanwhile workers, processes of checks, web servers, readers of archives and whole
+services are killed, at least forty times. Each check has to end once, with the findings of the
+rules and the trial of its own robot. Then the database is away for a minute, and the disk is full
+for one. Run with `python -m bench.chaos [--postgres] [--uploads N] [--kills N]` from the top
+folder: SQLite has one service of two workers, PostgreSQL two services of one worker each, with the
+same data.
 """
 
 from __future__ import annotations
@@ -355,7 +356,7 @@ def database_away(group: Group, server: int) -> Iterator[None]:
 
     Args:
         group: Uses it.
-        server: Process of PostgreSQL, which stands still; 0 for SQLite, whose file is locked.
+        server: Process of PostgreSQL, which stands still; 0 for SQLite, which lets nobody write.
     """
     if server:
         for pid in (server, *below(server)):
@@ -366,8 +367,7 @@ def database_away(group: Group, server: int) -> Iterator[None]:
                 os.kill(pid, signal.SIGCONT)
         return
     with closing(sqlite3.connect(group.folder / "data/jobs.sqlite", timeout=60)) as connection:
-        connection.execute("PRAGMA locking_mode=EXCLUSIVE")
-        connection.execute("BEGIN EXCLUSIVE")
+        connection.execute("BEGIN IMMEDIATE")
         yield
         connection.rollback()
 
