@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import field
 from msgspec.structs import replace
 
+from checker.base.allowance import Allowance, Exceeded
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput
 from checker.base.extras import PHYSICS
@@ -308,7 +309,7 @@ def _with_patch(report: PackageReport, package: Package) -> PackageReport:
     started = perf_counter()
     changes = ""
     # Who needs a patch that cannot be made asks for it, and hears why.
-    with suppress(Exception):
+    with suppress(Exception, Exceeded), Allowance().piece():
         changes = patch(one_round(package, report.findings[:_PATCHED], (Safety.SAFE,)))
     timings = {**report.timings, "patch": perf_counter() - started}
     return replace(report, patch=changes, timings=timings)

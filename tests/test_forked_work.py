@@ -22,7 +22,8 @@ import os, resource
 from stat import S_ISFIFO
 from time import monotonic, sleep
 from checker.base.parts import WorkerFailed
-from checker.base.forked_work import in_fork, in_forks
+from checker.base import forked_work
+from checker.base.forked_work import forks_time, in_fork, in_forks
 
 def say(data):
     descriptors = [int(name) for name in os.listdir("/dev/fd") if os.path.exists(f"/dev/fd/{name}")]
@@ -135,15 +136,41 @@ print(*in_forks([works] * 4, 2, 1e9, "late"))
 
 def test_none_is_begun_when_it_is_too_late() -> None:
     body = """
-until = monotonic() + 3
-def waits():
-    while monotonic() < until - 0.95:
-        sleep(0.01)
+def works():
+    until = sum(os.times()[:2]) + 0.6
+    while sum(os.times()[:2]) < until:
+        pass
     return b"done"
-print(in_forks([waits] * 4, 5, until, "came too late"))
+print(in_forks([works] * 4, 5, forks_time() + 1.5, "came too late"))
 """
-    late = "WorkerFailed(reason='came too late', momentary=True)"
+    late = "WorkerFailed(reason='came too late', momentary=False)"
     assert run(body) == [f"[b'done', {late}, {late}, {late}]"]
+
+
+def test_a_clock_that_runs_on_makes_nothing_too_late() -> None:
+    """Where others have the processor, a second of it takes longer."""
+    body = """
+def waits():
+    sleep(0.4)
+    return b"done"
+print(*in_forks([waits] * 4, 5, forks_time() + 1.1, "came too late"))
+"""
+    assert run(body) == [" ".join(["b'done'"] * 4)]
+
+
+def test_what_takes_long_is_done_after_all_others() -> None:
+    body = """
+def long():
+    until = sum(os.times()[:2]) + 2.5
+    while sum(os.times()[:2]) < until:
+        pass
+    return b"long"
+forked_work._BRIEF = 1
+print(*in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 2.9, "came too late"))
+"""
+    (line,) = run(body)
+    assert line.startswith("WorkerFailed")
+    assert line.endswith("b'1' b'2'")
 
 
 def test_limits_that_there_are_stay() -> None:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import gc
+import json
 import math
 import os
 import resource
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
-from time import monotonic, process_time
+from time import process_time
 from typing import BinaryIO
 
-from checker.base.exit_causes import cause_of
+from checker.base.exit_causes import cause_of, too_slow
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.task import code_of, end_with_parent, tighter
 
@@ -23,8 +24,17 @@ _HEAD = 8
 _PIECE = 65_536
 _LEAST = 1.0
 """Seconds that are worth beginning with."""
+_BRIEF = 5
+"""Seconds of processor time after which a work waits for the others; real files take one."""
+_FOREVER = 1e9
+"""Seconds."""
 _GROWN = 100_000_000
 """Bytes by which works may make their fork grow before the next one is given a new fork."""
+
+
+def as_entry(result: bytes | WorkerFailed) -> bytes:
+    """Return a result in JSON as an entry of an answer, or in its place why there is none."""
+    return json.dumps(result.entry).encode() if isinstance(result, WorkerFailed) else result
 
 
 ForkRunner = Callable[[Sequence[Callable[[], bytes]]], list[bytes | WorkerFailed]]
@@ -42,41 +52,59 @@ def in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
     return read[0] if read and code == 0 else _cause(code, seconds)
 
 
+def forks_time() -> float:
+    """Return the seconds of processor time that the forks of this process have taken so far."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
 def in_forks(
     works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
 ) -> list[bytes | WorkerFailed]:
     """Return what each of several works returns in a fork; one that dies takes no other with it.
 
     They share a fork, since a new one takes as long as a small file. Where it ends, the work at
-    which it did is tried once more, the first in a fork of its own.
+    which it did is tried once more, the first in a fork of its own. Those that take long are done
+    after all others, so that they take time from one another alone.
 
     Args:
         works: See `in_fork`.
         seconds: Of processor time, for each.
-        until: When the time for all ends, by `time.monotonic`; none is begun in its last second.
+        until: When the time for all ends, by `forks_time`; none is begun in its last second.
         late: Why those that are left then have no result.
     """
+    brief = min(_BRIEF, seconds)
+    results = _in_turn(works, brief, until, late)
+    if brief < seconds:
+        slow = [number for number, result in enumerate(results) if result == too_slow(brief)]
+        again = _in_turn([works[number] for number in slow], seconds, until, late)
+        for number, result in zip(slow, again, strict=True):
+            results[number] = result
+    return results
+
+
+def _in_turn(
+    works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
+) -> list[bytes | WorkerFailed]:
     results: list[bytes | WorkerFailed] = []
     while len(results) < len(works):
-        if until - monotonic() < _LEAST:
-            return results + [WorkerFailed(late, momentary=True)] * (len(works) - len(results))
-        read, code = _forked(works[len(results) :], seconds, until)
-        in_time = until - monotonic() >= _LEAST
-        results += read or [
-            _cause(code, seconds) if in_time else WorkerFailed(late, momentary=True)
-        ]
+        if until - forks_time() < _LEAST:
+            return results + [WorkerFailed(late)] * (len(works) - len(results))
+        read, code = _forked(works[len(results) :], seconds, until - forks_time())
+        in_time = until - forks_time() >= _LEAST
+        results += read or [_cause(code, seconds) if in_time else WorkerFailed(late)]
     return results
 
 
 def _forked(
-    works: Sequence[Callable[[], bytes]], seconds: int, until: float
+    works: Sequence[Callable[[], bytes]], seconds: int, all_seconds: float
 ) -> tuple[list[bytes], int]:
     """Do works in one fork; return the results of those that it finished, and its exit code."""
     results_from, results_to = os.pipe()
     process = os.fork()
     if process == 0:
         os.close(results_from)
-        os._exit(_work(works, seconds, until, results_to))
+        os._exit(_work(works, seconds, all_seconds, results_to))
     os.close(results_to)
     with os.fdopen(results_from, "rb") as pipe:
         results = list(islice(_whole(pipe), len(works)))
@@ -95,7 +123,7 @@ def _whole(pipe: BinaryIO) -> Iterator[bytes]:
         yield result
 
 
-def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: int) -> int:
+def _work(works: Sequence[Callable[[], bytes]], seconds: int, all_seconds: float, to: int) -> int:
     """Be the fork; return its exit code."""
     end_with_parent()
     gc.freeze()
@@ -106,9 +134,9 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: 
                 if number:
                     # This work is to find as much memory as the first one did.
                     gc.collect()
-                    if until - monotonic() < _LEAST or _memory() - had > _GROWN:
+                    if all_seconds - process_time() < _LEAST or _memory() - had > _GROWN:
                         break
-                _allow(seconds, until)
+                _allow(seconds, all_seconds)
                 result = work()
                 pipe.write(len(result).to_bytes(_HEAD, "big") + result)
                 pipe.flush()
@@ -118,10 +146,10 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: 
     return 0
 
 
-def _allow(seconds: int, until: float) -> None:
-    """Let this process go on for so many seconds of processor time, or until it is too late."""
-    left = min(float(seconds), until - monotonic())
-    soft, hard = math.ceil(process_time() + left), resource.getrlimit(resource.RLIMIT_CPU)[1]
+def _allow(seconds: int, all_seconds: float) -> None:
+    """Let this process go on for so many seconds of processor time, or to the end of all."""
+    end = min(process_time() + seconds, all_seconds)
+    soft, hard = math.ceil(min(end, _FOREVER)), resource.getrlimit(resource.RLIMIT_CPU)[1]
     resource.setrlimit(resource.RLIMIT_CPU, (tighter(hard, max(soft, 1)), hard))
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
 
+from checker.base.allowance import Exceeded
 from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
@@ -36,6 +39,9 @@ from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
+
+_SHOWN = 10
+"""XML files that are too large, by their names."""
 
 # Rules about suppressions need to know what all others found; those about the baseline, which of
 # its entries nothing was found of.
@@ -75,12 +81,13 @@ def run_and_set_aside(
     held = settings.baseline.packages.get(subject.package.name, ())
     matcher = SuppressionMatcher(subject.package, settings.suppress, every, held)
     unloaded = subject.package.unloaded_files
-    outcome = run_rules(first, subject, profile, settings, matcher, unloaded)
+    run = partial(run_rules, allowance=subject.allowance)
+    outcome = run(first, subject, profile, settings, matcher, unloaded)
     used = matcher.suppressions(_looked(outcome), settings.source)
-    added = run_rules(of_suppressions, _With(subject, used), profile, settings, matcher)
+    added = run(of_suppressions, _With(subject, used), profile, settings, matcher)
     outcome = joined(outcome, added)
     stale = _stale(matcher, outcome, settings, {rule.id for rule in every})
-    added = run_rules(of_baseline, _With(subject, stale), profile, settings, matcher)
+    added = run(of_baseline, _With(subject, stale), profile, settings, matcher)
     return joined(outcome, added)
 
 
@@ -159,7 +166,7 @@ def _report_or_crash(
 ) -> PackageReport:
     try:
         return _report(subject, shown, settings, known)
-    except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - the other packages go on, the exit code says so
         broken = (unfinished("check", error),)
         return PackageReport(subject.package.name, shown, "unknown", (), broken)
 
@@ -169,14 +176,13 @@ def _report(
 ) -> PackageReport:
     package, judge = subject.package, profile(settings.profile, settings.distro)
     with subject.stages.stage("rules", "rules"):
-        subject.start(needed_parts(known, judge, settings))
-        if settings.display:
-            subject.start_display()
+        # What needs too much is met again by the rules that ask for it.
+        with suppress(Exceeded), subject.allowance.piece():
+            subject.start(needed_parts(known, judge, settings))
+            if settings.display:
+                subject.start_display()
         outcome = run_and_set_aside(known, known, subject, judge, settings)
-    blind = [
-        NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
-        for fault in package.index.faults
-    ]
+    blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
     robots, trouble = _facts(subject)
     trials = trials_of(subject, outcome)
     display, undrawn = _display(subject) if settings.display else (None, ())
@@ -203,10 +209,20 @@ def _report(
     )
 
 
+def _unread(package: Package) -> Iterator[str]:
+    """Yield which files and folders could not be looked at, and why."""
+    yield from (f"{fault.path} {fault.reason}" for fault in package.index.faults)
+    large = package.too_large
+    yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
+    if len(large) > _SHOWN:
+        yield f"{len(large) - _SHOWN} more XML files are too large to be checked"
+
+
 def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:
     try:
-        return facts_of(subject), ()
-    except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
+        with subject.allowance.piece():
+            return facts_of(subject), ()
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - a reader that fails takes no finding with it
         return (), (unfinished("facts", error),)
 
 
@@ -220,6 +236,7 @@ def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
     first = subject.physics.display.robots[0]
     trials = (each.trial for each in subject.provided(RobotTrial) if each.robot is first)
     try:
-        return subject.physics.display.made(next(trials, None)), ()
-    except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
+        with subject.allowance.piece():
+            return subject.physics.display.made(next(trials, None)), ()
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (unfinished("display", error),)

@@ -10,6 +10,7 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
+from checker.base.allowance import Allowance, Exceeded
 from checker.base.errors import is_momentary
 from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts
@@ -65,6 +66,8 @@ def run_rules(
     settings: Settings,
     matcher: SuppressionMatcher | None = None,
     unloaded: Collection[str] = (),
+    *,
+    allowance: Allowance | None = None,
 ) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other.
 
@@ -75,7 +78,9 @@ def run_rules(
         settings: The user's.
         matcher: Tells what does not count.
         unloaded: Files that nothing loads: what is found in them is information.
+        allowance: What each rule may use; the usual when None.
     """
+    allowance = allowance or Allowance()
     said: list[Said] = []
     not_checked: list[NotChecked] = []
     looked: dict[str, Mapping[str, Any]] = {}
@@ -83,7 +88,7 @@ def run_rules(
         if not wanted(rule, profile, settings):
             not_checked += _switched_off(rule, profile, settings)
             continue
-        result = _run_isolated(rule, parts, profile.context, settings)
+        result = _run_isolated(rule, parts, profile.context, settings, allowance)
         severity = _severity(rule, None, profile, settings)
         if isinstance(result, NotChecked):
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
@@ -205,7 +210,7 @@ def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[
 
 
 def _run_isolated(
-    rule: Rule, parts: Parts, context: Context, settings: Settings
+    rule: Rule, parts: Parts, context: Context, settings: Settings, allowance: Allowance
 ) -> list[Finding | Unchecked] | NotChecked:
     """Run one rule; what goes wrong inside it is the checker's fault and says so."""
     try:
@@ -214,18 +219,22 @@ def _run_isolated(
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
-        return [outcome for argument in arguments for outcome in rule.check(**argument, **options)]
+        with allowance.piece():
+            return [said for argument in arguments for said in rule.check(**argument, **options)]
     except MissingExtra as missing:
         return NotChecked(rule.id, missing.extra.missing, Cause.SWITCHED_OFF)
-    except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
+    except (Exceeded, Exception) as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return unfinished(rule.id, error)
 
 
-def unfinished(what: str, error: Exception) -> NotChecked:
+def unfinished(what: str, error: Exception | Exceeded) -> NotChecked:
     """Say why a part of the check did not come to its end.
 
-    The disk or the system may have failed; all else is the checker's own fault.
+    It may need more than it may use, and the disk or the system may have failed; all else is the
+    checker's own fault.
     """
+    if isinstance(error, Exceeded):
+        return NotChecked(what, f"{what} {error.reason}", Cause.NOT_AT_HAND)
     if is_momentary(error):
         reason = f"{what} could not run because the system failed ({error}); check again"
         return NotChecked(what, shortened(reason, TEXT_LIMIT), Cause.NOT_AT_HAND, momentary=True)

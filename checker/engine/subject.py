@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 from msgspec import field
 from msgspec.structs import replace
 
+from checker.base.allowance import Allowance, Exceeded
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
 from checker.base.extras import PHYSICS
@@ -76,6 +78,7 @@ class Subject(Record, eq=False, dict=True):
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
         xacro_args: Arguments for xacro, before those that launch files give.
+        allowance: What each part, and each rule, may use.
     """
 
     package: Package
@@ -84,6 +87,8 @@ class Subject(Record, eq=False, dict=True):
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
     xacro_args: Mapping[str, str] = field(default_factory=dict)
+    allowance: Allowance = field(default_factory=Allowance)
+    _exceeding: dict[str, NotAvailable] = field(default_factory=dict)
     _provided: dict[str, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:
@@ -95,7 +100,14 @@ class Subject(Record, eq=False, dict=True):
         provide = _PROVIDERS.get(kind)
         if provide is None:
             raise LookupError(f"{kind} is not a part of a package")
-        had = provide(self)
+        if kind in self._exceeding:
+            return self._exceeding[kind]
+        try:
+            with self.allowance.piece():
+                had = provide(self)
+        except Exceeded as exceeded:
+            had = NotAvailable(f"{_words(kind)} cannot be had: it {exceeded.reason}")
+            self._exceeding[kind] = had
         if isinstance(had, NotAvailable):
             return had
         self._provided[kind] = had if isinstance(had, tuple) else (had,)
@@ -121,7 +133,7 @@ class Subject(Record, eq=False, dict=True):
 
     def start_meshes(self) -> None:
         """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
-        with suppress(Exception):
+        with suppress(Exception, Exceeded), self.allowance.piece():
             if PHYSICS.is_installed:
                 self._begin_meshes()
 
@@ -182,7 +194,7 @@ class Subject(Record, eq=False, dict=True):
 
     def of(self, package: Package) -> Subject:
         """Return the same of another state of the package."""
-        return replace(self, package=package, _provided={})
+        return replace(self, package=package, _provided={}, _exceeding={})
 
     def robots_of(self, other: Package) -> tuple[Robot, ...] | NotAvailable:
         """Return the robots of another package, to compare with."""
@@ -354,6 +366,11 @@ class Subject(Record, eq=False, dict=True):
         """What each launch file of ROS 2 does for ros2_control."""
         launch = self.ros2_launch
         return launch if isinstance(launch, NotAvailable) else self.ros2.launched_controls
+
+
+def _words(kind: str) -> str:
+    """Return the name of a part's type as words: "the launch graph"."""
+    return f"the {re.sub('(?<!^)(?=[A-Z])', ' ', kind).lower()}"
 
 
 _PROVIDERS: dict[str, Callable[[Subject], object]] = {

@@ -49,7 +49,8 @@ class UrdfParts(Record, eq=False, dict=True):
         if isinstance(files, NotAvailable) or files.descriptions:
             return files if isinstance(files, NotAvailable) else files.descriptions
         wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
-        reasons = [*wrong, *files.unread]
+        large = [f"{file.path} {file.reason}" for file in self.subject.package.too_large]
+        reasons = [*wrong, *files.unread, *large]
         reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
         return NotAvailable(reason, applicable=bool(reasons))
 

@@ -47,7 +47,14 @@ from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.setup_py import SetupFile, read_setup
 from checker.source.text import SourceText
-from checker.source.xml import XmlDocument, parse_xml
+from checker.source.xml import (
+    ATTRIBUTES_LIMIT,
+    ELEMENTS_LIMIT,
+    XmlDocument,
+    attributes_in,
+    elements_in,
+    parse_xml,
+)
 from checker.source.xml_positions import XmlFault
 
 if TYPE_CHECKING:
@@ -55,8 +62,14 @@ if TYPE_CHECKING:
 
 XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro")
 BYTES_LIMIT = 200_000_000
+ELEMENTS_FOR_ALL = 200_000
+"""Of the XML files of one package; those of the largest real one have 5 500."""
 RUBY_FILES = 20
 """That a spawner may load."""
+
+
+class TooLarge(NotReadable):
+    """An XML file with more elements than are checked."""
 
 
 class Package(Record, eq=False, dict=True):
@@ -76,6 +89,7 @@ class Package(Record, eq=False, dict=True):
     only: str = ""
     _texts: dict[str, SourceText | NotReadable] = field(default_factory=dict)
     _documents: dict[str, XmlDocument | XmlFault | NotReadable] = field(default_factory=dict)
+    _elements: dict[str, int] = field(default_factory=dict)
 
     def with_texts(self, texts: Mapping[str, SourceText]) -> Package:
         """Return the package as if some of its files held other texts; nothing is written."""
@@ -106,6 +120,7 @@ class Package(Record, eq=False, dict=True):
             self.only,
             {path: self._texts[path] for path in same},
             {path: self._documents[path] for path in same if path in self._documents},
+            {path: self._elements[path] for path in same if path in self._elements},
         )
         if (on_disk := vars(self).get("on_disk")) is not None:
             vars(package)["on_disk"] = on_disk
@@ -245,8 +260,31 @@ class Package(Record, eq=False, dict=True):
         path = self._canonical(path)
         if path not in self._documents:
             source = self.read(path)
-            self._documents[path] = source if isinstance(source, NotReadable) else parse_xml(source)
+            self._documents[path] = (
+                source if isinstance(source, NotReadable) else self._parsed(path, source)
+            )
         return self._documents[path]
+
+    def _parsed(self, path: str, source: SourceText) -> XmlDocument | XmlFault | TooLarge:
+        count, attributes = elements_in(source.text), attributes_in(source.text)
+        known = sum(self._elements.values())
+        if count > ELEMENTS_LIMIT:
+            reason = f"has {count:,} elements; only files of up to {ELEMENTS_LIMIT:,} are checked"
+        elif attributes > ATTRIBUTES_LIMIT:
+            most = f"only files of up to {ATTRIBUTES_LIMIT:,} are checked"
+            reason = f"has {attributes:,} attributes; {most}"
+        elif known + count > ELEMENTS_FOR_ALL:
+            before = f"the XML files before have {known:,} of the {ELEMENTS_FOR_ALL:,} for all"
+            reason = f"has {count:,} elements; {before}"
+        else:
+            self._elements[path] = count
+            return parse_xml(source)
+        return TooLarge(path, reason)
+
+    @property
+    def too_large(self) -> tuple[TooLarge, ...]:
+        """The XML files that were asked for, and are too large to be checked."""
+        return tuple(each for each in self._documents.values() if isinstance(each, TooLarge))
 
     @cached_property
     def build(self) -> CMakeFile | None:

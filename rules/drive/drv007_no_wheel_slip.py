@@ -30,8 +30,9 @@ def check(robot: Robot) -> Findings:
         return
     drives = [drive for drive in moves.wheel_drives if drive.plugin.class_name == "DiffDrive"]
     alone = [drive for drive in drives if _most([drive]) > 1]
+    together = 0 if alone else _most(drives)
     for drive in alone or drives:
-        most = _most([drive] if alone else drives)
+        most = together or _most([drive])
         who = "DiffDrive turns" if alone else f"{len(drives)} DiffDrive plugins turn"
         if most > 1:
             yield finding(

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from PIL import Image
 
 from checker.base.cache import Cache
@@ -19,7 +20,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
-from checker.report.scene.drawing.request import FIELD_OF_VIEW, framed
+from checker.report.scene.drawing.request import FIELD_OF_VIEW, drawn_items, framed
 from checker.report.scene.drawing.worker import LARGEST
 from checker.report.scene.pictures import HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
@@ -214,3 +215,13 @@ def test_a_camera_sees_all_that_it_frames(
     assert (depth > 0.0).all()
     assert (np.abs(away @ right) <= depth * half * 4 / 3 + 1e-6).all()
     assert (np.abs(away @ np.cross(right, forward)) <= depth * half + 1e-6).all()
+
+
+def test_what_draws_has_few_enough_triangles() -> None:
+    """A mesh of as many triangles that is shown 300 times took 2.5 GB."""
+    fine = Surface(np.zeros((3, 3), np.float32) + 1.0, np.tile(np.uint32([0, 1, 2]), (39_000, 1)))
+    one = scene(surface()).links[0].items[0]
+    items = (*(replace(one, surfaces=(fine,)) for _ in range(300)), one)
+    shown = list(drawn_items(DisplayScene("robot", (LinkNode("b", "m", Transform(), items),))))
+    assert sum(len(part.faces) for _, item in shown for part in item.surfaces) <= 1_000_000
+    assert shown[-1][1] is one

@@ -7,9 +7,12 @@ from typing import Any
 
 import pytest
 
+from checker.base.allowance import Allowance
 from checker.base.parts import NotAvailable
+from checker.engine.run import run_rules
 from checker.report.report import Cause, NotChecked
 from checker.rule import Concern, Context, Findings, Rule, Severity, finding, unchecked
+from checker.settings import Settings
 from tests.engine.stage import Parts, Wheel, at, reported, rule_saying, run, subt
 
 
@@ -58,6 +61,33 @@ def test_a_rule_that_the_system_stops_did_not_crash() -> None:
     (stopped,) = run(rule_of(without_disk)).not_checked
     assert (stopped.rule, stopped.cause, stopped.momentary) == ("TST009", Cause.NOT_AT_HAND, True)
     assert "No space left on device" in stopped.reason
+
+
+def too_slow(_: Wheel) -> Findings:
+    while True:
+        pass
+    yield
+
+
+def too_large(_: Wheel) -> Findings:
+    raise MemoryError
+    yield
+
+
+@pytest.mark.parametrize(
+    ("check", "reason"),
+    [
+        (too_slow, "TST009 needs more than 0.2 s of processor time"),
+        (too_large, "TST009 needs more memory than there is"),
+    ],
+)
+def test_a_rule_that_needs_too_much_is_not_checked(check: object, reason: str) -> None:
+    rules = (rule_of(check), rule_saying(finding(at(1), "found")))
+    outcome = run_rules(rules, Parts(Wheel()), subt(), Settings(), allowance=Allowance(0.2))
+    assert reported(outcome) == ["TST001"]
+    (unseen,) = outcome.not_checked
+    assert (unseen.rule, unseen.cause, unseen.reason) == ("TST009", Cause.NOT_AT_HAND, reason)
+    assert not unseen.momentary
 
 
 def test_a_rule_gets_the_parts_and_the_context_that_it_asks_for() -> None:

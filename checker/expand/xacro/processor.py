@@ -35,8 +35,9 @@ from checker.expand.xacro.files import ROOT
 from checker.expand.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.expand.xacro.yaml_values import read
 
-NODES_LIMIT = 100_000
-"""Elements made while expanding one file; the largest real robot has 3 000."""
+NODES_LIMIT = 50_000
+"""Elements made while expanding one file, as many as of a file that is not expanded
+(`checker.source.xml.ELEMENTS_LIMIT`); the largest real robot has 3 000."""
 SIZE_LIMIT = 20_000_000
 """Characters of the expanded document."""
 _LAZY = (expatbuilder, encodings.utf_8, unicodedata)

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from checker.base.files import NotReadable
-from checker.base.forked_work import ForkRunner
+from checker.base.forked_work import ForkRunner, as_entry
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.physics.mesh.content import NoSurface, Piece, by_material
@@ -111,10 +111,7 @@ def appearances(
         import_module("PIL.Image")
     shared = _shared_pictures(items, files, run_in_forks)
     read = run_in_forks([partial(_as_json, item, files, shared) for item in items])
-    return [
-        json.dumps(answer.entry).encode() if isinstance(answer, WorkerFailed) else answer
-        for answer in read
-    ]
+    return [*map(as_entry, read)]
 
 
 def _as_json(item: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:

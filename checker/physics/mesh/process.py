@@ -25,7 +25,7 @@ SIZE_LIMIT = 100_000_000
 SECONDS_FOR_ONE = 20
 """Processor time for one file."""
 SECONDS_FOR_ALL = 90
-"""By the clock, for the files of one robot; those left then are not looked at."""
+"""Processor time for the files of one robot; those left then are not looked at."""
 MEMORY = 1_000_000_000
 """Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""
 

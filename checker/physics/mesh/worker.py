@@ -10,13 +10,12 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
-from time import monotonic
 from typing import Any
 
 from msgspec import to_builtins
 
 from checker.base.files import NotReadable
-from checker.base.forked_work import ForkRunner, in_forks
+from checker.base.forked_work import ForkRunner, as_entry, forks_time, in_forks
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
@@ -35,15 +34,15 @@ def answer(request: bytes, files: Files) -> bytes:
 
     Args:
         request: JSON: `wanted`, one of `facts`, `appearance` and `views`; `items`, of the form that
-            this asks for; `seconds` of processor time for a file, `seconds_for_all` by the clock.
+            this asks for; `seconds` of processor time for a file, and `seconds_for_all`.
         files: The files.
 
     Returns:
         JSON: what is wanted of each item.
     """
     data = json.loads(request)
-    late = f"was not read: the others took {data['seconds_for_all']} s"
-    until = monotonic() + data["seconds_for_all"]
+    late = f"had no time left: the others took {data['seconds_for_all']} s of processor time"
+    until = forks_time() + data["seconds_for_all"]
     run_in_forks = partial(in_forks, seconds=data["seconds"], until=until, late=late)
     load_libraries(files.names)
     return b"[" + b",".join(_WANTED[data["wanted"]](data["items"], files, run_in_forks)) + b"]"
@@ -57,10 +56,7 @@ def _facts(
     Each item has a `file`, the `name` that the model knows, and the parts `picked`.
     """
     read = run_in_forks([partial(_fact, item, files) for item in items])
-    return [
-        json.dumps(result.entry).encode() if isinstance(result, WorkerFailed) else result
-        for result in read
-    ]
+    return [*map(as_entry, read)]
 
 
 def _fact(item: Mapping[str, Any], files: Files) -> bytes:
@@ -83,10 +79,10 @@ def _views(
     items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
 ) -> list[bytes]:
     """Return what sensors see; see `views_of`."""
-    return [json.dumps(_view(item, files, run_in_forks)).encode() for item in items]
+    return [as_entry(_view(item, files, run_in_forks)) for item in items]
 
 
-def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> dict[str, Any]:
+def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> bytes | WorkerFailed:
     sensors = sensors_of(item)
 
     def seen(mesh: Mapping[str, Any]) -> bytes:
@@ -96,12 +92,13 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> di
     results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
     for result in results:
         if isinstance(result, WorkerFailed) and result.momentary:
-            return result.entry
+            return result
     read = [
         unseen(_given_up(result)) if isinstance(result, WorkerFailed) else json.loads(result)
         for result in results
     ]
-    return views_of(item, sensors, read)
+    (views,) = run_in_forks([lambda: json.dumps(views_of(item, sensors, read)).encode()])
+    return views
 
 
 _WANTED: dict[str, Callable[[Sequence[Any], Files, ForkRunner], list[bytes]]] = {

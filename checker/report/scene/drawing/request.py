@@ -98,7 +98,10 @@ GROUPS = {Layer.VISUAL: 0, Layer.COLLISION: 1}
 _FARTHEST = 1e5
 """Metres; what reaches farther is not drawn."""
 _ITEMS = 2000
-"""That are drawn of a robot."""
+"""That are drawn of a robot, in each layer."""
+_TRIANGLES = 1_000_000
+"""Likewise, each as often as it is shown: what draws them takes some 100 bytes for each, for which
+no limit of address space can be set, since graphics cards need more of it than there is memory."""
 
 
 class Shot(Record):
@@ -175,11 +178,13 @@ def request_of(
 
 def drawn_items(scene: DisplayScene) -> Iterator[tuple[int, Item]]:
     """Yield what is drawn, each with the number of its link."""
-    left = dict.fromkeys(GROUPS, _ITEMS)
+    items, triangles = dict.fromkeys(GROUPS, _ITEMS), dict.fromkeys(GROUPS, _TRIANGLES)
     for number, link in enumerate(scene.links):
         for item in link.items:
-            if left.get(item.layer, 0) and _is_sound(item):
-                left[item.layer] -= 1
+            size = sum(len(surface.faces) for surface in item.surfaces)
+            if items.get(item.layer, 0) and size <= triangles[item.layer] and _is_sound(item):
+                items[item.layer] -= 1
+                triangles[item.layer] -= size
                 yield number, item
 
 
