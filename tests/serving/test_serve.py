@@ -12,15 +12,20 @@ import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import httpx
 import pytest
 
 from checker.service.client.connection import Connection
 from checker.service.client.server import parse_server
 from checker.service.client.upload import Upload
 from tests.conftest import SAMPLES
+from tests.effort import slowness
 from tests.serving.conftest import SECONDS, Serve, Serving, command_of, environment_of, wait_for
 
 EVERYWHERE = "0.0.0.0"  # noqa: S104 - that is what is tested
+MODEL = ("robot.sdf", b"<sdf version='1.6'/>")
+FIRST_UPLOAD_SECONDS = 2.5
+"""Of processor time: it takes one."""
 GOOD, BROKEN = "husky_migration_sensor_config_1", "broken_rover_sensor_config_1"
 
 
@@ -43,6 +48,23 @@ def test_its_first_line_is_its_address(serve: Serve) -> None:
     assert not serving.workers()
     assert all(line.startswith('{"time"') for line in serving.told.splitlines())
     assert (serving.folder / "data").is_dir()
+
+
+def test_a_first_upload_waits_for_little_work(serve: Serve) -> None:
+    serving = serve("--workers", 2)
+    url = serving.url
+    answer = httpx.post(f"{url}/api/checks", files={"file": MODEL}, timeout=SECONDS)
+    assert answer.status_code == 201
+    work = sum(map(processor_seconds, (serving.id, *serving.web())))
+    assert work < FIRST_UPLOAD_SECONDS * slowness()
+    # What workers load would come in between; they come all the same.
+    wait_for(lambda: len(serving.workers()) == 2)
+
+
+def processor_seconds(process: int) -> float:
+    """Return what a process has used of processors."""
+    fields = Path(f"/proc/{process}/stat").read_text("ascii").rpartition(") ")[2].split()
+    return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
 
 
 def test_what_is_sent_is_checked_and_told(serve: Serve, tmp_path: Path) -> None:

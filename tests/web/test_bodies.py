@@ -1,21 +1,38 @@
-"""What is sent of an answer's body: nothing to who asks for the head."""
+"""What is sent of a body: less to who takes it compressed, nothing to who wants the head."""
 
 from __future__ import annotations
 
+import gzip
+import secrets
 from pathlib import Path
 
 import httpx
 import pytest
 from fastapi.testclient import TestClient
+from hypothesis import given
+from hypothesis import strategies as st
+from starlette.datastructures import Headers
 
 from checker.service.store.store import Store
+from checker.service.web.answers.compression import CompressedFiles, takes_gzip
+from checker.service.web.answers.headers import file_response
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
+from checker.service.web.pages.site import FOLDER, release
 from tests.web.board import DONE, ID, QUEUED, BoardJobs, keep_result
 from tests.web.server import eventually, served
 
+
+def static(name: str) -> str:
+    return f"{FOLDER}/{release()}/{name}"
+
+
 PAGE = "<meta content=\"script-src 'sha256-" + "A" * 43 + "='\">" + "a report " * 9_000
 RESULT = ("report.html", "report.sarif", "robot.glb")
+COMPRESSED = (
+    *("/", "/rules", "/api/openapi.json", static("site.css"), static("watch.js")),
+    *(f"/api/checks/{ID}/{name}" for name in ("report.json", *RESULT)),
+)
 ADDRESSES = (
     *("/", "/rules", "/nothing", f"/checks/{ID}", "/healthz", "/readyz", "/metrics"),
     *(f"/api/checks/{ID}", "/api/openapi.json", "/api/nothing", "/api/checks/nothing"),
@@ -40,6 +57,103 @@ def test_the_head_is_that_of_the_whole_answer(client: TestClient, address: str) 
         assert head.headers == whole.headers
 
 
+@pytest.mark.parametrize("address", COMPRESSED)
+def test_a_client_that_takes_gzip_gets_less(client: TestClient, address: str) -> None:
+    plain = client.get(address, headers={"Accept-Encoding": "identity"})
+    packed = client.get(address, headers={"Accept-Encoding": "br, gzip"})
+    assert packed.headers["content-encoding"] == "gzip"
+    assert int(packed.headers["content-length"]) < len(plain.content) / 2
+    assert packed.content == plain.content  # the client unpacks it
+    changed = ("content-length", "content-encoding")
+    assert [each for each in packed.headers.items() if each[0] not in changed] == [
+        each for each in plain.headers.items() if each[0] not in changed
+    ]
+    assert plain.headers["vary"] == "Accept-Encoding"
+    assert client.head(address).headers == packed.headers
+
+
+@pytest.mark.parametrize("address", ["/healthz", f"/api/checks/{ID}", "/metrics"])
+def test_what_is_short_or_of_another_kind_is_sent_as_it_is(
+    client: TestClient, address: str
+) -> None:
+    assert "content-encoding" not in client.get(address).headers
+
+
+@pytest.mark.parametrize(
+    ("said", "takes"),
+    [
+        ("gzip", True),
+        ("deflate, GZIP;q=0.5, br", True),
+        ("gzip;q=1.0", True),
+        ("gzip;q=0.001", True),
+        ("gzip;q=0", False),
+        ("gzip; q=0.000", False),
+        ("", False),
+        ("identity", False),
+        ("x-gzip-not, xgzip", False),
+        (",;,;;q=,gzip;;", True),
+    ],
+)
+def test_what_a_client_takes_is_what_it_says(said: str, takes: bool) -> None:
+    assert takes_gzip(Headers({"Accept-Encoding": said})) is takes
+
+
+@given(st.text())
+def test_nothing_that_a_client_says_fails(said: str) -> None:
+    takes_gzip(Headers({"Accept-Encoding": said.encode("latin-1", "replace").decode("latin-1")}))
+
+
+def file_of(folder: Path, content: bytes, name: str = "report.json") -> Path:
+    path = folder / name
+    path.write_bytes(content)
+    return path
+
+
+def packed_by(compressed: CompressedFiles, path: Path) -> bytes:
+    with path.open("rb") as file:
+        packed = compressed.of(path, file)
+        assert file.tell() == 0
+    return packed
+
+
+def test_a_file_is_compressed_once(tmp_path: Path) -> None:
+    compressed, path = CompressedFiles(), file_of(tmp_path, PAGE.encode())
+    first = packed_by(compressed, path)
+    assert gzip.decompress(first) == PAGE.encode()
+    assert packed_by(compressed, path) is first
+    path.unlink()
+    other = file_of(tmp_path, PAGE.encode() * 2)
+    assert gzip.decompress(packed_by(compressed, other)) == PAGE.encode() * 2
+
+
+def test_what_is_compressed_already_is_sent_as_it_is(tmp_path: Path) -> None:
+    path = file_of(tmp_path, secrets.token_bytes(50_000), "robot.glb")
+    answer = file_response(path, CompressedFiles())
+    assert "content-encoding" not in answer.headers
+    assert TestClient(answer).get("/").content == path.read_bytes()
+
+
+def test_files_that_are_kept_have_bounded_room(tmp_path: Path) -> None:
+    def noise(number: int) -> Path:
+        return file_of(tmp_path, secrets.token_hex(5_000).encode(), f"{number}.json")
+
+    compressed, paths = CompressedFiles(room=20_000), [noise(n) for n in range(10)]
+    first = [packed_by(compressed, path) for path in paths]
+    assert sum(map(len, compressed._kept.values())) <= 20_000
+    assert len(compressed._kept) >= 3
+    assert packed_by(compressed, paths[9]) is first[9]
+    again = packed_by(compressed, paths[0])
+    assert again is not first[0]
+    assert again == first[0]
+
+
+def test_who_comes_while_another_is_compressed_does_not_wait(tmp_path: Path) -> None:
+    compressed, path = CompressedFiles(), file_of(tmp_path, PAGE.encode())
+    with compressed._packing:
+        assert packed_by(compressed, path) == b""
+    assert packed_by(compressed, path) != b""
+
+
 @pytest.mark.parametrize("address", ["/checks", "/api/checks", f"/checks/{ID}/cancel"])
 def test_what_has_no_body_to_get_has_no_head(client: TestClient, address: str) -> None:
     answer = client.head(address)
@@ -61,6 +175,19 @@ def test_the_head_is_logged_as_such(client: TestClient) -> None:
     client.head(f"/api/checks/{ID}")
     figures = client.get("/metrics").text
     assert 'requests_total{method="HEAD",route="/api/checks/{id}",status="200"} 1.0' in figures
+
+
+@pytest.mark.service
+def test_a_stream_begins_before_anything_happens(tmp_path: Path) -> None:
+    app = create_app(BoardJobs({ID: QUEUED}), Store(tmp_path), Config())
+    with (
+        served(app) as port,
+        httpx.stream(
+            "GET", f"http://localhost:{port}/api/checks/{ID}/events?after=2", timeout=10.0
+        ) as answer,
+    ):
+        assert answer.status_code == 200
+        assert "content-encoding" not in answer.headers
 
 
 @pytest.mark.service

@@ -12,6 +12,7 @@ import signal
 import socket
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -131,8 +132,6 @@ class ProxyConnection(Connection):
     per_client = 0
 
 
-CHILD = (sys.executable, "-P", "-m", f"{__package__}.child")
-"""Starts such a process; what follows says whose child it is, and which."""
 _CONNECTIONS = 1_000
 """At once; further ones are told that the service is busy."""
 _OPEN_FILES = 4 * _CONNECTIONS
@@ -203,9 +202,18 @@ def main(arguments: Sequence[str]) -> int:
         say_progress(f"subt-check: {error}")
         return EXIT_USAGE
     except JobsUnreachable as error:
-        say_progress(f"subt-check: {error}")
-        return EXIT_CRASH
+        say_progress(f"subt-check: {error}{_database()}")
+        return EXIT_USAGE
     return 0
+
+
+def _database() -> str:
+    """Return in brackets which database it is, without its password; empty if that says nothing."""
+    from checker.service.jobs.durable.database import database_url, open_database
+
+    with suppress(JobsUnreachable):
+        return f" ({open_database(database_url()).url.render_as_string(hide_password=True)})"
+    return ""
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import os
 import secrets
 import signal
 import socket
+import sys
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -18,13 +19,14 @@ from checker.base.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.base.sandbox.launcher import module_path
 from checker.base.signals import on_requests_to_end
 from checker.service.exposure import address_of, listening, risk_of, warning_of
-from checker.service.processes.child import CHILD
 from checker.service.processes.supervisor import Pace, Process, keep_running, stop_all
 from checker.service.store.place import data_folder
 
 if TYPE_CHECKING:
     from checker.service.store.store import Store
 
+CHILD = (sys.executable, "-P", "-m", f"{__package__}.child")
+"""Starts a process of the service; what follows says whose child it is, and which."""
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 
@@ -32,20 +34,21 @@ _MOST_WORKERS = 2
 def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     """Run the web server and its workers until SIGTERM or SIGINT; a second one ends all at once.
 
+    Workers are started when the web server answers: to load what they need takes several seconds of
+    processor time, for which the first uploads would wait. A database that does not answer is then
+    said by the web server alone.
+
     Raises:
-        CheckerError: The database does not answer, or what is asked
-            for makes no sense.
+        CheckerError: What is asked for makes no sense.
     """
     store = _data_made(options)
-    _refuse_without_database()
     environment = _environment(options)
     with listening(options.host, options.port) as bound:
         for warning in filter(None, _warnings(bound, environment, store)):
             _say(warning)
         stop, at_once = _signals()
         processes = _processes(options, bound, environment)
-        for process in processes:
-            process.start()
+        processes[0].start()
         try:
             return _served(bound, processes, stop, at_once, pace or Pace())
         finally:
@@ -71,22 +74,6 @@ def worker(options: argparse.Namespace) -> int:
     except JobsUnreachable as error:
         raise CheckerError(str(error)) from None
     return EXIT_CLEAN
-
-
-def _refuse_without_database() -> None:
-    """Say once what each of the processes would say."""
-    from checker.service.jobs.durable.database import database_url, open_database, reachable
-    from checker.service.jobs.port import JobsUnreachable
-
-    shown = ""
-    try:
-        engine = open_database(database_url())
-        shown = f" ({engine.url.render_as_string(hide_password=True)})"
-        with reachable(), engine.connect():
-            pass
-    except JobsUnreachable as error:
-        raise CheckerError(f"{error}{shown}") from None
-    engine.dispose()
 
 
 def _environment(options: argparse.Namespace) -> Mapping[str, str]:

@@ -20,6 +20,7 @@ from checker.service.store.place import data_folder
 from checker.service.store.store import Store
 from checker.service.web import health
 from checker.service.web.answers.bodies import Heads
+from checker.service.web.answers.compression import Compression
 from checker.service.web.answers.headers import SecurityHeaders
 from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
 from checker.service.web.api import routes as api
@@ -182,6 +183,7 @@ def create_app(
     app.include_router(health.router(services))
     app.include_router(pages.router(services))
     # The last added stands outermost.
+    app.add_middleware(Compression)
     app.add_middleware(Heads)
     app.add_middleware(OwnOrigin, config=config)
     app.add_middleware(UnreadBodies)

@@ -6,11 +6,22 @@ import hashlib
 import json
 import logging
 import sys
+import time
+import traceback
+from contextlib import suppress
+from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import TextIO
+
+from checker.base.record import Record
 
 LOGGER = "subt-check.web"
 FIELDS = "fields"
 """Name of the extra of a record that holds what goes into the line beside its message."""
+REPEAT_SECONDS = 60.0
+"""After which it is told how often a fault has repeated."""
+FAULTS = 200
+"""Known at once; further ones are written each time."""
 _OF_THE_SERVER = ("uvicorn", "uvicorn.error")
 _WITH_ADDRESSES = "uvicorn.access"
 
@@ -32,9 +43,102 @@ class JsonLines(logging.Formatter):
         return json.dumps(line, default=str)
 
 
+class Fault(Record):
+    """What makes two records tell of the same fault.
+
+    Attributes:
+        where: Logger and level.
+        words: What is said of it.
+        errors: Kinds of the exception and of those that caused it.
+        raised: File and line that raised it.
+    """
+
+    where: tuple[str, int]
+    words: str
+    errors: tuple[str, ...] = ()
+    raised: tuple[str, int] = ("", 0)
+
+
+@dataclass
+class Repeats:
+    """A fault that goes on.
+
+    Attributes:
+        record: The first of it, without its trace.
+        since: Seconds since the epoch, from which repeats are counted.
+        number: Of repeats since then.
+    """
+
+    record: logging.LogRecord
+    since: float
+    number: int = 0
+
+
+class Lines(logging.StreamHandler[TextIO]):
+    """Writes records; a warning or error that repeats is written once, then how often a minute.
+
+    A database that is away fails every request: each with its trace is megabytes a minute.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        super().__init__(stream)
+        self._known: dict[Fault, Repeats] = {}
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record, unless it repeats one; and what is due to be told of others."""
+        self._tell_repeats(record.created)
+        if record.levelno < logging.WARNING:
+            super().emit(record)
+            return
+        fault = _fault(record)
+        if known := self._known.get(fault):
+            known.number += 1
+            return
+        if len(self._known) < FAULTS:
+            self._known[fault] = Repeats(_without_trace(record), record.created)
+        super().emit(record)
+
+    def close(self) -> None:
+        """Tell of repeats that are not told yet."""
+        with suppress(ValueError):  # who reads may have gone before
+            self._tell_repeats(float("inf"))
+        super().close()
+
+    def _tell_repeats(self, now: float) -> None:
+        """Tell of faults that are due; one that has ended is new when it comes again."""
+        due = [each for each in self._known.items() if now - each[1].since >= REPEAT_SECONDS]
+        for fault, known in due:
+            if not known.number:
+                del self._known[fault]
+                continue
+            known.record.created = time.time()
+            setattr(known.record, FIELDS, {"repeated": known.number})
+            super().emit(known.record)
+            known.since, known.number = now, 0
+
+
+def _fault(record: logging.LogRecord) -> Fault:
+    where, words = (record.name, record.levelno), record.getMessage()
+    error = record.exc_info[1] if record.exc_info else None
+    if error is None:
+        return Fault(where, words)
+    chain = [error]
+    while cause := chain[-1].__cause__:
+        chain.append(cause)
+    kinds = tuple(type(each).__qualname__ for each in chain)
+    *_, (frame, line) = traceback.walk_tb(error.__traceback__)
+    return Fault(where, words, kinds, (frame.f_code.co_filename, line))
+
+
+def _without_trace(record: logging.LogRecord) -> logging.LogRecord:
+    """Return a copy that holds on to nothing of what was going on."""
+    said = {"msg": record.getMessage(), "args": (), "exc_info": None, "exc_text": None}
+    return logging.makeLogRecord({**vars(record), **said})
+
+
 def log_to_stderr() -> None:
     """Have this process log to stderr; the server's own log of addresses, which hold ids, ends."""
-    handler = logging.StreamHandler(sys.stderr)
+    handler = Lines(sys.stderr)
     handler.setFormatter(JsonLines())
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
     for name in (LOGGER.partition(".")[0], *_OF_THE_SERVER):

@@ -11,6 +11,7 @@ from msgspec import field
 from checker.base.record import Record
 from checker.service.jobs.port import Jobs, State
 from checker.service.store.store import Store
+from checker.service.web.answers.compression import CompressedFiles
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config
@@ -38,6 +39,7 @@ class Services(Record):
         metrics: Counts what they do.
         indexes: Reads those of archives.
         watchers: Follow checks.
+        compressed: Files of results, for clients that take gzip.
         threads: For uploads that have come whole, to be looked at, kept and ordered.
     """
 
@@ -48,6 +50,7 @@ class Services(Record):
     metrics: Metrics
     indexes: ArchiveIndexes
     watchers: Watchers
+    compressed: CompressedFiles = field(default_factory=CompressedFiles)
     threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
 
     def check(self, id: str) -> State:

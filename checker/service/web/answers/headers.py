@@ -13,6 +13,7 @@ from starlette.responses import Response, StreamingResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.base.record import Record
+from checker.service.web.answers.compression import VARY, CompressedFiles
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -89,21 +90,30 @@ _REPORT = (
 )
 
 
-def file_response(path: Path) -> Response:
+def file_response(path: Path, compressed: CompressedFiles | None = None) -> Response:
     """Return the answer that sends a file of a result, as what its name says.
 
     The file is open from here on: deleted meanwhile, it is sent all the same.
+
+    Args:
+        path: Of the file.
+        compressed: Compresses it, for a client that takes that.
 
     Raises:
         FileNotFoundError: It has been deleted.
     """
     kind, file = KINDS[path.name], path.open("rb")
-    headers = {"content-length": str(os.fstat(file.fileno()).st_size)}
+    headers = {"content-length": str(os.fstat(file.fileno()).st_size), **VARY}
     if kind.startswith("text/html"):
         headers[POLICY] = _policy(file)
     if path.name == "robot.glb":
         headers["content-disposition"] = f'attachment; filename="{path.name}"'
-    return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
+    packed = compressed.of(path, file) if compressed else b""
+    if not packed:
+        return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
+    file.close()
+    headers |= {"content-length": str(len(packed)), "content-encoding": "gzip"}
+    return Response(packed, media_type=kind, headers=headers)
 
 
 def _pieces(file: BinaryIO) -> Iterator[bytes]:

@@ -70,7 +70,7 @@ def _refusal_of(error: Exception) -> Refused:
         case Refused():
             return error
         case JobsUnreachable():
-            _LOG.warning("the job engine does not answer", exc_info=error)
+            _LOG.warning("the job engine does not answer (%s)", error, exc_info=error)
             return _engine_away()
         case HTTPException():
             return _of_framework(error)

@@ -14,6 +14,7 @@ from starlette.responses import RedirectResponse, Response
 from checker.base.record import Record
 from checker.service.jobs.port import State
 from checker.service.web import receipts
+from checker.service.web.answers.compression import takes_gzip
 from checker.service.web.answers.headers import KINDS, file_response
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused
@@ -199,16 +200,16 @@ class Api(Record):
         state = await run_in_threadpool(self.services.check, id)
         return await event_stream(request, self.services, state, after)
 
-    def index(self, id: str) -> Response:
+    def index(self, request: Request, id: str) -> Response:
         """Lead to the list of packages, beside their folders: its links are relative."""
-        self._file(id, "index.html")
+        self._file(request, id, "index.html")
         return RedirectResponse(address_of(id, "index.html"), 307)
 
     def file_named(self, name: str) -> Any:
         """Return the route of a file that a result has once."""
 
-        def send(id: str) -> Response:
-            return self._file(id, name)
+        def send(request: Request, id: str) -> Response:
+            return self._file(request, id, name)
 
         send.__doc__ = f"Send {name}; findings of the static rules come before the trial's."
         return send
@@ -216,18 +217,19 @@ class Api(Record):
     def file_of_package(self, name: str) -> Any:
         """Return the route of a file that each of several packages has."""
 
-        def send(id: str, folder: str) -> Response:
-            return self._file(id, f"{folder}/{name}")
+        def send(request: Request, id: str, folder: str) -> Response:
+            return self._file(request, id, f"{folder}/{name}")
 
         send.__doc__ = f"Send {name} of one of several packages, by its folder."
         return send
 
-    def _file(self, id: str, name: str) -> Response:
+    def _file(self, request: Request, id: str, name: str) -> Response:
+        compressed = self.services.compressed if takes_gzip(request.headers) else None
         state = self.services.check(id)
         path = self.services.store.file(state.result, name) if state.result else None
         if path is not None:
             with suppress(FileNotFoundError):  # it is deleted just now
-                return file_response(path)
+                return file_response(path, compressed)
         error = "The check has no such file, or not yet."
         advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
         raise Refused(404, error, advice, "not found")
