@@ -22,6 +22,14 @@ def is_momentary(error: BaseException) -> bool:
     return isinstance(error, OSError) and error.errno in _MOMENTARY
 
 
+def momentary_cause(error: BaseException) -> str:
+    """Return what failed of the disk or the system, where an error comes from that; else empty."""
+    cause: BaseException | None = error
+    while cause is not None and not is_momentary(cause):
+        cause = cause.__cause__ or cause.__context__
+    return getattr(cause, "strerror", None) or "" if cause else ""
+
+
 class CheckerError(Exception):
     """Something that the user can mend; its text is one sentence and reaches the terminal."""
 

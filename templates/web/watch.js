@@ -30,7 +30,7 @@ async function look() {
   const page = new DOMParser().parseFromString(await answer.text(), "text/html");
   const fresh = part("check", page);
   if (!fresh) return location.reload(); // it is gone, and the page says so
-  for (const ours of [...check.children]) renew(ours, part(ours.id, page));
+  for (const ours of [...check.querySelectorAll(".fresh")]) renew(ours, part(ours.id, page));
   document.title = page.title;
   say(part("headline").querySelector(".sentence").textContent.trim());
   if ("final" in fresh.dataset) finish();
@@ -64,14 +64,19 @@ function watch() {
 }
 
 if (!("final" in check.dataset)) watch();
+// Who comes by a link from elsewhere brings no cookie along: asked for from here, the page has what
+// only its sender may do.
+else if (!("mine" in check.dataset)) look().catch(() => {});
 
 const link = part("link");
 link.addEventListener("focus", () => link.select());
 if (navigator.clipboard) {
-  part("copy").hidden = false;
-  part("copy").addEventListener("click", async () => {
+  const copy = part("copy");
+  copy.hidden = false;
+  copy.addEventListener("click", async () => {
     await navigator.clipboard.writeText(link.value);
     say("The link is copied.");
-    part("copy").textContent = "Copied";
+    copy.textContent = "Copied";
+    setTimeout(() => (copy.textContent = "Copy"), 3000);
   });
 }

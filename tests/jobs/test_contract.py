@@ -16,7 +16,7 @@ from msgspec.structs import astuple, replace
 from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.checks import TRIES
 from checker.service.jobs.durable.tables import CHECKS, key_of_check
-from checker.service.jobs.port import Stage, State
+from checker.service.jobs.port import Pace, Stage, State
 from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, PAUSES, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
@@ -128,6 +128,19 @@ class TestManyChecks:
         assert alive.workers.keys() == {"left", "right"}
         assert max(alive.workers.values()) < 30
         assert (alive.waiting, alive.running) == ({"static": 0, "trial": 0}, 0)
+
+    def test_tell_how_long_they_take(self, site: Site) -> None:
+        site.worker()
+        assert site.jobs.pace() == Pace()
+        ids = [site.submit(f"static:0.5 trial:{seconds}") for seconds in (1, 1, 5)]
+        assert {site.end(id).stage for id in ids} == {Stage.DONE}
+        pace = site.jobs.pace()
+        assert 0.4 < pace.static < 5
+        assert 0.9 < pace.trial < 4.9  # of most, not of the one that takes long
+        state = site.state(ids[0])
+        for _ in range(3):  # what was in the store takes no time, and says nothing of others
+            site.jobs.submit(state.order)
+        assert site.jobs.pace() == pace
 
     def test_show_static_findings_before_trials_of_older_ones(self, site: Site) -> None:
         site.worker()

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import httpx
 from msgspec.structs import replace
 
-from checker.service.jobs.port import Alive, Changes, Event, Order, Receipt, Stage, State
+from checker.service.jobs.port import Alive, Changes, Event, Order, Pace, Receipt, Stage, State
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ class BoardJobs:
     states: dict[str, State] = field(default_factory=dict)
     cancelled: list[str] = field(default_factory=list)
     keys: list[str] = field(default_factory=list)
+    paced: Pace = field(default_factory=Pace)
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         self.keys.append(key)
@@ -79,6 +80,9 @@ class BoardJobs:
 
     def result(self, id: str) -> str:
         return self.states[id].result
+
+    def pace(self) -> Pace:
+        return self.paced
 
     def alive(self) -> Alive:
         return Alive({"one": 0.0}, {}, 0)

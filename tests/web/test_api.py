@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -107,6 +108,40 @@ def test_a_file_that_is_deleted_while_it_is_sent_comes_whole(tmp_path: Path) -> 
     assert sent.headers["content-length"] == str(len(content))
 
 
+REPORT = '<title>&lt;header&gt;</title></head><header class="not_ready">\n<h1>rover</h1></header>'
+BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+
+
+def test_a_report_leads_back_to_its_check_in_browsers_alone(
+    client: TestClient, jobs: BoardJobs, store: Store
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, REPORT, "report.html", "index.html", "a/report.html", "a/robot.glb")
+    for name in ("report.html", "packages/index.html", "packages/a/report.html"):
+        address = f"/api/checks/{ID}/{name}"
+        answer = client.get(address, headers=BROWSER)
+        (link,) = re.findall('\n<p class="back"><a href=.*</p>', answer.text)
+        led = client.get(str(answer.url.join(link.split('"')[3])))
+        assert (led.status_code, led.headers["location"]) == (307, f"/checks/{ID}")
+        assert answer.text.replace(link, "") == REPORT
+        assert ID not in answer.text  # it is the same for all checks that share it
+        assert answer.headers["content-length"] == str(len(answer.content))
+        assert client.get(address).text == REPORT  # as `submit --report` keeps it
+    for name in ("report.json", "packages/a/robot.glb"):
+        assert client.get(f"/api/checks/{ID}/{name}", headers=BROWSER).text == REPORT
+
+
+@pytest.mark.parametrize("text", [PAGE, "", "x" * 70_000 + REPORT, "<header id='x'>"])
+def test_a_page_that_is_none_of_ours_stays_as_it_is(
+    client: TestClient, jobs: BoardJobs, store: Store, text: str
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, text, "report.html")
+    answer = client.get(f"/api/checks/{ID}/report.html", headers=BROWSER)
+    assert answer.text == text
+    assert answer.headers["content-length"] == str(len(text))
+
+
 def test_files_of_several_packages_lie_beside_the_list_of_them(
     client: TestClient, jobs: BoardJobs, store: Store
 ) -> None:
@@ -141,7 +176,7 @@ def test_nothing_else_of_the_store_is_served(
 
 
 ADDRESSES = (
-    "",
+    *("", "/"),
     *("/events", "/report.json", "/report.sarif", "/report.html", "/robot.glb", "/index.html"),
     *("/packages/index.html", "/packages/a/report.html", "/packages/a/robot.glb"),
 )

@@ -17,7 +17,7 @@ from checker.report.files import package_folders
 from checker.report.json_report import to_json
 from checker.report.report import PackageReport, Report
 from checker.rulebook.discovery import all_rules
-from checker.service.jobs.port import Event, Stage, State
+from checker.service.jobs.port import Event, Pace, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
@@ -26,7 +26,18 @@ from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.effort import examples
 from tests.report.any_report import HOSTILE, PACKAGES
-from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, SENDER, BoardJobs, Client, keep_result
+from tests.web.board import (
+    DONE,
+    ID,
+    KEY,
+    QUEUED,
+    ROVER,
+    SECRET,
+    SENDER,
+    BoardJobs,
+    Client,
+    keep_result,
+)
 
 
 class Elements(HTMLParser):
@@ -109,7 +120,7 @@ def test_a_refused_form_is_answered_by_a_page(client: Client) -> None:
 @pytest.mark.parametrize(
     ("state", "said"),
     [
-        (replace(QUEUED, ahead=3), "Waiting: 3 checks ahead"),
+        (replace(QUEUED, ahead=3), "Waiting: 3 checks ahead Link"),
         (QUEUED, "Waiting: it starts in a moment"),
         (replace(QUEUED, stage=Stage.STATIC, words="the rules look"), "Checking: the rules look"),
         (
@@ -134,8 +145,21 @@ def test_each_stage_is_said_in_a_sentence(
     assert said in " ".join(page.words.split())
     refreshed = {"http-equiv": "refresh", "content": "2"} in page.all("meta")
     assert refreshed is not state.stage.is_final
-    assert (f"/checks/{ID}/cancel" in answer.text) is not state.stage.is_final
     assert "18 May 2033, 03:33 UTC" in page.words
+
+
+@pytest.mark.parametrize("stage", Stage)
+def test_only_the_sender_sees_how_to_end_a_check(
+    client: Client, jobs: BoardJobs, stage: Stage
+) -> None:
+    jobs.states[ID] = replace(QUEUED, stage=stage)
+    others = client.get(f"/checks/{ID}").text
+    own = client.request("GET", f"/checks/{ID}", headers=SENDER).text
+    assert f"/checks/{ID}/cancel" not in others
+    assert f"/checks/{ID}/delete" not in others
+    assert (f"/checks/{ID}/cancel" in own) is not stage.is_final
+    assert f"/checks/{ID}/delete" in own
+    assert SECRET not in own
 
 
 @pytest.mark.parametrize(
@@ -224,6 +248,80 @@ def test_cancelling_ends_the_check_and_returns_to_it(client: Client, jobs: Board
     assert jobs.cancelled == [ID]
 
 
+def test_deleting_asks_first_and_leaves_nothing(client: Client, jobs: BoardJobs) -> None:
+    jobs.states[ID] = DONE
+    asked = client.request("GET", f"/checks/{ID}/delete", headers=SENDER)
+    (form,) = Elements(asked.text).all("form")
+    assert (form["method"], form["action"]) == ("post", f"/checks/{ID}/delete")
+    assert "Delete this check?" in asked.text
+    assert jobs.states == {ID: DONE}
+    done = client.post(f"/checks/{ID}/delete", headers=SENDER)
+    assert (done.status_code, jobs.states) == (200, {})
+    assert "Upload and report are deleted within two hours" in done.text
+    assert 'subt-check-secret=""' in done.headers["set-cookie"]
+    assert f"Path=/checks/{ID}" in done.headers["set-cookie"]
+    assert client.get(f"/checks/{ID}").status_code == 404
+
+
+@pytest.mark.parametrize(
+    ("method", "what"), [("GET", "delete"), ("POST", "delete"), ("POST", "cancel")]
+)
+@pytest.mark.parametrize("cookie", ["", "subt-check-secret=x", f"other={SECRET}"])
+def test_others_are_told_who_may(
+    client: Client, jobs: BoardJobs, method: str, what: str, cookie: str
+) -> None:
+    if method == "GET" and cookie.startswith("subt-check"):
+        return  # to ask shows nothing that the check's own page does not
+    jobs.states[ID] = QUEUED
+    headers = {"Cookie": cookie, "Subt-Check-Secret": SECRET}
+    answer = client.request(method, f"/checks/{ID}/{what}", headers=headers)
+    assert answer.status_code == 403
+    said = f"Only the person who uploaded this package can {what} its check."
+    assert said in Elements(answer.text).words
+    assert (jobs.states, jobs.cancelled) == ({ID: QUEUED}, [])
+
+
+def test_the_form_has_the_browser_keep_the_secret(client: Client) -> None:
+    answer = client.post("/checks", files={"file": ("rover.sdf", b"<sdf/>")})
+    assert answer.headers["set-cookie"].startswith(f"subt-check-secret={SECRET}; HttpOnly; ")
+
+
+def title(text: str) -> str:
+    return text.partition("<title>")[2].partition("</title>")[0]
+
+
+def test_a_check_is_called_as_its_package_as_soon_as_that_is_known(
+    client: Client, jobs: BoardJobs
+) -> None:
+    named = ({**ROVER, "name": "acme_rover"},)
+    for state, name, lead in (
+        (QUEUED, "rover.zip", "Waiting"),
+        (replace(QUEUED, stage=Stage.TRIAL, packages=named), "acme_rover", "Checking"),
+        (replace(DONE, packages=named), "acme_rover", "Not ready"),
+        (replace(DONE, packages=named * 2), "rover.zip", "0 of 2 packages ready"),
+    ):
+        jobs.states[ID] = state
+        text = client.get(f"/checks/{ID}").text
+        assert title(text) == f"{name}: {lead} – subt-check"
+        assert f"<h1><bdi>{name}</bdi></h1>" in text
+        assert ("uploaded as <bdi>rover.zip</bdi>" in text) is (name == "acme_rover")
+
+
+def test_who_waits_is_told_how_long_where_that_is_known(client: Client, jobs: BoardJobs) -> None:
+    jobs.states[ID] = replace(QUEUED, ahead=3)
+    assert "The report will be ready" not in client.get(f"/checks/{ID}").text
+    jobs.paced = Pace(2.0, 28.0)  # asked for once in a while: this client has its answer
+    assert "The report will be ready" not in client.get(f"/checks/{ID}").text
+
+
+def test_how_long_a_check_takes_is_said_in_words(jobs: BoardJobs, store: Store) -> None:
+    jobs.paced = Pace(2.0, 28.0)
+    client = client_of(jobs, store)
+    jobs.states[ID] = replace(QUEUED, ahead=3)
+    page = Elements(client.get(f"/checks/{ID}").text)
+    assert "The report will be ready in about 2 minutes." in page.words
+
+
 NOWHERE = (
     *("/nothing", "/checks/ABCDEFGHIJKLMNOPQRSTUV", "/checks/%00", "/checks/x' or 1=1"),
     *("/checks/..%2f..%2fetc", "/rules/ZZZ999", "/static/0000000000000000/site.css"),
@@ -252,10 +350,16 @@ def test_fixed_files_are_kept_for_ever_under_names_that_change(client: Client) -
         assert client.get(other).status_code == 404
 
 
-@pytest.mark.parametrize("address", ["/", f"/checks/{ID}", "/rules", "/rules/SEN005", "/nothing"])
+PAGES = (
+    *("/", f"/checks/{ID}", f"/checks/{ID}/delete"),
+    *("/api", "/rules", "/rules/SEN005", "/nothing"),
+)
+
+
+@pytest.mark.parametrize("address", PAGES)
 def test_no_page_holds_a_script_or_a_style(client: Client, jobs: BoardJobs, address: str) -> None:
     jobs.states[ID] = DONE
-    answer = client.get(address)
+    answer = client.request("GET", address, headers=SENDER)
     policy = answer.headers["content-security-policy"]
     assert "unsafe" not in policy
     page = Elements(answer.text)

@@ -13,15 +13,19 @@ import pytest
 from msgspec.structs import replace
 
 from checker.package.archives.index import ArchiveLimits
+from checker.pipeline import check_package
+from checker.report.html.page import to_html, to_index
 from checker.report.json_report import to_json
+from checker.report.render_settings import RenderSettings, palette_for
 from checker.report.report import Report
 from checker.service.jobs.port import Event, Stage
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
+from checker.settings import Settings
 from tests.browser import watched_page
 from tests.conftest import SAMPLES
-from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, keep_result
+from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, SECRET, BoardJobs, keep_result
 from tests.web.server import served
 
 if TYPE_CHECKING:
@@ -83,6 +87,12 @@ def stand(board: Board, stage: Stage) -> None:
     board.jobs.tell(stage)
 
 
+def is_senders(page: Page) -> None:
+    """Have the browser of a page keep the secret of the check, as if it had sent the package."""
+    given = {"name": "subt-check-secret", "value": SECRET, "sameSite": "Strict", "httpOnly": True}
+    page.context.add_cookies([{**given, "domain": "localhost", "path": f"/checks/{ID}"}])
+
+
 def axe_violations(page: Page) -> list[object]:
     from axe_playwright_python.sync_playwright import Axe
 
@@ -102,7 +112,11 @@ def upload_of(board: Board) -> Path:
 
 
 SHOWN = (Stage.QUEUED, Stage.TRIAL, Stage.DONE, Stage.FAILED)
-ADDRESSES = ["/", "/rules/SEN005", "/rules", *(f"/checks/{ID}?{stage}" for stage in SHOWN)]
+ADDRESSES = [
+    *("/", "/api", "/rules/SEN005", "/rules"),
+    *(f"/checks/{ID}?{stage}" for stage in SHOWN),
+    f"/checks/{ID}/delete?{Stage.DONE}",
+]
 
 
 @pytest.mark.parametrize("address", ADDRESSES)
@@ -113,6 +127,7 @@ def test_every_page_is_for_everybody(
     if "?" in address:
         stand(board, Stage(address.partition("?")[2]))
     with watched_page(chromium, width=width, dark=dark) as page:
+        is_senders(page)
         page.goto(board.address + address)
         page.wait_for_load_state()
         assert axe_violations(page) == []
@@ -145,6 +160,7 @@ def test_a_page_that_is_not_there_is_for_everybody(chromium: Browser, board: Boa
 def test_the_page_follows_the_check_by_itself(chromium: Browser, board: Board) -> None:
     stand(board, Stage.QUEUED)
     with watched_page(chromium) as page:
+        is_senders(page)
         page.goto(f"{board.address}/checks/{ID}")
         sentence, now = page.locator(".sentence"), page.locator("[aria-current=step]")
         assert sentence.inner_text() == "Waiting: 2 checks ahead"
@@ -163,7 +179,7 @@ def test_the_page_follows_the_check_by_itself(chromium: Browser, board: Board) -
         assert page.evaluate("window.same"), "the page was loaded anew"
         focused = page.evaluate("document.activeElement.textContent")
         assert focused == "Open the report", "who stood on a button that went is lost"
-        assert page.title().startswith("Not ready: rover.zip")
+        assert "rover\N{ROBOT FACE}: Not ready" in page.title()
         assert page.locator("[aria-current=step]").count() == 0
 
 
@@ -187,11 +203,59 @@ def test_a_service_that_is_away_for_a_moment_is_asked_again(
 def test_cancelling(chromium: Browser, board: Board, javascript: bool) -> None:
     stand(board, Stage.STATIC)
     with watched_page(chromium, javascript=javascript) as page:
+        is_senders(page)
         page.goto(f"{board.address}/checks/{ID}")
         page.get_by_role("button", name="Cancel").click()
         page.wait_for_load_state()
         assert board.jobs.cancelled == [ID]
         assert page.url == f"{board.address}/checks/{ID}"
+
+
+@pytest.mark.parametrize("javascript", [True, False])
+def test_deleting(chromium: Browser, board: Board, javascript: bool) -> None:
+    stand(board, Stage.DONE)
+    with watched_page(chromium, javascript=javascript) as page:
+        is_senders(page)
+        page.goto(f"{board.address}/checks/{ID}")
+        page.get_by_role("link", name="Delete").click()
+        page.get_by_role("link", name="Keep it").click()
+        page.get_by_role("link", name="Delete").click()
+        page.get_by_role("button", name="Delete").click()
+        page.get_by_text("Its link").or_(page.get_by_text("The link of this check")).wait_for()
+        assert page.locator(".sentence").inner_text() == "Deleted"
+        assert board.jobs.states == {}
+        assert page.context.cookies() == []
+
+
+@pytest.mark.parametrize("name", ["report.html", "packages/index.html"])
+def test_a_report_leads_back_to_its_check(chromium: Browser, board: Board, name: str) -> None:
+    """In an origin of its own, it brings no cookie along: the check's page asks for them itself."""
+    report = check_package(BUGGY, Settings(trial=False))
+    pages = {
+        "report.html": to_html(
+            report.packages[0], report, RenderSettings(palette_for("never", None))
+        )
+    }
+    pages["index.html"] = to_index(report, [""])
+    with board.store.workplace() as place:
+        (place / "made").mkdir()
+        (place / "made" / "report.json").write_text(to_json(report), "utf-8")
+        for file, text in pages.items():
+            (place / "made" / file).write_text(text, "utf-8")
+        board.store.keep(KEY, place / "made")
+    board.jobs.states[ID] = DONE
+    page = chromium.new_page()
+    try:
+        is_senders(page)
+        page.goto(f"{board.address}/api/checks/{ID}/{name}")
+        back = page.get_by_role("link", name="Back to the check")
+        assert page.locator("header a").first.inner_text() == "Back to the check"
+        assert back.bounding_box() is not None
+        back.click()
+        page.wait_for_url(f"{board.address}/checks/{ID}")
+        page.get_by_role("link", name="Delete").wait_for()
+    finally:
+        page.close()
 
 
 def test_without_javascript_the_page_comes_anew(chromium: Browser, board: Board) -> None:
@@ -201,6 +265,7 @@ def test_without_javascript_the_page_comes_anew(chromium: Browser, board: Board)
         stand(board, Stage.DONE)
         page.get_by_role("link", name="Open the report").wait_for()
         assert not page.locator("#copy").is_visible()
+        assert page.get_by_label("Link to this check").input_value() == page.url
 
 
 def test_the_link_is_copied(chromium: Browser, board: Board) -> None:
@@ -373,8 +438,8 @@ def test_everything_is_reached_by_the_keyboard(chromium: Browser, board: Board) 
     with watched_page(chromium) as page:
         page.goto(board.address)
         reached = []
-        for _ in range(9):
+        for _ in range(10):
             page.keyboard.press("Tab")
             reached.append(page.evaluate(WHERE))
-        links = ["Skip to the content", "subt-check", "Check", "Rules"]
-        assert reached[:8] == [*links, "file", "folder", "profile", "check"]
+        links = ["Skip to the content", "subt-check", "Check", "Rules", "API"]
+        assert reached[:9] == [*links, "file", "folder", "profile", "check"]

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: nine calls; `durable` implements them."""
+"""What the service needs of a job engine: ten calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -147,8 +147,20 @@ class Changes(Protocol):
         ...
 
 
+class Pace(Record):
+    """How long the stages of a check took lately, as the median of some checks; 0 when not known.
+
+    Attributes:
+        static: Seconds that the static rules took.
+        trial: Seconds that the trial took.
+    """
+
+    static: float = 0.0
+    trial: float = 0.0
+
+
 class Jobs(Protocol):
-    """The nine calls; none waits for a check, and all may be called from many threads."""
+    """The ten calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -189,6 +201,10 @@ class Jobs(Protocol):
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""
+        ...
+
+    def pace(self) -> Pace:
+        """Return how long checks took lately."""
         ...
 
     def alive(self) -> Alive:

@@ -56,6 +56,11 @@ def kept(request: Request) -> str:
     return request.cookies.get(_COOKIE, "")
 
 
+def take(response: Response, id: str) -> None:
+    """Have a browser forget the secret of a check."""
+    response.delete_cookie(_COOKIE, path=f"/checks/{id}", httponly=True, samesite="strict")
+
+
 def cancel(services: Services, id: str, secret: str) -> None:
     """End a check, unless it is over.
 
@@ -64,7 +69,8 @@ def cancel(services: Services, id: str, secret: str) -> None:
     """
     services.check(id)
     if not services.jobs.cancel(id, secret):
-        raise _not_yours(services, id, "cancel its check")
+        services.check(id)  # it may have gone meanwhile
+        raise not_yours("cancel its check")
 
 
 def delete(services: Services, id: str, secret: str) -> None:
@@ -75,11 +81,12 @@ def delete(services: Services, id: str, secret: str) -> None:
     """
     services.check(id)
     if not services.jobs.delete(id, secret):
-        raise _not_yours(services, id, "delete its check")
+        services.check(id)
+        raise not_yours("delete its check")
 
 
-def _not_yours(services: Services, id: str, what: str) -> Refused:
-    services.check(id)  # it may have gone meanwhile
+def not_yours(what: str) -> Refused:
+    """Return the refusal of what only the sender of a package may do."""
     return Refused(
         403,
         f"Only the person who uploaded this package can {what}.",

@@ -14,11 +14,21 @@ from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks, Step
 from checker.service.jobs.durable.database import WAITS, open_database, prepare, reachable
+from checker.service.jobs.durable.pace import pace_of
 from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
 from checker.service.jobs.durable.tables import key_of_check
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.outcome import Checked
-from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Receipt, Stage, State
+from checker.service.jobs.port import (
+    RETENTION_DAYS,
+    Alive,
+    Event,
+    Order,
+    Pace,
+    Receipt,
+    Stage,
+    State,
+)
 from checker.service.store.store import Store
 
 _DAY = 86400.0
@@ -115,6 +125,11 @@ class DurableJobs(Record, dict=True):
         """Return the key of the final report in the store; empty while there is none."""
         state = self.status(id)
         return state.result if state is not None and state.stage is Stage.DONE else ""
+
+    def pace(self) -> Pace:
+        """Return how long checks took lately."""
+        with reachable():
+            return pace_of(self.engine)
 
     def alive(self) -> Alive:
         """Return what is known of the engine."""

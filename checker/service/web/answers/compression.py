@@ -99,15 +99,17 @@ class CompressedFiles:
         self._kept: OrderedDict[tuple[object, ...], bytes] = OrderedDict()
         self._keeping, self._packing = Lock(), Lock()
 
-    def of(self, path: Path, file: BinaryIO) -> bytes:
+    def of(self, path: Path, file: BinaryIO, begin: bytes = b"", kind: str = "") -> bytes:
         """Return a file compressed; empty if that is not worth it, or not to be had at once.
 
         Args:
             path: Of the file.
-            file: The same, open; it is at its beginning, before and after.
+            file: The same, open; it is where the rest begins, before and after.
+            begin: What stands before the rest.
+            kind: Tells one beginning from others of the same file.
         """
-        status = os.fstat(file.fileno())
-        key = (path, status.st_ino, status.st_mtime_ns, status.st_size)
+        status, at = os.fstat(file.fileno()), file.tell()
+        key = (path, kind, status.st_ino, status.st_mtime_ns, status.st_size)
         with self._keeping:
             if key in self._kept:
                 self._kept.move_to_end(key)
@@ -116,10 +118,10 @@ class CompressedFiles:
         if status.st_size > LARGEST or not self._packing.acquire(blocking=False):
             return b""
         try:
-            packed = _pack(file.read())
+            packed = _pack(begin + file.read())
         finally:
             self._packing.release()
-        file.seek(0)
+        file.seek(at)
         return self._keep(key, packed if len(packed) < GAIN * status.st_size else b"")
 
     def _keep(self, key: tuple[object, ...], packed: bytes) -> bytes:

@@ -129,7 +129,11 @@ def _add_events(router: APIRouter, api: Api) -> None:
     from fastapi import Query
 
     async def events(
-        request: Request, id: str, after: int = Query(default=0, ge=0, le=HIGHEST)
+        request: Request,
+        id: str,
+        after: int = Query(
+            default=0, ge=0, le=HIGHEST, description="Number of the last event that is known."
+        ),
     ) -> Response:
         """Send the events behind number `after` as they happen, until the check ends."""
         return await api.events(request, id, after)
@@ -154,6 +158,7 @@ def _add_files(router: APIRouter, api: Api) -> None:
         inner = api.file_of_package(name)
         _add_file(router, f"/{{id}}/packages/{{folder}}/{name}", inner, KINDS[name])
     router.add_api_route("/{id}/index.html", api.index, include_in_schema=False)
+    router.add_api_route("/{id}/", api.page, include_in_schema=False)
 
 
 def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
@@ -205,6 +210,11 @@ class Api(Record):
         self._file(request, id, "index.html")
         return RedirectResponse(address_of(id, "index.html"), 307)
 
+    def page(self, id: str) -> Response:
+        """Lead from a report to the page of its check."""
+        self.services.check(id)
+        return RedirectResponse(f"/checks/{id}", 307)
+
     def file_named(self, name: str) -> Any:
         """Return the route of a file that a result has once."""
 
@@ -224,12 +234,13 @@ class Api(Record):
         return send
 
     def _file(self, request: Request, id: str, name: str) -> Response:
+        """Return a file of a result; to browsers, a page leads back to the check."""
         compressed = self.services.compressed if takes_gzip(request.headers) else None
         state = self.services.check(id)
         path = self.services.store.file(state.result, name) if state.result else None
         if path is not None:
             with suppress(FileNotFoundError):  # it is deleted just now
-                return file_response(path, compressed)
+                return file_response(path, compressed, _back(request, id))
         error = "The check has no such file, or not yet."
         advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
         raise Refused(404, error, advice, "not found")
@@ -240,6 +251,13 @@ class Api(Record):
 
     def _page(self, request: Request, id: str) -> str:
         return f"{self.services.address(request)}/checks/{id}"
+
+
+def _back(request: Request, id: str) -> str:
+    """Return the way from a file to the folder of all files of its check; empty to programs."""
+    if "text/html" not in request.headers.get("accept", ""):
+        return ""
+    return "../" * request.url.path.removeprefix(f"/api/checks/{id}/").count("/") or "./"
 
 
 def _other_method(_: Request) -> Response:

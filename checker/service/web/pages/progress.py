@@ -178,8 +178,19 @@ def _ahead(state: State) -> str:
     return f"{count(state.ahead, 'check')} ahead" if state.ahead else ""
 
 
-def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
-    """Say in a sentence where a check stands."""
+def title(state: State, packages: Sequence[PackageLine]) -> str:
+    """Return what a check is called: as its package; the uploaded file until that is known."""
+    return packages[0].name if len(packages) == 1 else plain(state.order.name)
+
+
+def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> Headline:
+    """Say in a sentence where a check stands.
+
+    Args:
+        state: Of the check.
+        packages: What is known of them so far.
+        left: How long it will still take, in words; may be empty.
+    """
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
     match state.stage:
         case Stage.REFUSED:
@@ -191,9 +202,14 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
         case Stage.DONE:
             return _verdict(words, packages)
         case Stage.QUEUED:
-            return Headline("Waiting", _ahead(state) or "it starts in a moment")
+            ahead = _ahead(state) or "it starts in a moment"
+            return Headline("Waiting", ahead, "", _ready_in(left))
         case _:
-            return Headline("Checking", _so_far(packages) or words)
+            return Headline("Checking", _so_far(packages) or words, "", _ready_in(left))
+
+
+def _ready_in(left: str) -> str:
+    return f"The report will be ready in {left}." if left else ""
 
 
 def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:

@@ -19,7 +19,9 @@ from checker.service.web import receipts
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
 from checker.service.web.pages import progress
+from checker.service.web.pages.description import groups_of, shapes_of
 from checker.service.web.pages.progress import glance
+from checker.service.web.pages.remaining import Forecast
 from checker.service.web.pages.site import FOLDER, html, static_file
 from checker.service.web.services import Services
 from checker.service.web.uploads.transfer import new_check
@@ -123,13 +125,16 @@ def router(services: Services) -> APIRouter:
     """
     from fastapi import APIRouter
 
-    pages = _Pages(services)
+    pages = _Pages(services, Forecast(services.jobs))
     site = APIRouter()
     add = partial(site.add_route, include_in_schema=False)
     add("/", pages.start, methods=["GET"])
     add("/checks", pages.send, methods=["POST"])
     add("/checks/{id}", pages.check, methods=["GET"])
     add("/checks/{id}/cancel", pages.cancel, methods=["POST"])
+    add("/checks/{id}/delete", pages.ask_to_delete, methods=["GET"])
+    add("/checks/{id}/delete", pages.delete, methods=["POST"])
+    add("/api", pages.api, methods=["GET"])
     add("/rules", _rules, methods=["GET"])
     add("/rules/{id}", _rule, methods=["GET"])
     add(FOLDER + "/{release}/{name}", _static, methods=["GET"])
@@ -143,6 +148,7 @@ class _Pages(Record):
     """
 
     services: Services
+    forecast: Forecast
 
     def start(self, request: Request) -> Response:
         """Show the form, and what becomes of what is sent."""
@@ -182,9 +188,11 @@ class _Pages(Record):
         return html(
             "check.html.j2",
             id=state.id,
-            name=plain(state.order.name),
+            name=progress.title(state, packages),
+            file=plain(state.order.name),
             final=state.stage.is_final,
-            headline=progress.headline(state, packages),
+            mine=bool(receipts.kept(request)),
+            headline=progress.headline(state, packages, self.forecast.of(state)),
             steps=progress.steps_of(state, events),
             packages=packages,
             shown=_PACKAGES_SHOWN,
@@ -200,6 +208,35 @@ class _Pages(Record):
         id = request.path_params["id"]
         receipts.cancel(self.services, id, receipts.kept(request))
         return _see_other(f"/checks/{id}")
+
+    def ask_to_delete(self, request: Request) -> Response:
+        """Ask whether a check is really to be deleted."""
+        state = self.services.check(request.path_params["id"])
+        if not receipts.kept(request):
+            raise receipts.not_yours("delete its check")
+        packages = progress.package_lines(state, ())
+        name = progress.title(state, packages)
+        return html("delete.html.j2", id=state.id, name=name, deleted=False)
+
+    def delete(self, request: Request) -> Response:
+        """Delete a check, and say so: its own page is gone."""
+        state = self.services.check(request.path_params["id"])
+        receipts.delete(self.services, state.id, receipts.kept(request))
+        name = progress.title(state, progress.package_lines(state, ()))
+        answer = html("delete.html.j2", name=name, deleted=True)
+        receipts.take(answer, state.id)
+        return answer
+
+    def api(self, request: Request) -> Response:
+        """Show the description of the API."""
+        described, address = request.app.openapi(), self.services.address(request)
+        return html(
+            "api.html.j2",
+            here="api",
+            groups=groups_of(described, address),
+            shapes=shapes_of(described),
+            needs_token=bool(self.services.config.tokens),
+        )
 
 
 def _rules(_: Request) -> Response:
