@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
-from collections.abc import AsyncIterator, Callable, Collection, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Collection, Coroutine, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
@@ -100,6 +101,12 @@ class Reader:
         return self.numbers
 
 
+def run(story: Callable[[], Coroutine[None, None, None]]) -> None:
+    # In a thread of its own: a browser that runs has this one's event loop.
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(asyncio.run, story()).result()
+
+
 async def until(holds: Callable[[], bool]) -> None:
     async with asyncio.timeout(PATIENCE):
         while not holds():
@@ -119,7 +126,7 @@ def test_one_look_serves_all_who_follow_a_check(jobs: Told) -> None:
         assert [await reader.end() for reader in readers] == [[1, 2, 3]] * 50
         assert jobs.asked == before + 2
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_nobody_asks_while_nothing_changes(jobs: Told) -> None:
@@ -137,7 +144,7 @@ def test_nobody_asks_while_nothing_changes(jobs: Told) -> None:
         for reader in (one, other):
             reader.task.cancel()
 
-    asyncio.run(story())
+    run(story)
 
 
 @pytest.mark.parametrize(("after", "numbers"), [(0, [1, 2, 3]), (2, [3]), (3, []), (9, [])])
@@ -154,7 +161,7 @@ def test_who_comes_late_gets_what_was_missed(
         assert await late.end() == numbers
         assert await first.end() == [1, 2, 3]
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_of_a_check_that_is_deleted_nothing_more_comes(jobs: Told) -> None:
@@ -164,7 +171,7 @@ def test_of_a_check_that_is_deleted_nothing_more_comes(jobs: Told) -> None:
         del jobs.told[ID]  # nothing tells of it
         assert await reader.end() == [1]
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_a_database_that_is_away_is_waited_for(jobs: Told) -> None:
@@ -179,7 +186,7 @@ def test_a_database_that_is_away_is_waited_for(jobs: Told) -> None:
         jobs.fault = None
         assert await reader.end() == [1, 2]
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_after_a_fault_of_ours_who_follows_comes_back(
@@ -198,7 +205,7 @@ def test_after_a_fault_of_ours_who_follows_comes_back(
         jobs.tell(ID, Stage.DONE)
         assert await again.end() == [2]
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_a_stream_that_is_silent_says_that_it_lives(
@@ -212,7 +219,7 @@ def test_a_stream_that_is_silent_says_that_it_lives(
         assert reader.lines[1] == ": still there\n\n"
         reader.task.cancel()
 
-    asyncio.run(story())
+    run(story)
 
 
 def test_nobody_waits_for_changes_when_nobody_follows(jobs: Told) -> None:
@@ -227,4 +234,4 @@ def test_nobody_waits_for_changes_when_nobody_follows(jobs: Told) -> None:
         jobs.tell(ID, Stage.DONE)
         assert await again.end() == [1, 2]
 
-    asyncio.run(story())
+    run(story)
