@@ -109,7 +109,7 @@ def test_a_file_that_is_deleted_while_it_is_sent_comes_whole(tmp_path: Path) -> 
 
 
 REPORT = '<title>&lt;header&gt;</title></head><header class="not_ready">\n<h1>rover</h1></header>'
-BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+BROWSER = {"Accept": "text/html,*/*;q=0.8", "Accept-Encoding": "identity"}
 
 
 def test_a_report_leads_back_to_its_check_in_browsers_alone(
