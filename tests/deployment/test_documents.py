@@ -11,6 +11,8 @@ from checker.package.archives.index import ArchiveLimits
 from checker.service.jobs.check import LIMITS
 from checker.service.jobs.port import Stage
 from checker.service.web.config import Config
+from checker.service.web.services import AT_ONCE, OF_ONE
+from checker.service.web.uploads.archive_indexes import PROCESSOR_SECONDS, SECONDS
 from tests.deployment.image import ROOT
 from tests.each import of_each
 
@@ -91,8 +93,12 @@ def test_limits_are_those_of_the_code() -> None:
         f"{config.uploads_at_once} at once, half of them from one address"
     )
     assert told["archive"] == (
-        f"{index.entries} entries, {index.unpacked_bytes / 1e6:g} MB unpacked, "
-        f"{index.ratio} times its packed size"
+        f"{index.entries} entries, {index.paths} with the folders on the way to them, "
+        f"{index.unpacked_bytes / 1e6:g} MB unpacked, {index.ratio} times its packed size; "
+        f"{PROCESSOR_SECONDS} s of a processor and {SECONDS:g} s to read its index"
+    )
+    assert told["archives that are looked at"].startswith(
+        f"{AT_ONCE} at once, {OF_ONE} of them from one token or address"
     )
     assert told["static check"] == (
         f"{static.seconds:g} s, {static.memory / 1e9:g} GB of address space in each process, "

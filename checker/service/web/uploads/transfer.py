@@ -79,7 +79,8 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
     profile = _profile(form.fields.get("profile", ""))
     sender = services.admission.sender(request, form.fields)
     take = partial(_ordered, services, incoming, form.name, profile, sender, key)
-    return await to_thread.run_sync(take, limiter=services.threads)
+    async with services.lines.place(sender):
+        return await to_thread.run_sync(take, limiter=services.threads)
 
 
 def _ordered(
