@@ -85,12 +85,15 @@ def test_limits_are_those_of_the_code() -> None:
     static, trial = LIMITS[Stage.STATIC], LIMITS[Stage.TRIAL]
     told = dict(row for row in rows(SERVICE) if len(row) == 2)
     assert told["upload"] == (
-        f"{config.upload_limit / 1e6:g} MB, {config.upload_seconds:g} s, "
+        f"{config.upload_limit / 1e6:g} MB; {config.upload_seconds:g} s and "
+        f"{1e6 / config.steady:g} s for each MB; "
         f"{config.slowest / 1e3:g} kB/s on average, {config.idle_seconds:g} s without a byte"
     )
     assert told["uploads"] == (
         f"{config.uploads_per_minute} a minute from one address; "
-        f"{config.uploads_at_once} at once, half of them from one address"
+        f"{config.uploads_at_once} at once, half of them from one address; "
+        f"{config.bytes_per_client / 1e6:g} MB at once from one address (five of the largest), "
+        "and half of the disk's room for uploads, unless it is a single one"
     )
     assert told["archive"] == (
         f"{index.entries} entries, {index.paths} with the folders on the way to them, "

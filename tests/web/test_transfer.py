@@ -10,6 +10,7 @@ import tarfile
 import zipfile
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
+from functools import partial
 from pathlib import Path
 from threading import Event, Thread
 from time import monotonic, sleep
@@ -191,6 +192,42 @@ def test_an_upload_that_trickles_is_refused(store: Store) -> None:
 
     status, _ = answer_to(store, Config(idle_seconds=1, slowest=10_000), talk)
     assert status == 408
+
+
+@pytest.mark.service
+def test_an_upload_that_comes_steadily_ends_after_its_time_all_the_same(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(500_000) + form("a.sdf", b"<sdf/>")[:-20])
+        with suppress(OSError):
+            for _ in range(60):
+                connection.sendall(b" " * 1_000)
+                sleep(0.02)
+
+    status, words = answer_to(store, Config(upload_seconds=0.5, steady=1_000_000), talk)
+    assert status == 408
+    assert "at most 1 s" in words["error"]
+
+
+def are_coming(store: Store, number: int) -> bool:
+    """Whether so many uploads are under way."""
+    return len([*store.folder.glob("incoming/*")]) == number
+
+
+@pytest.mark.service
+def test_one_address_holds_so_many_bytes_of_uploads_and_no_more(store: Store) -> None:
+    config = Config(upload_limit=LIMIT)
+    with served(create_app(BoardJobs(), store, config)) as port, ExitStack() as stack:
+        for number in range(1, 6):
+            connection = socket.create_connection(("127.0.0.1", port))
+            stack.enter_context(connection).sendall(request_head(LIMIT))
+            assert eventually(partial(are_coming, store, number))
+        address = f"http://localhost:{port}/api/checks"
+        answer = httpx.post(address, files={"file": ("a.zip", GOOD)})
+        assert answer.status_code == 503
+        assert "3 MB are in progress from this address" in answer.json()["error"]
+        stack.close()
+        assert eventually(lambda: not left_behind(store))
+        assert httpx.post(address, files={"file": ("a.zip", GOOD)}).status_code == 201
 
 
 @pytest.mark.service

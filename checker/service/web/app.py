@@ -28,6 +28,7 @@ from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
+from checker.service.web.limits.space import space_of
 from checker.service.web.logs import FIELDS, LOGGER, log_to_stderr, short
 from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
@@ -167,6 +168,7 @@ def create_app(
         metrics,
         indexes or ArchiveIndexes(),
         Watchers(jobs),
+        space_of(store.folder, config),
     )
     app = FastAPI(
         title="subt-check",

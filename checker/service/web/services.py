@@ -17,6 +17,7 @@ from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.lines import Lines
+from checker.service.web.limits.space import Space
 from checker.service.web.metrics import Metrics
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
 
@@ -40,6 +41,7 @@ class Services(Record):
         metrics: Counts what they do.
         indexes: Reads those of archives.
         watchers: Follow checks.
+        space: Room on the disk for uploads.
         compressed: Files of results, for clients that take gzip.
         threads: For uploads that have come whole, to be looked at, kept and ordered.
         lines: Before these threads, one for each sender.
@@ -52,6 +54,7 @@ class Services(Record):
     metrics: Metrics
     indexes: ArchiveIndexes
     watchers: Watchers
+    space: Space
     compressed: CompressedFiles = field(default_factory=CompressedFiles)
     threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(AT_ONCE))
     lines: Lines = field(default_factory=lambda: Lines(AT_ONCE, OF_ONE))
