@@ -34,6 +34,7 @@ from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
+from checker.service.web.uploads.leftovers import swept
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -179,6 +180,7 @@ def create_app(
         redoc_url=None,
         redirect_slashes=False,
         telemetry=_NO_TELEMETRY,
+        lifespan=swept(store),
     )
     say_no_by(app)
     app.include_router(api.router(services))
