@@ -11,6 +11,8 @@ from checker.package.archives.index import ArchiveLimits
 from checker.service.jobs.check import LIMITS
 from checker.service.jobs.port import Stage
 from checker.service.web.config import Config
+from checker.service.web.services import AT_ONCE, OF_ONE
+from checker.service.web.uploads.archive_indexes import PROCESSOR_SECONDS, SECONDS
 from tests.deployment.image import ROOT
 from tests.each import of_each
 
@@ -83,16 +85,23 @@ def test_limits_are_those_of_the_code() -> None:
     static, trial = LIMITS[Stage.STATIC], LIMITS[Stage.TRIAL]
     told = dict(row for row in rows(SERVICE) if len(row) == 2)
     assert told["upload"] == (
-        f"{config.upload_limit / 1e6:g} MB, {config.upload_seconds:g} s, "
+        f"{config.upload_limit / 1e6:g} MB; {config.upload_seconds:g} s and "
+        f"{1e6 / config.steady:g} s for each MB; "
         f"{config.slowest / 1e3:g} kB/s on average, {config.idle_seconds:g} s without a byte"
     )
     assert told["uploads"] == (
         f"{config.uploads_per_minute} a minute from one address; "
-        f"{config.uploads_at_once} at once, half of them from one address"
+        f"{config.uploads_at_once} at once, half of them from one address; "
+        f"{config.bytes_per_client / 1e6:g} MB at once from one address (five of the largest), "
+        "and half of the disk's room for uploads, unless it is a single one"
     )
     assert told["archive"] == (
-        f"{index.entries} entries, {index.unpacked_bytes / 1e6:g} MB unpacked, "
-        f"{index.ratio} times its packed size"
+        f"{index.entries} entries, {index.paths} with the folders on the way to them, "
+        f"{index.unpacked_bytes / 1e6:g} MB unpacked, {index.ratio} times its packed size; "
+        f"{PROCESSOR_SECONDS} s of a processor and {SECONDS:g} s to read its index"
+    )
+    assert told["archives that are looked at"].startswith(
+        f"{AT_ONCE} at once, {OF_ONE} of them from one token or address"
     )
     assert told["static check"] == (
         f"{static.seconds:g} s of processor time and {static.memory / 1e9:g} GB of address space "

@@ -114,6 +114,15 @@ def test_ten_thousand_files(pack: Pack, tmp_path: Path) -> None:
     assert "rover/5000.txt' exceeds the limit of 5000 entries" in refusal(archive, tmp_path)
 
 
+def test_a_quarter_of_a_million_folders(pack: Pack, tmp_path: Path) -> None:
+    """Names of such length and depth took a gigabyte and two seconds to compare."""
+    way = "/".join(["e\u0301" * 4] * 47)
+    archive = pack([(f"rover/{number}/{way}/x", b"") for number in range(5_000)])
+    begun = time.process_time()
+    assert "the limit of 10000 files and folders" in refusal(archive, tmp_path)
+    assert time.process_time() - begun < 1
+
+
 def test_bomb_is_told_by_its_ratio(pack: Pack, tmp_path: Path) -> None:
     archive = pack([("rover/model.sdf", MODEL), ("rover/zeros.dae", bytes(30_000_000))])
     assert "zeros.dae' makes it unpack to more than 200 times" in refusal(archive, tmp_path)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
-from time import sleep
+from time import sleep, time
 
 import pytest
 from blake3 import blake3
@@ -116,3 +117,20 @@ def test_our_own_work_is_not_swept(tmp_path: Path) -> None:
         assert (place / "file").exists()
         assert incoming.path.exists()
     assert not in_progress(store)
+
+
+def test_what_is_nobodys_work_goes_after_a_moment(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    with store.workplace() as place:
+        home = place.parent
+        for name in ("tmpabc", "tmpnew"):
+            (home / name).write_bytes(b"a copy of an upload")
+        (home / "0123" / "inner").mkdir(parents=True)
+        for name in ("tmpabc", "0123", place.name):
+            os.utime(home / name, (time() - 60,) * 2)
+        store.sweep()
+        assert {each.name for each in home.iterdir()} == {
+            "tmpnew",
+            place.name,
+            f"{place.name}.lock",
+        }

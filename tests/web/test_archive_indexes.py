@@ -151,6 +151,28 @@ def test_one_that_was_taken_over_says_nonsense(
     said: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read_by(HOSTILE.format(said=said), tmp_path, monkeypatch)
-    monkeypatch.setattr(archive_indexes, "_SECONDS", 2.0)
-    with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
+    monkeypatch.setattr(archive_indexes, "SECONDS", 2.0)
+    why = "has an index that cannot be read" if said else "takes more than the 2 s allowed"
+    with pytest.raises(UnreadableInput, match=why):
         ArchiveIndexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
+
+
+GREEDY = """
+def serve(wire):
+    wire.recv(4096)
+    {does}
+"""
+
+
+@pytest.mark.parametrize(
+    ("does", "limit"),
+    [("while True: pass", "1 s of processor time"), ("bytes(2 * 10**9)", "500 MB of memory")],
+)
+def test_one_that_takes_too_much_is_told_its_limit(
+    does: str, limit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_by(GREEDY.format(does=does), tmp_path, monkeypatch)
+    monkeypatch.setattr(archive_indexes, "PROCESSOR_SECONDS", 1)
+    with pytest.raises(UnreadableInput, match=f"takes more than the {limit} allowed") as error:
+        ArchiveIndexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
+    assert "pack the package folder again" in error.value.advice

@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 import json
 import socket
+import sys
 import tarfile
 import zipfile
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from functools import partial
 from pathlib import Path
 from threading import Event, Thread
 from time import monotonic, sleep
@@ -24,6 +26,7 @@ from checker.service.web.config import Config
 from checker.service.web.uploads.transfer import AT_ONCE
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
+from tests.web.test_archive_indexes import read_by
 
 LIMIT = 600_000
 CUT = 'refused_total{cause="cut"} 1.0'
@@ -192,6 +195,42 @@ def test_an_upload_that_trickles_is_refused(store: Store) -> None:
 
 
 @pytest.mark.service
+def test_an_upload_that_comes_steadily_ends_after_its_time_all_the_same(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(500_000) + form("a.sdf", b"<sdf/>")[:-20])
+        with suppress(OSError):
+            for _ in range(60):
+                connection.sendall(b" " * 1_000)
+                sleep(0.02)
+
+    status, words = answer_to(store, Config(upload_seconds=0.5, steady=1_000_000), talk)
+    assert status == 408
+    assert "at most 1 s" in words["error"]
+
+
+def are_coming(store: Store, number: int) -> bool:
+    """Whether so many uploads are under way."""
+    return len([*store.folder.glob("incoming/*")]) == number
+
+
+@pytest.mark.service
+def test_one_address_holds_so_many_bytes_of_uploads_and_no_more(store: Store) -> None:
+    config = Config(upload_limit=LIMIT)
+    with served(create_app(BoardJobs(), store, config)) as port, ExitStack() as stack:
+        for number in range(1, 6):
+            connection = socket.create_connection(("127.0.0.1", port))
+            stack.enter_context(connection).sendall(request_head(LIMIT))
+            assert eventually(partial(are_coming, store, number))
+        address = f"http://localhost:{port}/api/checks"
+        answer = httpx.post(address, files={"file": ("a.zip", GOOD)})
+        assert answer.status_code == 503
+        assert "3 MB are in progress from this address" in answer.json()["error"]
+        stack.close()
+        assert eventually(lambda: not left_behind(store))
+        assert httpx.post(address, files={"file": ("a.zip", GOOD)}).status_code == 201
+
+
+@pytest.mark.service
 def test_an_upload_that_is_announced_too_large_is_refused_before_it_comes(store: Store) -> None:
     def talk(connection: socket.socket) -> None:
         connection.sendall(request_head(200_000_000))
@@ -270,3 +309,40 @@ def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
         # Theirs would have lasted for minutes; this is for a machine that does much else.
         assert monotonic() - begun < 15
         assert len([*store.folder.glob("incoming/*")]) >= 10
+
+
+SLOW = """
+import json, os, socket, time
+def serve(wire):
+    message, _, _, _ = socket.recv_fds(wire, 4096, 1)
+    if json.loads(message)["name"] == "slow.zip":
+        time.sleep(60)
+    wire.sendall(b"{}\\n")
+"""
+
+
+@pytest.mark.service
+@pytest.mark.skipif(sys.platform != "linux", reason="the system has one address of its own")
+def test_slow_archives_of_one_sender_keep_nobody_else_waiting(
+    store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_by(SLOW, tmp_path, monkeypatch)
+
+    def send(port: int, source: str, name: str) -> int:
+        transport = httpx.HTTPTransport(local_address=source)
+        with httpx.Client(transport=transport, timeout=30) as client:
+            address = f"http://127.0.0.1:{port}/api/checks"
+            return client.post(address, files={"file": (name, GOOD)}).status_code
+
+    def send_slow(port: int) -> None:
+        with suppress(httpx.HTTPError):
+            send(port, "127.0.0.2", "slow.zip")
+
+    with served(create_app(BoardJobs(), store, Config())) as port:
+        for _ in range(40):
+            Thread(target=send_slow, args=(port,), daemon=True).start()
+        assert eventually(lambda: len([*store.folder.glob("incoming/*")]) == 40)
+        begun = monotonic()
+        for _ in range(5):
+            assert send(port, "127.0.0.1", "quick.zip") == 201
+        assert monotonic() - begun < 15  # a single slow one would last for a minute

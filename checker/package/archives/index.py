@@ -21,6 +21,7 @@ class ArchiveLimits(Record):
 
     Attributes:
         entries: Files and folders.
+        paths: These, and the folders on the way to them.
         unpacked_bytes: All files together.
         ratio: Unpacked size over the archive's size.
         ratio_floor_bytes: Up to this unpacked size any ratio passes: small text packs well.
@@ -30,6 +31,7 @@ class ArchiveLimits(Record):
     """
 
     entries: int = 5_000
+    paths: int = 10_000
     unpacked_bytes: int = 500_000_000
     ratio: int = 200
     ratio_floor_bytes: int = 10_000_000
@@ -132,23 +134,31 @@ class ArchiveIndex:
         return path
 
     def _claim(self, name: str, path: str, is_folder: bool) -> None:
-        """Refuse a path, or a folder on the way to it, that clashes with an earlier one."""
-        parts = path.split("/")
-        for end in range(1, len(parts) + 1):
-            spelling = "/".join(parts[:end])
-            as_folder = is_folder or end < len(parts)
+        """Refuse a path, or a folder on the way to it, that clashes with an earlier one.
+
+        The way goes up from the path, and ends at a folder that is known: so are those above it.
+        """
+        spelling, as_folder = path, is_folder
+        while spelling:
             key = unicodedata.normalize("NFC", spelling).casefold()
             earlier = self._seen.get(key)
-            if earlier is None:
-                self._seen[key] = (spelling, as_folder)
-            elif earlier[0] != spelling:
-                raise self.refusal(
-                    name, f"differs from '{earlier[0]}' only in upper and lower case"
-                )
-            elif earlier[1] != as_folder:
-                raise self.refusal(name, "is both a file and a folder")
-            elif not as_folder:
-                raise self.refusal(name, "appears twice")
+            if earlier is not None:
+                self._compare(name, (spelling, as_folder), earlier)
+                return
+            if len(self._seen) >= self.limits.paths:
+                most = self.limits.paths
+                raise self.refusal(name, f"exceeds the limit of {most} files and folders")
+            self._seen[key] = (spelling, as_folder)
+            spelling, as_folder = spelling.rpartition("/")[0], True
+
+    def _compare(self, name: str, path: tuple[str, bool], earlier: tuple[str, bool]) -> None:
+        """Refuse a path, and whether it is a folder, unless it is that of an earlier folder."""
+        if earlier[0] != path[0]:
+            raise self.refusal(name, f"differs from '{earlier[0]}' only in upper and lower case")
+        if earlier[1] != path[1]:
+            raise self.refusal(name, "is both a file and a folder")
+        if not path[1]:
+            raise self.refusal(name, "appears twice")
 
     def _weigh(self, name: str, size: int) -> None:
         if size < 0:

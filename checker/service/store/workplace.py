@@ -13,6 +13,7 @@ import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from time import time
 
 from checker.base.files import make_folder
 
@@ -125,6 +126,7 @@ def settle_name(target: Path) -> None:
 
 
 _LOCK, _FILE = ".lock", ".part"
+_STRAY_SECONDS = 30.0
 
 
 @contextmanager
@@ -168,7 +170,11 @@ def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
 
 
 def sweep(home: Path) -> None:
-    """Remove the work whose owners have ended without doing so."""
+    """Remove the work whose owners have ended without doing so, and what is nobody's work."""
+    for stray in _strays(home):
+        with suppress(OSError):
+            _remove_all(stray)
+            stray.unlink(missing_ok=True)
     for file in (*home.glob(f"*{_LOCK}"), *home.glob(f"*{_FILE}")):
         with suppress(OSError):
             lock = os.open(file, os.O_RDWR)
@@ -177,6 +183,18 @@ def sweep(home: Path) -> None:
                     _remove(file)
             finally:
                 os.close(lock)
+
+
+def _strays(home: Path) -> Iterator[Path]:
+    """Yield what has no lock and is none: each folder of ours has one as long as it is there.
+
+    Where a file system has no files without names, a temporary one has a name for a moment.
+    """
+    for place in home.glob("*"):
+        with suppress(OSError):
+            is_ours = place.suffix in (_LOCK, _FILE) or place.with_suffix(_LOCK).exists()
+            if not is_ours and time() - place.lstat().st_mtime > _STRAY_SECONDS:
+                yield place
 
 
 def _locks(descriptor: int) -> bool:

@@ -28,11 +28,13 @@ from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
+from checker.service.web.limits.space import space_of
 from checker.service.web.logs import FIELDS, LOGGER, log_to_stderr, short
 from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
+from checker.service.web.uploads.leftovers import swept
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -167,6 +169,7 @@ def create_app(
         metrics,
         indexes or ArchiveIndexes(),
         Watchers(jobs),
+        space_of(store.folder, config),
     )
     app = FastAPI(
         title="subt-check",
@@ -177,6 +180,7 @@ def create_app(
         redoc_url=None,
         redirect_slashes=False,
         telemetry=_NO_TELEMETRY,
+        lifespan=swept(store),
     )
     say_no_by(app)
     app.include_router(api.router(services))

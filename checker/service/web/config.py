@@ -32,7 +32,8 @@ class Config(Record):
         streams_per_client: Of them of one client, by its address, which a class may share; on this
             machine, all of them.
         idle_seconds: That an upload may stand still.
-        upload_seconds: That an upload may last.
+        upload_seconds: That any upload may last; its size buys more.
+        steady: Bytes per second that an upload brings beyond these seconds.
         slowest: Bytes per second that an upload brings on average.
         without_sandbox: Whether workers may check uploads of others without a sandbox.
         base_url: Where people reach it, such as `https://check.example`; empty for what they asked.
@@ -47,7 +48,8 @@ class Config(Record):
     streams: int = 400
     streams_per_client: int = 50
     idle_seconds: float = 20.0
-    upload_seconds: float = 900.0
+    upload_seconds: float = 100.0
+    steady: int = 125_000
     slowest: int = 10_000
     without_sandbox: bool = False
     base_url: str = ""
@@ -56,6 +58,15 @@ class Config(Record):
     def room(self) -> int:
         """Bytes that the disk must have free: reports and the database need some as well."""
         return 2 * self.upload_limit
+
+    @property
+    def bytes_per_client(self) -> int:
+        """Bytes of all uploads of one client that are under way."""
+        return 5 * self.upload_limit
+
+    def longest(self, size: int) -> float:
+        """Return how many seconds an upload of so many bytes may last."""
+        return self.upload_seconds + size / self.steady
 
     @property
     def only_here(self) -> bool:

@@ -16,6 +16,8 @@ from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config
 from checker.service.web.limits.admission import Admission
+from checker.service.web.limits.lines import Lines
+from checker.service.web.limits.space import Space
 from checker.service.web.metrics import Metrics
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
 
@@ -24,8 +26,8 @@ if TYPE_CHECKING:
 
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
 """What can be an id at all; the rest is not asked of the database."""
-_AT_ONCE = 16
-"""Uploads; most take 10 ms, some archives seconds."""
+AT_ONCE, OF_ONE = 16, 4
+"""Uploads, and those of one sender; most take 10 ms, some archives seconds."""
 
 
 class Services(Record):
@@ -39,8 +41,10 @@ class Services(Record):
         metrics: Counts what they do.
         indexes: Reads those of archives.
         watchers: Follow checks.
+        space: Room on the disk for uploads.
         compressed: Files of results, for clients that take gzip.
         threads: For uploads that have come whole, to be looked at, kept and ordered.
+        lines: Before these threads, one for each sender.
     """
 
     jobs: Jobs
@@ -50,8 +54,10 @@ class Services(Record):
     metrics: Metrics
     indexes: ArchiveIndexes
     watchers: Watchers
+    space: Space
     compressed: CompressedFiles = field(default_factory=CompressedFiles)
-    threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+    threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(AT_ONCE))
+    lines: Lines = field(default_factory=lambda: Lines(AT_ONCE, OF_ONE))
 
     def check(self, id: str) -> State:
         """Return where a check stands.

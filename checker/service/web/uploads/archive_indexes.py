@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import select
 import shutil
+import signal
 import socket
 import tempfile
 from pathlib import Path
@@ -17,17 +19,22 @@ from checker.base.errors import UnreadableInput
 from checker.base.files import open_file
 from checker.base.resources import PACKAGE
 from checker.base.sandbox.launcher import Launcher, Order, OwnLauncher
+from checker.base.sandbox.task import OUT_OF_MEMORY
 
 _MODULE = f"{PACKAGE}.package.archives.index_process"
-_SECONDS, _PROCESSOR_SECONDS = 30.0, 30
-"""For one index."""
+SECONDS, PROCESSOR_SECONDS = 60.0, 4
+"""For one index: one of 5000 entries, or of 100 MB that hold 500, takes less than a second of a
+processor; those that are made to be slow took five."""
 _MEMORY = 500_000_000
 """Bytes of address space."""
 _ANSWER_LIMIT = 10_000
 _WORDS_LIMIT = 1_000
 _WAITING = 4
 """Processes that wait for an archive, each for one alone."""
+_CODE_LIMIT, _CODE_SECONDS = 20, 1.0
+_UNREADABLE = "has an index that cannot be read"
 _AGAIN = "upload it again, or with fewer files"
+_PACK_AGAIN = "pack the package folder again, with an ordinary program and fewer files"
 
 
 class _Reader:
@@ -36,7 +43,7 @@ class _Reader:
     def __init__(self, launcher: Launcher) -> None:
         """Start it."""
         self._wire, theirs = socket.socketpair()
-        order = Order(_MODULE, _PROCESSOR_SECONDS, _MEMORY, serves=True)
+        order = Order(_MODULE, PROCESSOR_SECONDS, _MEMORY, serves=True)
         with theirs, theirs.makefile("rb") as request, tempfile.TemporaryFile() as answer:
             self._started = launcher.start(order, request, answer)
 
@@ -44,8 +51,9 @@ class _Reader:
         """Return what it says of an archive.
 
         Raises:
-            OSError: It does not answer in time, or the archive cannot be opened.
-            ValueError: It answers with nonsense.
+            TimeoutError: It does not answer in time.
+            OSError: The archive cannot be opened.
+            ValueError: It answers with nonsense, or has died.
         """
         # A copy, of which nothing leads to what is kept.
         with open_file(archive) as file, tempfile.TemporaryFile(dir=archive.parent) as copy:
@@ -56,7 +64,7 @@ class _Reader:
         return from_json(self._heard())
 
     def _heard(self) -> bytes:
-        deadline, data = monotonic() + _SECONDS, b""
+        deadline, data = monotonic() + SECONDS, b""
         while not data.endswith(b"\n"):
             self._wire.settimeout(max(0.01, deadline - monotonic()))
             piece = self._wire.recv(_ANSWER_LIMIT)
@@ -64,6 +72,18 @@ class _Reader:
             if not piece or len(data) > _ANSWER_LIMIT:
                 raise ValueError("no answer")
         return data
+
+    @property
+    def reached(self) -> str:
+        """What limit it has died of, in words; empty if it died of none, or lives."""
+        if not select.select([self._started.code], [], [], _CODE_SECONDS)[0]:
+            return ""
+        match os.read(self._started.code, _CODE_LIMIT):
+            case code if code == str(-signal.SIGXCPU).encode():
+                return f"{PROCESSOR_SECONDS} s of processor time"
+            case code if code == str(OUT_OF_MEMORY).encode():
+                return f"{_MEMORY / 1e6:g} MB of memory"
+        return ""
 
     def stop(self) -> None:
         """End it."""
@@ -107,13 +127,13 @@ class ArchiveIndexes:
         try:
             answer = self._asked(archive, name)
         except (OSError, ValueError):
-            raise UnreadableInput(archive, "has an index that cannot be read", _AGAIN) from None
+            raise UnreadableInput(archive, _UNREADABLE, _AGAIN) from None
         match answer:
             case {"reason": str(reason), "advice": str(advice)}:
                 raise UnreadableInput(archive, reason[:_WORDS_LIMIT], advice[:_WORDS_LIMIT])
             case {}:
                 return
-        raise UnreadableInput(archive, "has an index that cannot be read", _AGAIN)
+        raise UnreadableInput(archive, _UNREADABLE, _AGAIN)
 
     def _asked(self, archive: Path, name: str) -> Any:
         self.start()
@@ -121,5 +141,15 @@ class ArchiveIndexes:
             reader = self._waiting.pop(0)
         try:
             return reader.ask(archive, name)
+        except TimeoutError:
+            raise UnreadableInput(archive, _takes_more(f"{SECONDS:g} s"), _AGAIN) from None
+        except ValueError:
+            if limit := reader.reached:
+                raise UnreadableInput(archive, _takes_more(limit), _PACK_AGAIN) from None
+            raise
         finally:
             reader.stop()
+
+
+def _takes_more(limit: str) -> str:
+    return f"takes more than the {limit} allowed until its index is read"

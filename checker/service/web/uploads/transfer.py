@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import errno
-import os
-import shutil
 from collections.abc import AsyncIterator, MutableMapping
 from dataclasses import dataclass
 from functools import partial
@@ -21,10 +18,11 @@ from checker.base.words import plain
 from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.profiles import profile_names
 from checker.service.jobs.port import Order, Receipt
-from checker.service.store.store import Store
 from checker.service.store.workplace import Incoming, TooLarge
 from checker.service.web.answers.refusal import Refused, sentence
 from checker.service.web.config import Config
+from checker.service.web.limits.rates import client_of
+from checker.service.web.limits.space import Claim, no_room
 from checker.service.web.receipts import key_of
 from checker.service.web.services import Services
 from checker.service.web.uploads.form import ROOM, UploadForm
@@ -52,34 +50,40 @@ async def new_check(request: Request, services: Services) -> Receipt:
     """
     config = services.config
     with services.admission.upload(request):
-        _refuse_announced(request, config)
+        size = _announced(request, config)
         try:
-            _refuse_without_room(services.store, config)
             # Unless the store has it by then, nothing of it is left behind this.
-            with services.store.incoming(config.upload_limit) as incoming:
-                receipt = await _received(request, services, incoming)
+            with (
+                services.space.reserve(client_of(request), size) as claim,
+                services.store.incoming(config.upload_limit) as incoming,
+            ):
+                receipt = await _received(request, services, incoming, claim)
         except TooLarge:
             raise too_large(config.upload_limit) from None
         except OSError as error:
-            raise _no_room(error) from None
+            raise no_room(error) from None
     services.metrics.uploads.inc()
     return receipt
 
 
-async def _received(request: Request, services: Services, incoming: Incoming) -> Receipt:
+async def _received(
+    request: Request, services: Services, incoming: Incoming, claim: Claim
+) -> Receipt:
     """Read the form, and have a check of its file ordered; see `new_check`."""
     key, admit = key_of(request), services.admission.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
-    async for piece in _pieces(request, services.config):
+    async for piece in _pieces(request, services.config, claim.size):
         if incoming.size < AT_ONCE:
             form.feed(piece)
         else:
             await run_in_threadpool(form.feed, piece)
+        claim.written = incoming.size
     form.end()
     profile = _profile(form.fields.get("profile", ""))
     sender = services.admission.sender(request, form.fields)
     take = partial(_ordered, services, incoming, form.name, profile, sender, key)
-    return await to_thread.run_sync(take, limiter=services.threads)
+    async with services.lines.place(sender):
+        return await to_thread.run_sync(take, limiter=services.threads)
 
 
 def _ordered(
@@ -105,21 +109,18 @@ def too_large(limit: int) -> Refused:
     )
 
 
-def _refuse_announced(request: Request, config: Config) -> None:
-    """Refuse what says of itself that it is too large, before any of it is read."""
+def _announced(request: Request, config: Config) -> int:
+    """Return how many bytes a request may bring; without a word on it, as many as any.
+
+    Raises:
+        Refused: It says of itself that it is too large.
+    """
     length = request.headers.get("content-length", "")
-    if length.isdecimal() and len(length) <= 20 and int(length) > config.upload_limit + ROOM:
+    if not (length.isdecimal() and len(length) <= 20):
+        return config.upload_limit
+    if int(length) > config.upload_limit + ROOM:
         raise too_large(config.upload_limit)
-
-
-def _refuse_without_room(store: Store, config: Config) -> None:
-    """Refuse all uploads before the disk is so full that no check can be finished."""
-    try:
-        free = shutil.disk_usage(store.folder).free
-    except OSError:  # writing will tell
-        return
-    if free < config.room:
-        raise _no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
+    return min(int(length), config.upload_limit)
 
 
 @dataclass
@@ -127,11 +128,13 @@ class _Patience:
     """How long an upload is waited for: each byte of it buys time.
 
     Attributes:
+        longest: Seconds that it may last, however fast it comes.
         started: By the monotonic clock.
         received: Bytes so far.
     """
 
     config: Config
+    longest: float
     started: float
     received: int = 0
 
@@ -140,16 +143,16 @@ class _Patience:
         """Seconds from now."""
         config, passed = self.config, monotonic() - self.started
         bought = config.idle_seconds + self.received / config.slowest
-        return min(bought, config.upload_seconds) - passed
+        return min(bought, self.longest) - passed
 
 
-async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
+async def _pieces(request: Request, config: Config, size: int) -> AsyncIterator[bytes]:
     """Yield the body of a request piece by piece.
 
     Raises:
         Refused: It comes too slowly, is longer than any form, or ends early.
     """
-    patience = _Patience(config, monotonic())
+    patience = _Patience(config, config.longest(size), monotonic())
     more = True
     while more:
         message = await _message(request, config, patience)
@@ -171,14 +174,15 @@ async def _message(
         async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
             return await request.receive()
     except TimeoutError:
-        raise _too_slow(config) from None
+        raise _too_slow(patience) from None
 
 
-def _too_slow(config: Config) -> Refused:
-    least = config.slowest / 1e3
+def _too_slow(patience: _Patience) -> Refused:
+    least, longest = patience.config.slowest / 1e3, patience.longest
     return Refused(
         408,
-        f"The upload is too slow, expected {least:g} kB/s or more without long breaks.",
+        f"The upload is too slow, expected {least:g} kB/s or more without long breaks, and at "
+        f"most {longest:.0f} s.",
         "Send it again over a better connection, or reduce it.",
         "slow",
     )
@@ -190,14 +194,3 @@ def _profile(name: str) -> str:
         shown = ", ".join(known)
         raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
     return name
-
-
-def _no_room(error: OSError) -> Refused:
-    reason = error.strerror or "the disk does not answer"
-    return Refused(
-        503,
-        f"The service cannot keep the upload: {reason}.",
-        "Try again later.",
-        "disk",
-        {"Retry-After": "60"},
-    )

@@ -1,0 +1,48 @@
+"""Work in progress whose owners were killed: the web process removes it while it serves."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from typing import TYPE_CHECKING
+
+from starlette.concurrency import run_in_threadpool
+
+from checker.service.store.store import Store
+from checker.service.web.logs import LOGGER
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+SECONDS = 30.0
+"""From one look to the next; it takes a millisecond where a hundred uploads are under way."""
+_LOG = logging.getLogger(LOGGER)
+
+
+def swept(store: Store) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
+    """Return what goes on beside an application as long as it serves.
+
+    Args:
+        store: Whose work in progress is looked through: that of workers, too.
+    """
+
+    @asynccontextmanager
+    async def while_serving(_: FastAPI) -> AsyncIterator[None]:
+        looking = asyncio.create_task(_sweep_again(store))
+        try:
+            yield
+        finally:
+            looking.cancel()
+
+    return while_serving
+
+
+async def _sweep_again(store: Store) -> None:
+    while True:
+        await asyncio.sleep(SECONDS)
+        try:
+            await run_in_threadpool(store.sweep)
+        except OSError:
+            _LOG.exception("what is left of killed processes cannot be removed")
