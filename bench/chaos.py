@@ -48,6 +48,8 @@ PATIENCE = 1_800.0
 """Seconds until the last check has to be over."""
 ANSWER_SECONDS = 30.0
 MINUTE = 60.0
+_SOON = 3.0
+"""Seconds until checks are under way."""
 _BEAT_FILES_SECONDS = 90.0
 """Within which nothing that the dead have left may lie in `incoming`."""
 
@@ -372,6 +374,26 @@ def database_away(group: Group, server: int) -> Iterator[None]:
         connection.rollback()
 
 
+def away(group: Group, server: str, seconds: float) -> None:
+    """Have the database of a service answer nobody for a while, soon.
+
+    Args:
+        group: Uses it.
+        server: Address of PostgreSQL; empty for SQLite.
+        seconds: How long.
+    """
+    sleep(_SOON)
+    with database_away(group, server_process(server)):
+        sleep(seconds)
+
+
+def filled(group: Group, seconds: float) -> None:
+    """Have the disk of a service be full for a while, soon."""
+    sleep(_SOON)
+    with full(group.folder / "data"):
+        sleep(seconds)
+
+
 @dataclass
 class Trouble:
     """What went wrong in all.
@@ -492,28 +514,16 @@ def main() -> None:
             trouble = suffered(groups, options.uploads, options.kills)
             _show("processes are killed at random", trouble)
             well.append(trouble.is_none and trouble.kills.total() >= options.kills)
-            trouble = suffered(groups, 10, meanwhile=lambda: _away(groups[0], server))
+            trouble = suffered(groups, 10, meanwhile=lambda: away(groups[0], server, MINUTE))
             _show("the database is away for a minute", trouble)
             well.append(trouble.is_none)
         (folder / "small").mkdir()
         with services(folder / "small", server, 700_000_000) as groups:
-            trouble = suffered(groups, 10, meanwhile=lambda: _full(groups[0]))
+            trouble = suffered(groups, 10, meanwhile=lambda: filled(groups[0], MINUTE))
             _show("the disk is full for a minute", trouble)
             well.append(trouble.is_none)
     if not all(well):
         raise SystemExit("NO: something was lost, doubled, failed or left")
-
-
-def _away(group: Group, server: str) -> None:
-    sleep(3.0)
-    with database_away(group, server_process(server)):
-        sleep(MINUTE)
-
-
-def _full(group: Group) -> None:
-    sleep(3.0)
-    with full(group.folder / "data"):
-        sleep(MINUTE)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import sys
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from checker.base.errors import CheckerError
 from checker.base.files import UMASK
@@ -68,9 +68,10 @@ def worker(options: argparse.Namespace) -> int:
 
     os.umask(UMASK)  # for its children and their libraries, too
     store = _data_made(options)
-    own = {"name": options.name} if options.name else {}
+    own: dict[str, Any] = {"name": options.name} if options.name else {}
+    own |= {"trials": options.jobs} if options.jobs else {}
     try:
-        work(WorkerOptions(database_url(), store, trials=options.jobs, **own))
+        work(WorkerOptions(database_url(), store, **own))
     except JobsUnreachable as error:
         raise CheckerError(str(error)) from None
     return EXIT_CLEAN

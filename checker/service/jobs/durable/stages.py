@@ -161,10 +161,13 @@ def _conclusion(outcome: Checked | Refused | Died, stage: Stage) -> Step:
 
 def patiently(ask: Callable[[], _T]) -> _T:
     """Ask the database until it answers: what came of minutes of work is not thrown away."""
+    is_away = False
     while True:
         try:
             with reachable():
                 return ask()
         except JobsUnreachable as error:
-            _LOG.warning("%s; asking again", error)
+            if not is_away:
+                _LOG.warning("%s; asks again each second", error)
+            is_away = True
             time.sleep(_RETRY_SECONDS)
