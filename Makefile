@@ -68,6 +68,9 @@ bench: .venv/tested $(VIEWER)
 	$(PACKAGES) $(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
+	$(BIN)/python -m bench.fairness
+	$(BIN)/python -m bench.chaos
+	$(BIN)/python -m bench.chaos --postgres
 	$(BIN)/python -m bench.start
 	$(BIN)/python -m bench.start --postgres
 	$(BIN)/python -m bench.reports

@@ -14,10 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=positive,
         metavar="N",
-        help=(
-            "trials at the same time in each worker process (default: the last number given, else "
-            "1)"
-        ),
+        help="trials at the same time, and one more of another sender (default: 1)",
     )
     parser.add_argument(
         "--name",

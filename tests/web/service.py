@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,16 +15,22 @@ ROOT = Path(__file__).parents[2]
 
 
 @contextmanager
-def service(data: Path, more: Mapping[str, str] | None = None, workers: int = 1) -> Iterator[str]:
+def service(
+    data: Path,
+    more: Mapping[str, str] | None = None,
+    workers: int = 1,
+    options: Sequence[str] = (),
+) -> Iterator[str]:
     """Start a service, yield its address, and stop it.
 
     Args:
         data: Its folder.
         more: Variables of its environment.
         workers: How many.
+        options: Of `subt-check serve`, besides.
     """
     command = [sys.executable, "-m", "checker.cli", "serve", "--port", "0"]
-    command += ["--workers", str(workers), "--data", str(data)]
+    command += ["--workers", str(workers), "--data", str(data), *options]
     log = data.parent / f"{data.name}.log"
     with process(command, ROOT, {**os.environ, **(more or {})}, log) as started:
         yield address(started)
