@@ -13,6 +13,7 @@ import struct
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import cache as once
 
 from checker.base.sandbox.seccomp import NotHeld
 
@@ -111,12 +112,18 @@ def _grant(ruleset: int, path: str, rights: int) -> None:
 
 
 def _call(*arguments: object) -> int:
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.syscall.restype = ctypes.c_long
     numbers = [
         ctypes.c_long(argument) if isinstance(argument, int) else argument for argument in arguments
     ]
-    result = int(libc.syscall(*numbers))
+    result = int(_libc().syscall(*numbers))
     if result < 0:
         raise NotHeld(f"Landlock: {os.strerror(ctypes.get_errno())}")
     return result
+
+
+@once
+def _libc() -> ctypes.CDLL:
+    """Return the C library; each process in the sandbox asks it forty times before it begins."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.syscall.restype = ctypes.c_long
+    return libc

@@ -15,6 +15,7 @@ import ctypes
 import json
 import os
 import re
+import resource
 import select
 import signal
 import socket
@@ -242,8 +243,6 @@ def _close_all_but(kept: set[int]) -> None:
 
 def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
     """Keep processes from starting too many, where only they count for their user."""
-    import resource
-
     account = any(layer.name == ACCOUNT and layer.held for layer in layers)
     # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
     version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
