@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from checker.base.allowance import Allowance, Exceeded
 from checker.base.cache import NO_CACHE, Cache, cache_folder
-from checker.base.errors import InvalidSettings, UnreadableInput
+from checker.base.errors import InvalidSettings, UnreadableInput, momentary_cause
 from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, say_nothing
@@ -210,7 +210,8 @@ def _check_or_say_why_not(task: Task) -> Checked:
 
 
 def _failed(path: Path, error: UnreadableInput) -> NotOpened:
-    return NotOpened(str(path), f"{error.reason}; {error.advice}", failed=True)
+    reason, disturbed = f"{error.reason}; {error.advice}", momentary_cause(error)
+    return NotOpened(str(path), reason, failed=True, disturbed=disturbed)
 
 
 def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:

@@ -270,11 +270,13 @@ class NotOpened(Record):
         path: As the user gave it.
         reason: The end of a sentence that starts with the path.
         failed: Whether the user asked for it by name, so that the run has failed.
+        disturbed: What failed of the disk or the system, if that is why; else empty.
     """
 
     path: str
     reason: str
     failed: bool
+    disturbed: str = ""
 
 
 class Report(Record):

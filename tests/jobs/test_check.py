@@ -312,6 +312,22 @@ def test_the_disk_gets_full_meanwhile(store: Store, samples: Path, tmp_path: Pat
         assert isinstance(check(store, order, Stage.TRIAL), Checked)
 
 
+@needs_mount
+def test_the_disk_has_no_room_for_what_is_unpacked(store: Store, tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "large.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("p/model.sdf", "<sdf version='1.6'><model name='p'/></sdf>")
+        archive.writestr("p/noise.bin", os.urandom(400_000) + bytes(30_000_000))
+    with small_disk(store.folder, 50_000_000) as disk:
+        order = given(store, "large.zip", (tmp_path / "large.zip").read_bytes())
+        half = disk / "half"
+        half.write_bytes(bytes(30_000_000))
+        assert check(store, order) == Disturbed(
+            "the system of the service says: No space left on device"
+        )
+        half.unlink()
+        assert isinstance(check(store, order), Checked)
+
+
 def test_the_machine_has_no_time(store: Store) -> None:
     limits = StageLimits(seconds=60.0, clock_seconds=0.1)
     outcome = check(store, given(store, "model.sdf", LARGE), limits=limits)

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
+from shutil import disk_usage
 from typing import Any
 
 from msgspec import to_builtins
@@ -51,6 +52,8 @@ _FILES_LIMIT = 50_000
 """Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
 _PARTS_LIMIT = 10_000
 """Of one upload, by all of its checks."""
+_ROOM = 10_000_000
+"""Bytes of a disk below which it is full for a check."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -135,7 +138,11 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
     last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
     how = "overdue" if ended.overdue else f"code {ended.code}"
     _LOG.error("the child process ended (%s) with the output: %s", how, last_words)
-    return failure(ended, limits)
+    failed = failure(ended, limits)
+    # Libraries have words of their own for a disk that is full.
+    if failed == Died(FAILED_INSIDE) and disk_usage(store.folder).free < _ROOM:
+        return Disturbed("the disk of the service is full")
+    return failed
 
 
 def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome:

@@ -128,7 +128,7 @@ def _checked(
     job: Mapping[str, Any], place: Path
 ) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
     """Return the answer, and the files of the result."""
-    from checker.base.errors import InvalidSettings, UnreadableInput, momentary_cause
+    from checker.base.errors import InvalidSettings, UnreadableInput
     from checker.base.words import shortened
     from checker.pipeline import check_paths
     from checker.rulebook.profiles import profile_names
@@ -147,9 +147,9 @@ def _checked(
         # Relative, so that no report shows where this machine keeps it.
         report = without_folder(check_paths([Path(name)], options, mesh_server=_meshes), place)
     except (InvalidSettings, UnreadableInput) as error:
-        if cause := momentary_cause(error):
-            return {"disturbed": f"the system of the service says: {cause}"}, iter(())
         return _refused(shortened(str(error), 1_000))
+    if cause := next((item.disturbed for item in report.not_opened if item.disturbed), ""):
+        return {"disturbed": f"the system of the service says: {cause}"}, iter(())
     if not report.packages:
         reasons = (f"{item.path} {item.reason}" for item in report.not_opened)
         return _refused(shortened(". ".join(reasons), 1_000))

@@ -157,7 +157,8 @@ def settle(place: Path, name: str, files: Files) -> None:
     os.chdir(upload)
     os.environ["TMPDIR"] = str(place / TEMPORARY)
     os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
-    tempfile.tempdir = None  # a library may have asked for it before
+    # A library may have asked for it before; and on a full disk, the search for one finds none.
+    tempfile.tempdir = str(place / TEMPORARY)
 
 
 def _write(path: Path, files: Files, name: str) -> None:

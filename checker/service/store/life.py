@@ -28,41 +28,49 @@ def living(folder: Path, name: str) -> Iterator[None]:
         OSError: The disk or the system fails.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    file = folder / name
-    lock = os.open(file, os.O_RDWR | os.O_CREAT, 0o600)
+    lock = _locked_soon(folder / name)
     try:
-        ours = _locks_soon(lock)
         yield
-        if ours:
-            file.unlink(missing_ok=True)
+        if lock is not None:
+            (folder / name).unlink(missing_ok=True)
     finally:
-        os.close(lock)
-
-
-def _locks_soon(descriptor: int) -> bool:
-    """Lock a file, at which others may be looking just now."""
-    for _ in range(_LOOKS):
-        if _locks(descriptor):
-            return True
-        sleep(_LOOK_SECONDS)
-    return False
-
-
-def has_died(folder: Path, name: str) -> bool:
-    """Whether a process has ended without saying so; False if nothing is known of it."""
-    with suppress(OSError):
-        lock = os.open(folder / name, os.O_RDWR)
-        try:
-            return _locks(lock)
-        finally:
+        if lock is not None:
             os.close(lock)
-    return False
+
+
+def the_dead(folder: Path) -> set[str]:
+    """Return the names of processes that have ended without saying so."""
+    with suppress(FileNotFoundError):
+        return {path.name for path in folder.iterdir() if _is_free(path)}
+    return set()
 
 
 def forget(folder: Path, name: str) -> None:
     """Remove the file of a process that has died."""
     with suppress(OSError):
         (folder / name).unlink()
+
+
+def _locked_soon(file: Path) -> int | None:
+    """Return the descriptor that holds a lock, at which others may be looking just now."""
+    for _ in range(_LOOKS):
+        lock = os.open(file, os.O_RDWR | os.O_CREAT, 0o600)
+        # Between these two lines it may have been taken for one of the dead, and removed.
+        if _locks(lock) and os.fstat(lock).st_nlink:
+            return lock
+        os.close(lock)
+        sleep(_LOOK_SECONDS)
+    return None
+
+
+def _is_free(file: Path) -> bool:
+    with suppress(OSError):
+        lock = os.open(file, os.O_RDWR)
+        try:
+            return _locks(lock)
+        finally:
+            os.close(lock)
+    return False
 
 
 def _locks(descriptor: int) -> bool:

@@ -28,7 +28,7 @@ from checker.service.jobs.durable.stages import Retention, Stages
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable, Stage
 from checker.service.jobs.sandbox import layers_of_checks
-from checker.service.store.life import forget, has_died, living
+from checker.service.store.life import forget, living, the_dead
 from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)
@@ -154,11 +154,13 @@ class Deaths:
         self._workers.beat(self.options.name)
         self._recover(lambda other: other == self.options.name)
 
-    def _recover(self, is_dead: Callable[[str], bool]) -> None:
+    def _recover(self, is_silent: Callable[[str], bool]) -> None:
         folder = self.options.store.workers
-        for dead in self._checks.recover(lambda name: is_dead(name) or has_died(folder, name)):
-            _LOG.warning("%s died; what it had in hand waits again", dead)
-            forget(folder, dead)
+        dead = the_dead(folder)
+        for name in self._checks.recover(lambda name: name in dead or is_silent(name)):
+            _LOG.warning("%s died; what it had in hand waits again", name)
+        for name in dead:
+            forget(folder, name)
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
