@@ -311,6 +311,29 @@ def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
         assert len([*store.folder.glob("incoming/*")]) >= 10
 
 
+DISTURBED = """
+def serve(wire):
+    wire.recv(4096)
+    wire.sendall(b'{"momentary": "Input/output error"}\\n')
+"""
+
+
+def test_a_fault_of_the_system_is_none_of_the_archive(
+    client: TestClient,
+    jobs: BoardJobs,
+    store: Store,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read_by(DISTURBED, tmp_path, monkeypatch)
+    answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})
+    assert answer.status_code == 503
+    assert answer.json()["error"] == "The service cannot look at a.zip now: Input/output error."
+    assert int(answer.headers["retry-after"]) > 0
+    assert not jobs.states
+    assert not left_behind(store)
+
+
 SLOW = """
 import json, os, socket, time
 def serve(wire):
