@@ -28,7 +28,7 @@ from tests.web.service import service, zip_of
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CREATED, MEGABYTES = 201, 1.0
 ENDS = ("done", "refused", "failed", "cancelled")
-P95_LIMIT = 1.5
+P95_LIMIT = 1.0
 """Seconds until an upload is answered."""
 REPEATS = 5
 SETTLED = 3.0

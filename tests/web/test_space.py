@@ -32,7 +32,7 @@ def space_on(disk: Disk) -> Space:
 
 
 def test_small_uploads_get_in_while_large_ones_are_under_way() -> None:
-    disk = Disk(450 * MB)
+    disk = Disk(700 * MB)
     space = space_on(disk)
     with space.reserve("one", 95 * MB) as first, space.reserve("two", 95 * MB):
         with pytest.raises(Refused) as refused, space.reserve("three", 95 * MB):
@@ -43,14 +43,14 @@ def test_small_uploads_get_in_while_large_ones_are_under_way() -> None:
         for _ in range(50):
             with space.reserve("four", MB) as small:
                 disk.write(small, MB)
-    with pytest.raises(Refused), space.reserve("one", 120 * MB):
+    with pytest.raises(Refused), space.reserve("one", 185 * MB):
         pass
-    with space.reserve("one", 110 * MB):  # what ended without being kept would be free again
+    with space.reserve("one", 175 * MB):  # what ended without being kept would be free again
         pass
 
 
 def test_one_client_has_half_of_the_room_but_may_always_send_one() -> None:
-    space = space_on(Disk(450 * MB))
+    space = space_on(Disk(700 * MB))
     with space.reserve("one", 95 * MB):
         with pytest.raises(Refused) as refused, space.reserve("one", 95 * MB):
             pass

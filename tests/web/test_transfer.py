@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import os
+import shutil
 import socket
 import sys
 import tarfile
@@ -24,6 +26,7 @@ from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.uploads.transfer import AT_ONCE
+from tests.jobs.disk import needs_mount, small_disk
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 from tests.web.test_archive_indexes import read_by
@@ -311,6 +314,29 @@ def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
         assert len([*store.folder.glob("incoming/*")]) >= 10
 
 
+DISTURBED = """
+def serve(wire):
+    wire.recv(4096)
+    wire.sendall(b'{"momentary": "Input/output error"}\\n')
+"""
+
+
+def test_a_fault_of_the_system_is_none_of_the_archive(
+    client: TestClient,
+    jobs: BoardJobs,
+    store: Store,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read_by(DISTURBED, tmp_path, monkeypatch)
+    answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})
+    assert answer.status_code == 503
+    assert answer.json()["error"] == "The service cannot look at a.zip now: Input/output error."
+    assert int(answer.headers["retry-after"]) > 0
+    assert not jobs.states
+    assert not left_behind(store)
+
+
 SLOW = """
 import json, os, socket, time
 def serve(wire):
@@ -346,3 +372,51 @@ def test_slow_archives_of_one_sender_keep_nobody_else_waiting(
         for _ in range(5):
             assert send(port, "127.0.0.1", "quick.zip") == 201
         assert monotonic() - begun < 15  # a single slow one would last for a minute
+
+
+ASLEEP = """
+import socket, time
+def serve(wire):
+    _, (descriptor,), _, _ = socket.recv_fds(wire, 4096, 1)
+    time.sleep(2)
+    wire.sendall(b"{}\\n")
+"""
+
+
+@needs_mount
+@pytest.mark.service
+@pytest.mark.skipif(sys.platform != "linux", reason="the system has one address of its own")
+def test_the_copies_that_indexes_are_read_from_have_their_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_by(ASLEEP, tmp_path, monkeypatch)
+    config = Config(public=True, upload_limit=1_000_000)
+    answers: list[int] = []
+
+    def send(port: int, source: str, content: bytes) -> None:
+        transport = httpx.HTTPTransport(local_address=source)
+        with httpx.Client(transport=transport, timeout=30) as client:
+            address = f"http://127.0.0.1:{port}/api/checks"
+            answer = client.post(address, files={"file": ("a.zip", content)})
+            answers.append(answer.status_code)
+
+    with small_disk(tmp_path / "disk", 5_050_000) as disk:
+        store = Store(disk / "data")
+        store.folder.mkdir()
+        free = [shutil.disk_usage(disk).free]
+        with served(create_app(BoardJobs(), store, config)) as port:
+            senders = [
+                Thread(target=send, args=(port, f"127.0.0.{number + 2}", noise()))
+                for number in range(3)
+            ]
+            for each in senders:
+                each.start()
+            while any(each.is_alive() for each in senders):
+                free.append(shutil.disk_usage(disk).free)
+                sleep(0.01)
+    assert 201 in answers
+    assert min(free) >= config.room
+
+
+def noise() -> bytes:
+    return zipped(("rover/noise.png", os.urandom(900_000)))

@@ -1,7 +1,8 @@
 """Reads the index of an archive that a stranger sends: a process in the sandbox.
 
 On its socket comes the name of an archive, one JSON object a message, with a descriptor of the
-file; it answers in a line whether the archive can be unpacked, and opens nothing itself.
+file; it answers in a line whether the archive can be unpacked, or that the disk fails, and opens
+nothing itself.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import os
 import socket
 from pathlib import Path
 
-from checker.base.errors import UnreadableInput
+from checker.base.errors import UnreadableInput, momentary_cause
 from checker.package.archives.archive import check_archive
 
 MESSAGE_LIMIT = 4_096
@@ -36,5 +37,7 @@ def _looked_at(descriptor: int, name: str) -> dict[str, str]:
     try:
         check_archive(Path(name), name, descriptor=descriptor)
     except UnreadableInput as error:
+        if cause := momentary_cause(error):
+            return {"momentary": cause}
         return {"reason": error.reason, "advice": error.advice}
     return {}

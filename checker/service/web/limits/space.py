@@ -19,6 +19,8 @@ from checker.service.web.config import Config
 
 _SHARE = 2
 """One client has one of so many parts of the room, unless it has but one upload under way."""
+_COPIES = 2
+"""Of each upload: itself, and the copy from which the index of an archive is read."""
 
 
 @dataclass(eq=False)
@@ -37,8 +39,8 @@ class Claim:
 
     @property
     def to_come(self) -> int:
-        """Bytes that are not there yet."""
-        return max(self.size - self.written, 0)
+        """Bytes that are not there yet, with those of the copy."""
+        return max(_COPIES * self.size - self.written, 0)
 
 
 class Space:
@@ -79,11 +81,11 @@ class Space:
             room = self._free() - self._kept_free
         except OSError:  # writing will tell
             return
-        if room < size + sum(claim.to_come for claim in self._claims):
+        if room < _COPIES * size + sum(claim.to_come for claim in self._claims):
             raise no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
         room += sum(claim.written for claim in self._claims)
         held = sum(claim.size for claim in self._claims if claim.client == client)
-        if held and held + size > min(self._per_client, room // _SHARE):
+        if held and held + size > min(self._per_client, room // _COPIES // _SHARE):
             raise _too_much(held)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import select
@@ -9,9 +10,10 @@ import shutil
 import signal
 import socket
 import tempfile
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from threading import Lock
-from time import monotonic
+from threading import RLock
+from time import monotonic, sleep
 from typing import Any
 
 from checker.base.child_process import from_json
@@ -19,7 +21,7 @@ from checker.base.errors import UnreadableInput
 from checker.base.files import open_file
 from checker.base.resources import PACKAGE
 from checker.base.sandbox.launcher import Launcher, Order, OwnLauncher
-from checker.base.sandbox.task import OUT_OF_MEMORY
+from checker.base.sandbox.task import DISTURBED, OUT_OF_MEMORY
 
 _MODULE = f"{PACKAGE}.package.archives.index_process"
 SECONDS, PROCESSOR_SECONDS = 60.0, 4
@@ -32,6 +34,8 @@ _WORDS_LIMIT = 1_000
 _WAITING = 4
 """Processes that wait for an archive, each for one alone."""
 _CODE_LIMIT, _CODE_SECONDS = 20, 1.0
+_PAUSE_SECONDS = 0.2
+"""Before a second try."""
 _UNREADABLE = "has an index that cannot be read"
 _AGAIN = "upload it again, or with fewer files"
 _PACK_AGAIN = "pack the package folder again, with an ordinary program and fewer files"
@@ -52,7 +56,7 @@ class _Reader:
 
         Raises:
             TimeoutError: It does not answer in time.
-            OSError: The archive cannot be opened.
+            OSError: The archive cannot be opened or copied, or it has died before it was asked.
             ValueError: It answers with nonsense, or has died.
         """
         # A copy, of which nothing leads to what is kept.
@@ -73,17 +77,19 @@ class _Reader:
                 raise ValueError("no answer")
         return data
 
-    @property
-    def reached(self) -> str:
-        """What limit it has died of, in words; empty if it died of none, or lives."""
+    def end(self) -> int | None:
+        """Return its exit code, of a signal its negative number; None if it lives.
+
+        Raises:
+            OSError: It was killed, or who started it has died: an archive does neither.
+        """
         if not select.select([self._started.code], [], [], _CODE_SECONDS)[0]:
-            return ""
-        match os.read(self._started.code, _CODE_LIMIT):
-            case code if code == str(-signal.SIGXCPU).encode():
-                return f"{PROCESSOR_SECONDS} s of processor time"
-            case code if code == str(OUT_OF_MEMORY).encode():
-                return f"{_MEMORY / 1e6:g} MB of memory"
-        return ""
+            return None
+        data = os.read(self._started.code, _CODE_LIMIT)
+        code = int(data) if data.removeprefix(b"-").isdigit() else -signal.SIGKILL
+        if code in (-signal.SIGKILL, -signal.SIGTERM, DISTURBED):
+            raise OSError(errno.EAGAIN, "the process that reads archives was killed")
+        return code
 
     def stop(self) -> None:
         """End it."""
@@ -99,7 +105,7 @@ class ArchiveIndexes:
         """Start nothing yet."""
         self._waiting: list[_Reader] = []
         self._launcher: OwnLauncher | None = None
-        self._lock = Lock()
+        self._lock = RLock()
 
     def start(self) -> None:
         """Start processes, so that the next archives need not wait for them.
@@ -115,7 +121,7 @@ class ArchiveIndexes:
                 self._waiting.append(_Reader(self._launcher))
 
     def check(self, archive: Path, name: str) -> None:
-        """Look at the index of an archive.
+        """Look at the index of an archive; what fails of the system is tried again once.
 
         Args:
             archive: Where it lies.
@@ -123,12 +129,19 @@ class ArchiveIndexes:
 
         Raises:
             UnreadableInput: It could do harm, is damaged, or takes down who reads it.
+            OSError: The disk or the system fails, which is no fault of the archive.
         """
         try:
-            answer = self._asked(archive, name)
-        except (OSError, ValueError):
-            raise UnreadableInput(archive, _UNREADABLE, _AGAIN) from None
-        match answer:
+            self._check(archive, name)
+        except OSError:
+            self._begin_anew()
+            sleep(_PAUSE_SECONDS)
+            self._check(archive, name)
+
+    def _check(self, archive: Path, name: str) -> None:
+        match self._asked(archive, name):
+            case {"momentary": str(cause)}:
+                raise OSError(errno.EAGAIN, cause[:_WORDS_LIMIT])
             case {"reason": str(reason), "advice": str(advice)}:
                 raise UnreadableInput(archive, reason[:_WORDS_LIMIT], advice[:_WORDS_LIMIT])
             case {}:
@@ -136,19 +149,32 @@ class ArchiveIndexes:
         raise UnreadableInput(archive, _UNREADABLE, _AGAIN)
 
     def _asked(self, archive: Path, name: str) -> Any:
-        self.start()
         with self._lock:
+            self.start()
             reader = self._waiting.pop(0)
         try:
             return reader.ask(archive, name)
         except TimeoutError:
             raise UnreadableInput(archive, _takes_more(f"{SECONDS:g} s"), _AGAIN) from None
         except ValueError:
-            if limit := reader.reached:
-                raise UnreadableInput(archive, _takes_more(limit), _PACK_AGAIN) from None
-            raise
+            if limit := _LIMITS.get(reader.end()):
+                raise UnreadableInput(archive, _takes_more(limit()), _PACK_AGAIN) from None
+            raise UnreadableInput(archive, _UNREADABLE, _AGAIN) from None
         finally:
             reader.stop()
+
+    def _begin_anew(self) -> None:
+        """Let those go that wait: whatever killed one may have killed them all."""
+        with self._lock:
+            while self._waiting:
+                self._waiting.pop().stop()
+
+
+_LIMITS: Mapping[int | None, Callable[[], str]] = {
+    -signal.SIGXCPU: lambda: f"{PROCESSOR_SECONDS} s of processor time",
+    OUT_OF_MEMORY: lambda: f"{_MEMORY / 1e6:g} MB of memory",
+}
+"""In words, by the exit code of a process that reaches them."""
 
 
 def _takes_more(limit: str) -> str:

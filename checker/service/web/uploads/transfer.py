@@ -96,7 +96,20 @@ def _ordered(
         except UnreadableInput as error:
             reason = plain(f"{name} {error.reason}.")
             raise Refused(422, reason, sentence(error.advice), "archive") from None
+        except OSError as error:
+            raise _not_looked_at(name, error) from None
     return services.jobs.submit(Order(incoming.finish(), name, profile, sender), key)
+
+
+def _not_looked_at(name: str, error: OSError) -> Refused:
+    reason = plain(error.strerror or "the system fails")
+    return Refused(
+        503,
+        f"The service cannot look at {name} now: {reason}.",
+        "Try again in 10 s.",
+        "system",
+        {"Retry-After": "10"},
+    )
 
 
 def too_large(limit: int) -> Refused:
