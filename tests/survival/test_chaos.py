@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from bench.chaos import KINDS, Trouble, away, filled, services, suffered
+from bench.chaos import Trouble, away, filled, services, suffered
+from bench.killer import KINDS
 
 pytestmark = pytest.mark.service
 DISK = 400_000_000

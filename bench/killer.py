@@ -1,0 +1,186 @@
+"""Services that are started again whenever they have been killed, and who kills them."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import socket
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic, sleep
+
+import httpx
+
+from bench.service import below
+from bench.static import ROOT
+
+
+@dataclass
+class Group:
+    """A service that is started again whenever it has been killed.
+
+    Attributes:
+        number: Of the port, and in the name of its log.
+        folder: Holds the data, and the log.
+        database: Its address; empty for SQLite with the data.
+        workers: That it starts.
+    """
+
+    number: int
+    folder: Path
+    database: str
+    workers: int
+    port: int = 0
+    _process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def address(self) -> str:
+        """Return where it answers."""
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def id(self) -> int:
+        """Return the id of its first process."""
+        return self._process.pid if self._process else 0
+
+    def start(self) -> None:
+        """Start it, and wait until it answers."""
+        self.port = self.port or _free_port()
+        own = {"SUBT_CHECK_DATA": str(self.folder / "data"), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
+        own |= {"SUBT_CHECK_DATABASE_URL": self.database} if self.database else {}
+        command = [sys.executable, "-m", "checker.cli", "serve", "--port", str(self.port)]
+        with (self.folder / f"log-{self.number}").open("ab") as log:
+            self._process = subprocess.Popen(
+                [*command, "--workers", str(self.workers)],
+                env=os.environ | own,
+                cwd=ROOT,
+                stdout=subprocess.DEVNULL,
+                stderr=log,
+                start_new_session=True,
+            )
+        self._wait()
+
+    def kill(self) -> None:
+        """Kill all of it at once, and start it again."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+        self.start()
+
+    def stop(self) -> int:
+        """Stop it in good order, and return its exit code."""
+        assert self._process is not None
+        self._process.send_signal(signal.SIGTERM)
+        return self._process.wait(120)
+
+    def _wait(self) -> None:
+        ends = monotonic() + 60.0
+        while monotonic() < ends:
+            with suppress(httpx.TransportError):
+                httpx.get(f"{self.address}/healthz", timeout=5)
+                return
+            sleep(0.1)
+        raise SystemExit(f"{self.address} does not answer")
+
+
+def _free_port() -> int:
+    with closing(socket.socket()) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+# What is killed.
+
+
+def command_of(pid: int) -> bytes:
+    """Return the command line of a process; empty if there is none."""
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    return b""
+
+
+def of_service(group: Group, kind: bytes) -> list[int]:
+    """Return the web process of a service, or its workers."""
+    return [pid for pid in below(group.id) if b"\0" + kind + b"\0" in command_of(pid)]
+
+
+def of_launchers(pids: Sequence[int]) -> list[int]:
+    """Return the processes below others that read a stranger's files, with their launchers."""
+    found = [inner for pid in pids for inner in below(pid)]
+    return [pid for pid in found if b"launcher_process" in command_of(pid)]
+
+
+def _kill_worker(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_service(group, b"worker"), dice)
+
+
+def _kill_web(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_service(group, b"web"), dice)
+
+
+def _kill_child(group: Group, dice: random.Random) -> bool:
+    """Kill a process of a check: its launcher, the one that checks, or one that reads or drives."""
+    return _kill_one(of_launchers(of_service(group, b"worker")), dice)
+
+
+def _kill_reader(group: Group, dice: random.Random) -> bool:
+    return _kill_one(of_launchers(of_service(group, b"web")), dice)
+
+
+def _kill_all(group: Group, _dice: random.Random) -> bool:
+    group.kill()
+    return True
+
+
+def _kill_one(pids: Sequence[int], dice: random.Random) -> bool:
+    if not pids:
+        return False
+    with suppress(ProcessLookupError):
+        os.kill(dice.choice(pids), signal.SIGKILL)
+        return True
+    return False
+
+
+KINDS: Mapping[str, Callable[[Group, random.Random], bool]] = {
+    "worker": _kill_worker,
+    "process of a check": _kill_child,
+    "web server": _kill_web,
+    "reader of archives": _kill_reader,
+    "everything": _kill_all,
+}
+
+
+@dataclass
+class Killer:
+    """Kills processes of services until it is told to stop.
+
+    Attributes:
+        kills: That there have to be.
+        pause: Seconds between two of them, on average.
+        done: How often each kind was killed.
+    """
+
+    groups: Sequence[Group]
+    kills: int
+    pause: float
+    seed: int = 7
+    done: Counter[str] = field(default_factory=Counter)
+
+    def run(self, is_over: Callable[[], bool]) -> None:
+        """Kill one after the other, each kind in its turn."""
+        dice, kinds = random.Random(self.seed), list(KINDS)
+        turn = 0
+        while self.done.total() < self.kills and not is_over():
+            kind = kinds[turn % len(kinds)]
+            turn += 1
+            if KINDS[kind](dice.choice(self.groups), dice):
+                self.done[kind] += 1
+                sleep(dice.uniform(0.5, 1.5) * self.pause)
+            else:
+                sleep(0.05)
