@@ -94,7 +94,7 @@ def modes(data: Path) -> dict[str, str]:
 def test_files_are_for_the_user_of_the_service_alone(checked: Path) -> None:
     names = {each.relative_to(checked).parts[0] for each in checked.rglob("*") if each.is_file()}
     beside = {"jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm", "lock"}
-    assert names == {"incoming", "parts", "results", "uploads", *beside}
+    assert names == {"incoming", "parts", "results", "uploads", "workers", *beside}
     assert modes(checked) == {}
 
 

@@ -52,6 +52,8 @@ _FILES_LIMIT = 50_000
 """Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
 _PARTS_LIMIT = 10_000
 """Of one upload, by all of its checks."""
+_NAME_LIMIT = 255
+"""Bytes of the name of a file or folder: no disk has longer ones."""
 _ROOM = 10_000_000
 """Bytes of a disk below which it is full for a check."""
 _LOG = logging.getLogger(__name__)
@@ -176,7 +178,8 @@ def _write_result(folder: Path, files: Files) -> None:
         left -= files.size(name)
         if left < 0:
             raise ValueError(f"a result has at most {RESULT_LIMIT / 1e9:g} GB")
-        if ARTEFACT_NAME.fullmatch(name):
+        longest = max(len(part.encode()) for part in name.split("/"))
+        if ARTEFACT_NAME.fullmatch(name) and longest <= _NAME_LIMIT:
             path = folder / name
             path.parent.mkdir(exist_ok=True)
             with path.open("xb") as file:
