@@ -35,6 +35,7 @@ import httpx
 from bench.killer import Group, Killer, command_of
 from bench.service import below, say, show
 from bench.static import ROOT, keep_bytecode
+from checker.service.store.locks import lock_of_dead
 from tests.jobs.disk import full, small_disk
 from tests.postgres import fresh_database, started
 
@@ -151,15 +152,12 @@ def left_over(data: Path) -> list[str]:
 
 def _at_work(data: Path) -> list[str]:
     """Return what lies in `incoming` that nobody holds: processes that wait have a folder each."""
-    import fcntl
-
     left = []
     for path in (data / "incoming").iterdir():
         with suppress(OSError):
             if path.is_file():
-                with path.open("rb") as file:
-                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    left.append(path.name)
+                with lock_of_dead(path) as is_dead:
+                    left += [path.name] if is_dead else []
     return left
 
 

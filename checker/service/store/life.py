@@ -6,12 +6,13 @@ is gone from the network, holds it still: that is what signs of life are for.
 
 from __future__ import annotations
 
-import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import sleep
+
+from checker.service.store.locks import claimed, lock_of_dead
 
 _LOOKS, _LOOK_SECONDS = 20, 0.05
 
@@ -54,28 +55,13 @@ def forget(folder: Path, name: str) -> None:
 def _locked_soon(file: Path) -> int | None:
     """Return the descriptor that holds a lock, at which others may be looking just now."""
     for _ in range(_LOOKS):
-        lock = os.open(file, os.O_RDWR | os.O_CREAT, 0o600)
-        # Between these two lines it may have been taken for one of the dead, and removed.
-        if _locks(lock) and os.fstat(lock).st_nlink:
+        if (lock := claimed(file)) is not None:
             return lock
-        os.close(lock)
         sleep(_LOOK_SECONDS)
     return None
 
 
 def _is_free(file: Path) -> bool:
-    with suppress(OSError):
-        lock = os.open(file, os.O_RDWR)
-        try:
-            return _locks(lock)
-        finally:
-            os.close(lock)
+    with suppress(OSError), lock_of_dead(file) as is_dead:
+        return is_dead
     return False
-
-
-def _locks(descriptor: int) -> bool:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True

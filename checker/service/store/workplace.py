@@ -7,7 +7,6 @@ nothing in another container.
 
 from __future__ import annotations
 
-import fcntl
 import os
 import secrets
 from collections.abc import Callable, Iterator
@@ -16,6 +15,7 @@ from pathlib import Path
 from time import time
 
 from checker.base.files import make_folder
+from checker.service.store.locks import claimed, lock_of_dead
 
 # An upload while it comes in.
 
@@ -162,11 +162,8 @@ def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
     home.mkdir(mode=0o700, parents=True, exist_ok=True)
     while True:
         file = home / (secrets.token_hex(16) + suffix)
-        lock = os.open(file, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
-        # Between these two lines the sweep may have taken it for one of the dead.
-        if _locks(lock) and os.fstat(lock).st_nlink:
+        if (lock := claimed(file, os.O_EXCL)) is not None:
             return file, lock
-        os.close(lock)
 
 
 def sweep(home: Path) -> None:
@@ -176,13 +173,9 @@ def sweep(home: Path) -> None:
             _remove_all(stray)
             stray.unlink(missing_ok=True)
     for file in (*home.glob(f"*{_LOCK}"), *home.glob(f"*{_FILE}")):
-        with suppress(OSError):
-            lock = os.open(file, os.O_RDWR)
-            try:
-                if _locks(lock):
-                    _remove(file)
-            finally:
-                os.close(lock)
+        with suppress(OSError), lock_of_dead(file) as is_dead:
+            if is_dead:
+                _remove(file)
 
 
 def _strays(home: Path) -> Iterator[Path]:
@@ -195,14 +188,6 @@ def _strays(home: Path) -> Iterator[Path]:
             is_ours = place.suffix in (_LOCK, _FILE) or place.with_suffix(_LOCK).exists()
             if not is_ours and time() - place.lstat().st_mtime > _STRAY_SECONDS:
                 yield place
-
-
-def _locks(descriptor: int) -> bool:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def _remove(file: Path) -> None:
