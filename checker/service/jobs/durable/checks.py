@@ -19,9 +19,9 @@ from msgspec import field
 from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.jobs.durable.changes import tell
-from checker.service.jobs.durable.database import WAITS, now
+from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.queue import ahead, next_in, queue_of, rank, set_clock
-from checker.service.jobs.durable.tables import CHECKS, EVENTS, STAGES, WORKERS
+from checker.service.jobs.durable.tables import CHECKS, EVENTS, FINAL, STAGES, WAITS, WORKERS
 from checker.service.jobs.outcome import UNFINISHED
 from checker.service.jobs.port import Event, Order, Stage, State
 
@@ -33,7 +33,6 @@ TRIES = len(PAUSES) + 1
 WORKER_ENDED = "its worker process ended"
 EVENTS_AT_ONCE = 100
 _WORDS_LIMIT = 2000
-_FINAL = [stage.value for stage in Stage if stage.is_final]
 _BEGINS = {
     Stage.STATIC: "the static rules are running",
     Stage.TRIAL: "the trial is running",
@@ -178,7 +177,7 @@ class Checks(Record, dict=True):
     def _on_host(self, host: str) -> sa.Select[tuple[str]]:
         """Return the question for checks in hand on a machine."""
         workers = sa.select(WORKERS.c.name).where(WORKERS.c.host == host)
-        in_hand = (CHECKS.c.stage.not_in(_FINAL), CHECKS.c.worker.in_(workers))
+        in_hand = (CHECKS.c.stage.not_in(FINAL), CHECKS.c.worker.in_(workers))
         return sa.select(CHECKS.c.id).where(*in_hand).limit(1)
 
     def settle(self, held: Held, step: Step, cost: float = 0.0) -> bool:
@@ -213,7 +212,7 @@ class Checks(Record, dict=True):
         Args:
             is_dead: Whether a worker is dead, by its name.
         """
-        held = sa.select(CHECKS).where(CHECKS.c.stage.not_in(_FINAL), CHECKS.c.worker != "")
+        held = sa.select(CHECKS).where(CHECKS.c.stage.not_in(FINAL), CHECKS.c.worker != "")
         with self.engine.connect() as connection:
             rows = connection.execute(held).all()
         dead = {name for name in {row.worker for row in rows} if is_dead(name)}
@@ -231,17 +230,17 @@ class Checks(Record, dict=True):
             "found": round(time.time(), 1),
             "reason": _storable(reason),
         }
-        losses, tries = [*row.losses, loss], row.tries + 1
+        tries = row.tries + 1
+        lost: dict[str, Any] = {"losses": [*row.losses, loss], "tries": tries}
         if tries >= TRIES:
             words = f"{UNFINISHED}: {reason}; it was tried {TRIES} times, at last alone"
-            end = Step("end", Stage.FAILED, words, data={"losses": losses})
-            return self._move(connection, row.id, end, *_as_in(row), losses=losses, tries=tries)
-        pause = self.pauses[row.tries]
-        words = f"starts again in {pause:g} s: {reason} (try {tries + 1} of {TRIES})"
-        step = Step(f"again{tries}", Stage(row.stage), words)
-        moment = now(self.engine) + pause
-        waits = {"losses": losses, "tries": tries, "not_before": moment}
-        return self._move(connection, row.id, step, *_as_in(row), **waits)
+            step = Step("end", Stage.FAILED, words, data={"losses": lost["losses"]})
+        else:
+            pause = self.pauses[row.tries]
+            words = f"starts again in {pause:g} s: {reason} (try {tries + 1} of {TRIES})"
+            step = Step(f"again{tries}", Stage(row.stage), words)
+            lost["not_before"] = now(self.engine) + pause
+        return self._move(connection, row.id, step, *_as_in(row), **lost)
 
     def release(self, held: Held) -> bool:
         """Let a stage go unfinished, through no fault of its own; False if it was lost before."""
@@ -315,7 +314,7 @@ class Checks(Record, dict=True):
         with self.engine.connect() as connection:
             counted = connection.execute(
                 sa.select(CHECKS.c.stage, in_hand, sa.func.count())
-                .where(CHECKS.c.stage.not_in(_FINAL))
+                .where(CHECKS.c.stage.not_in(FINAL))
                 .group_by(CHECKS.c.stage, in_hand)
             ).all()
         waiting = {stage.value: 0 for stage in STAGES}
@@ -332,7 +331,7 @@ class Checks(Record, dict=True):
         **hand: Any,
     ) -> bool:
         """Take a step, unless the check is over or one of the conditions does not hold."""
-        there = (CHECKS.c.id == id, CHECKS.c.stage.not_in(_FINAL), *conditions)
+        there = (CHECKS.c.id == id, CHECKS.c.stage.not_in(FINAL), *conditions)
         values = {"worker": ""} | hand | _values(step)
         if step.stage.is_final:
             values["sender"] = ""

@@ -13,10 +13,10 @@ from checker.base.record import Record
 from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks, Step
-from checker.service.jobs.durable.database import WAITS, open_database, prepare, reachable
+from checker.service.jobs.durable.database import open_database, prepare, reachable
 from checker.service.jobs.durable.pace import pace_of
 from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
-from checker.service.jobs.durable.tables import key_of_check
+from checker.service.jobs.durable.tables import WAITS, key_of_check
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.outcome import Checked
 from checker.service.jobs.port import (

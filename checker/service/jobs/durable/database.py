@@ -13,8 +13,16 @@ import sqlalchemy as sa
 
 from checker.base.files import tighten
 from checker.base.words import plain, shortened
-from checker.service.jobs.durable.tables import CHECKS, EVENTS, LENGTH, key_of_check, make_tables
-from checker.service.jobs.port import JobsUnreachable, Stage
+from checker.service.jobs.durable.tables import (
+    CHECKS,
+    EVENTS,
+    FINAL,
+    LENGTH,
+    WAITS,
+    key_of_check,
+    make_tables,
+)
+from checker.service.jobs.port import JobsUnreachable
 from checker.service.store.place import DATABASE, data_folder
 
 # What older versions left: 0.1.0 wrote ids of checks in the clear, and had its queues in tables of
@@ -25,7 +33,6 @@ from checker.service.store.place import DATABASE, data_folder
 
 
 _AT_ONCE = 200
-_FINAL = [stage.value for stage in Stage if stage.is_final]
 _OF_LIBRARY = (
     *("operation_outputs", "notifications", "workflow_events", "workflow_events_history"),
     *("streams", "workflow_schedules", "application_versions", "queues", "workflow_input"),
@@ -70,7 +77,7 @@ def _hash(connection: sa.Connection, ids: Sequence[str]) -> None:
 
 def _leave_library(engine: sa.Engine) -> None:
     """Have checks of its queues wait: who had one in hand has lost it, through no fault."""
-    in_hand = (CHECKS.c.worker != "", CHECKS.c.stage.not_in(_FINAL))
+    in_hand = (CHECKS.c.worker != "", CHECKS.c.stage.not_in(FINAL))
     waits = sa.update(CHECKS).where(*in_hand).values(worker="", words=WAITS)
     is_sqlite = engine.dialect.name == "sqlite"
     with engine.begin() as connection:
@@ -131,8 +138,6 @@ AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 _LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
-WAITS = "waiting in the queue"
-"""Said of a check that nobody has in hand."""
 
 
 def database_url() -> str:

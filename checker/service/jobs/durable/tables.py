@@ -34,6 +34,10 @@ def key_of_check(id: str) -> str:
 METADATA = sa.MetaData()
 STAGES = (Stage.STATIC, Stage.TRIAL)
 """Each has a queue."""
+FINAL = [stage.value for stage in Stage if stage.is_final]
+"""How the table calls checks that are over."""
+WAITS = "waiting in the queue"
+"""Said of a check that nobody has in hand."""
 
 CHECKS = sa.Table(
     "subt_checks",
