@@ -105,8 +105,8 @@ def answer(request: bytes, files: Files) -> Answer:
         files: The upload, and parts of an earlier check of it; see `checker.service.jobs.exchange`.
 
     Returns:
-        JSON: why the upload is `refused`, or the summary of the result; and the files of the
-        result, with parts for the next stage.
+        JSON: why the upload is `refused`, why the check is `disturbed`, or the summary of the
+        result; and the files of the result, with parts for the next stage.
     """
     job = json.loads(request)
     place = Path.cwd()
@@ -129,7 +129,7 @@ def _checked(
 ) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
     """Return the answer, and the files of the result."""
     from checker.base.errors import InvalidSettings, UnreadableInput
-    from checker.base.words import shortened
+    from checker.base.words import plain, shortened
     from checker.pipeline import check_paths
     from checker.rulebook.profiles import profile_names
     from checker.service.jobs.exchange import summary
@@ -148,12 +148,22 @@ def _checked(
         report = without_folder(check_paths([Path(name)], options, mesh_server=_meshes), place)
     except (InvalidSettings, UnreadableInput) as error:
         return _refused(shortened(str(error), 1_000))
-    if cause := next((item.disturbed for item in report.not_opened if item.disturbed), ""):
-        return {"disturbed": f"the system of the service says: {cause}"}, iter(())
+    if reason := _disturbance(report):
+        return {"disturbed": shortened(plain(reason), 1_000)}, iter(())
     if not report.packages:
         reasons = (f"{item.path} {item.reason}" for item in report.not_opened)
         return _refused(shortened(". ".join(reasons), 1_000))
     return summary(report), _files(report, stage, job)
+
+
+def _disturbance(report: Report) -> str:
+    """Return why something is missing that may be there the next time; empty if nothing is."""
+    unopened = (item.disturbed for item in report.not_opened)
+    reasons = (
+        *(f"the system of the service says: {cause}" for cause in unopened if cause),
+        *(package.disturbed for package in report.packages),
+    )
+    return next(filter(None, reasons), "")
 
 
 def _refused(reason: str) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:

@@ -70,8 +70,7 @@ def summary(report: Report) -> dict[str, Any]:
     """Return what a report says in short.
 
     "packages", as in `State.packages`; "words": what came out, one sentence; "crashed": whether a
-    rule could not run because of the checker itself; "disturbed": why something is missing in it
-    that may be there the next time, empty if nothing is.
+    rule could not run because of the checker itself.
     """
     packages = [
         {
@@ -86,9 +85,7 @@ def summary(report: Report) -> dict[str, Any]:
     ]
     words = shortened(_words(report), _TEXT_LIMIT)
     crashed = any(package.crashed for package in report.packages)
-    disturbed = next((package.disturbed for package in report.packages if package.disturbed), "")
-    short = shortened(plain(disturbed), _TEXT_LIMIT)
-    return {"packages": packages, "words": words, "crashed": crashed, "disturbed": short}
+    return {"packages": packages, "words": words, "crashed": crashed}
 
 
 def _words(report: Report) -> str:
