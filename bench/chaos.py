@@ -11,7 +11,6 @@ same data.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import re
@@ -32,12 +31,12 @@ from typing import Any
 
 import httpx
 
-from bench.killer import Group, Killer, command_of
-from bench.service import below, say, show
+from bench.killer import Group, Killer
+from bench.service import below, command_of, options_of, say, server_of, show
 from bench.static import ROOT, keep_bytecode
 from checker.service.store.locks import lock_of_dead
 from tests.jobs.disk import full, small_disk
-from tests.postgres import fresh_database, started
+from tests.postgres import fresh_database
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 WHOLE = ["queued", "static", "trial", "trial", "done"]
@@ -324,16 +323,15 @@ def _listed(counts: Counter[str]) -> str:
 
 def main() -> None:
     """Have everything happen, and print what came of it."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = options_of(__doc__)
     parser.add_argument("--uploads", type=int, default=100)
     parser.add_argument("--kills", type=int, default=40)
-    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
     options = parser.parse_args()
     keep_bytecode()
     well = []
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        server = stack.enter_context(started()) if options.postgres else ""
+        server = server_of(options, stack)
         with services(folder, server) as groups:
             trouble = suffered(groups, options.uploads, options.kills)
             _show("processes are killed at random", trouble)

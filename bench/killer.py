@@ -5,20 +5,20 @@ from __future__ import annotations
 import os
 import random
 import signal
-import socket
 import subprocess
 import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import closing, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic, sleep
 
 import httpx
 
-from bench.service import below
+from bench.service import below, command_of, of_service
 from bench.static import ROOT
+from tests.postgres import free_port
 
 
 @dataclass
@@ -51,7 +51,7 @@ class Group:
 
     def start(self) -> None:
         """Start it, and wait until it answers."""
-        self.port = self.port or _free_port()
+        self.port = self.port or free_port()
         own = {"SUBT_CHECK_DATA": str(self.folder / "data"), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
         own |= {"SUBT_CHECK_DATABASE_URL": self.database} if self.database else {}
         command = [sys.executable, "-m", "checker.cli", "serve", "--port", str(self.port)]
@@ -89,25 +89,12 @@ class Group:
         raise SystemExit(f"{self.address} does not answer")
 
 
-def _free_port() -> int:
-    with closing(socket.socket()) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
 # What is killed.
 
 
-def command_of(pid: int) -> bytes:
-    """Return the command line of a process; empty if there is none."""
-    with suppress(OSError):
-        return Path(f"/proc/{pid}/cmdline").read_bytes()
-    return b""
-
-
-def of_service(group: Group, kind: bytes) -> list[int]:
-    """Return the web process of a service, or its workers."""
-    return [pid for pid in below(group.id) if b"\0" + kind + b"\0" in command_of(pid)]
+def of_group(group: Group, kind: str) -> list[int]:
+    """Return the `web` process of a service, or each `worker` of it."""
+    return of_service(below(group.id), kind)
 
 
 def of_launchers(pids: Sequence[int]) -> list[int]:
@@ -117,20 +104,20 @@ def of_launchers(pids: Sequence[int]) -> list[int]:
 
 
 def _kill_worker(group: Group, dice: random.Random) -> bool:
-    return _kill_one(of_service(group, b"worker"), dice)
+    return _kill_one(of_group(group, "worker"), dice)
 
 
 def _kill_web(group: Group, dice: random.Random) -> bool:
-    return _kill_one(of_service(group, b"web"), dice)
+    return _kill_one(of_group(group, "web"), dice)
 
 
 def _kill_child(group: Group, dice: random.Random) -> bool:
     """Kill a process of a check: its launcher, the one that checks, or one that reads or drives."""
-    return _kill_one(of_launchers(of_service(group, b"worker")), dice)
+    return _kill_one(of_launchers(of_group(group, "worker")), dice)
 
 
 def _kill_reader(group: Group, dice: random.Random) -> bool:
-    return _kill_one(of_launchers(of_service(group, b"web")), dice)
+    return _kill_one(of_launchers(of_group(group, "web")), dice)
 
 
 def _kill_all(group: Group, _dice: random.Random) -> bool:

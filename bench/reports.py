@@ -7,7 +7,6 @@ top folder, as `make bench` does. Machines differ and are shared: see the pace t
 
 from __future__ import annotations
 
-import argparse
 import http.client
 import tempfile
 from collections.abc import Mapping
@@ -18,9 +17,8 @@ from time import perf_counter
 from urllib.parse import urlsplit
 
 from bench.machine import pace
-from bench.service import Client, say, show
+from bench.service import Client, options_of, say, server_of, show, variables_of
 from bench.static import ROOT, keep_bytecode
-from tests.postgres import fresh_database, started
 from tests.web.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
@@ -62,17 +60,14 @@ def measure(address: str, path: str, headers: Mapping[str, str]) -> float:
 
 def main() -> None:
     """Measure and print everything."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
-    options = parser.parse_args()
+    options = options_of(__doc__).parse_args()
     keep_bytecode()
     show("pace", pace(), "ms")
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        server = stack.enter_context(started()) if options.postgres else ""
-        variables = {"SUBT_CHECK_DATABASE_URL": fresh_database(server)} if server else {}
+        server = server_of(options, stack)
         package = zip_of([SAMPLE], folder / "robot.zip").read_bytes()
-        address = stack.enter_context(service(folder / "data", variables))
+        address = stack.enter_context(service(folder / "data", variables_of(server)))
         client = Client(address)
         id = client.upload("robot.zip", package).id
         say("waits for a report")

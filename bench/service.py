@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import http.client
 import json
 import os
@@ -10,12 +11,14 @@ import re
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 from urllib.parse import urlsplit
+
+from tests.postgres import fresh_database, started
 
 _BORDER = "subt-check-bench"
 _PATIENCE = 120.0
@@ -104,6 +107,23 @@ class Client:
         return http.client.HTTPConnection(urlsplit(self.address).netloc, timeout=_PATIENCE)
 
 
+def options_of(about: str | None) -> argparse.ArgumentParser:
+    """Return the options of a bench, among which is the kind of the database."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
+    return parser
+
+
+def server_of(options: argparse.Namespace, stack: ExitStack) -> str:
+    """Return the address of PostgreSQL, which is started if it is asked for; else empty."""
+    return stack.enter_context(started()) if options.postgres else ""
+
+
+def variables_of(server: str) -> dict[str, str]:
+    """Return the variables of a service with a new database: of a server, or SQLite's file."""
+    return {"SUBT_CHECK_DATABASE_URL": fresh_database(server)} if server else {}
+
+
 def noise(number: int, megabytes: float) -> bytes:
     """Return a picture (PNG) that cannot be compressed, another one for each number."""
     import io
@@ -147,7 +167,8 @@ class Memory:
         while not self._over.wait(0.5):
             pids = below(os.getpid())
             self.all = max(self.all, sum(_status(pid, "VmRSS") for pid in pids))
-            self.web = max(self.web, _most(pids, b"\0web\0"))
+            web = (_status(pid, "VmHWM") for pid in of_service(pids, "web"))
+            self.web = max(self.web, *web, 0.0)
 
     def stop(self) -> None:
         """Look no more."""
@@ -177,10 +198,14 @@ def below(pid: int) -> list[int]:
     return found[1:]
 
 
-def _most(pids: Iterable[int], word: bytes) -> float:
-    """Return the most memory that a process with a word in its command ever had."""
-    chosen = (pid for pid in pids if word in _read(pid, "cmdline"))
-    return max((_status(pid, "VmHWM") for pid in chosen), default=0.0)
+def command_of(pid: int) -> bytes:
+    """Return the command of a process, a zero behind each word; empty if it has ended."""
+    return _read(pid, "cmdline")
+
+
+def of_service(pids: Iterable[int], kind: str) -> list[int]:
+    """Return those processes that are the `web` process of a service, or a `worker` of it."""
+    return [pid for pid in pids if f"\0{kind}\0".encode() in command_of(pid)]
 
 
 def _parent(pid: int) -> int:

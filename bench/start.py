@@ -8,7 +8,6 @@ are shared: see the pace that is printed.
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import tempfile
 from collections.abc import Mapping
@@ -17,10 +16,9 @@ from pathlib import Path
 from time import perf_counter
 
 from bench.machine import pace
-from bench.service import Client, show
+from bench.service import Client, options_of, server_of, show, variables_of
 from bench.static import ROOT, keep_bytecode
 from bench.watchers import processor_seconds, web_process
-from tests.postgres import fresh_database, started
 from tests.web.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
@@ -46,18 +44,16 @@ def start(data: Path, variables: Mapping[str, str], package: bytes) -> tuple[flo
 
 def main() -> None:
     """Measure and print everything."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
-    options = parser.parse_args()
+    options = options_of(__doc__).parse_args()
     keep_bytecode()
     show("pace", pace(), "ms")
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        server = stack.enter_context(started()) if options.postgres else ""
+        server = server_of(options, stack)
         package = zip_of([SAMPLE], folder / "robot.zip").read_bytes()
         times = []
         for number in range(REPEATS):
-            url = {"SUBT_CHECK_DATABASE_URL": fresh_database(server)} if server else {}
+            url = variables_of(server)
             times.append(start(folder / f"data{number}", url, package))
         told, taken, work = map(statistics.median, zip(*times, strict=True))
         show("the address is told", told, "s")

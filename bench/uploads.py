@@ -8,7 +8,6 @@ Machines differ and are shared: see the pace that is printed.
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import tempfile
 import threading
@@ -20,9 +19,18 @@ from pathlib import Path
 from time import perf_counter, sleep
 
 from bench.machine import pace
-from bench.service import Client, Upload, noise, say, show, watched
+from bench.service import (
+    Client,
+    Upload,
+    noise,
+    options_of,
+    say,
+    server_of,
+    show,
+    variables_of,
+    watched,
+)
 from bench.static import ROOT, keep_bytecode
-from tests.postgres import fresh_database, started
 from tests.web.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
@@ -106,16 +114,15 @@ def waited_for(client: Client, uploads: Sequence[Upload], begun: float) -> None:
 
 def main() -> None:
     """Measure and print everything."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = options_of(__doc__)
     parser.add_argument("--clients", type=int, default=100)
-    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
     options = parser.parse_args()
     keep_bytecode()
     show("pace", pace(), "ms")
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         packages = contents(options.clients, folder)
-        server = stack.enter_context(started()) if options.postgres else ""
+        server = server_of(options, stack)
         *before, last = range(REPEATS)
         times = []
         for number in before:
@@ -133,8 +140,7 @@ def main() -> None:
 @contextmanager
 def a_service(data: Path, server: str) -> Iterator[Client]:
     """Start a service that has loaded what it needs, and yield a client of it."""
-    more = {"SUBT_CHECK_DATABASE_URL": fresh_database(server)} if server else {}
-    with service(data, more, workers=2) as address:
+    with service(data, variables_of(server), workers=2) as address:
         sleep(SETTLED)
         yield Client(address)
 

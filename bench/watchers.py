@@ -7,7 +7,6 @@ folder, as `make bench` does. Machines differ and are shared: see the pace that 
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import os
 import statistics
@@ -21,7 +20,7 @@ from urllib.parse import urlsplit
 import sqlalchemy as sa
 
 from bench.machine import pace
-from bench.service import Client, below, show
+from bench.service import Client, below, of_service, options_of, show
 from checker.service.jobs.durable.changes import tell
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.tables import CHECKS, EVENTS, key_of_check
@@ -45,9 +44,7 @@ def processor_seconds(pid: int) -> float:
 
 def web_process() -> int:
     """Return the id of the web process below this one."""
-    [found] = (
-        pid for pid in below(os.getpid()) if b"\0web\0" in Path(f"/proc/{pid}/cmdline").read_bytes()
-    )
+    [found] = of_service(below(os.getpid()), "web")
     return found
 
 
@@ -132,9 +129,8 @@ def serving(*, postgres: bool) -> Iterator[tuple[str, str]]:
 
 def main() -> None:
     """Measure and print everything."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = options_of(__doc__)
     parser.add_argument("--watchers", type=int, default=200)
-    parser.add_argument("--postgres", action="store_true", help="instead of SQLite")
     options = parser.parse_args()
     show("pace", pace(), "ms")
     with serving(postgres=options.postgres) as (address, database):

@@ -127,7 +127,8 @@ def _make_cluster(place: _Place, password: str) -> None:
     given.unlink()
 
 
-def _free_port() -> int:
+def free_port() -> int:
+    """Return a port of this machine at which nobody listens just now."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
@@ -171,7 +172,7 @@ def _up(place: _Place, password: str) -> Iterator[str]:
     """Serve on a free port; another program may take it first, so try again."""
     with contextlib.ExitStack() as stack:
         for _ in range(_ATTEMPTS):
-            port = _free_port()
+            port = free_port()
             url = f"postgresql://tests:{password}@127.0.0.1:{port}/postgres"
             process = stack.enter_context(_serving(place, port))
             deadline = monotonic() + _START_SECONDS
