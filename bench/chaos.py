@@ -81,11 +81,12 @@ def uploaded(groups: Sequence[Group], number: int) -> str:
     files = {"file": (f"{name_of(number)}.zip", content)}
     turn = number
     while monotonic() < ends:
-        address = groups[turn % len(groups)].address
+        group = groups[turn % len(groups)]
+        group.look()
         turn += 1
         with suppress(httpx.TransportError):
             answer = httpx.post(
-                f"{address}/api/checks", files=files, headers=headers, timeout=ANSWER_SECONDS
+                f"{group.address}/api/checks", files=files, headers=headers, timeout=ANSWER_SECONDS
             )
             if answer.status_code == 201:
                 return str(answer.json()["id"])
@@ -98,9 +99,10 @@ def uploaded(groups: Sequence[Group], number: int) -> str:
 def _asked(groups: Sequence[Group], path: str) -> httpx.Response:
     ends, turn = monotonic() + PATIENCE, 0
     while monotonic() < ends:
+        group = groups[turn % len(groups)]
+        group.look()
         with suppress(httpx.TransportError):
-            address = groups[turn % len(groups)].address
-            answer = httpx.get(address + path, timeout=ANSWER_SECONDS)
+            answer = httpx.get(group.address + path, timeout=ANSWER_SECONDS)
             if answer.status_code < 500:
                 return answer
         turn += 1

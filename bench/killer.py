@@ -50,12 +50,16 @@ class Group:
         return self._process.pid if self._process else 0
 
     def start(self) -> None:
-        """Start it, and wait until it answers."""
+        """Start it, and wait until it answers.
+
+        Raises:
+            SystemExit: It does not.
+        """
         self.port = self.port or free_port()
         own = {"SUBT_CHECK_DATA": str(self.folder / "data"), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
         own |= {"SUBT_CHECK_DATABASE_URL": self.database} if self.database else {}
         command = [sys.executable, "-m", "checker.cli", "serve", "--port", str(self.port)]
-        with (self.folder / f"log-{self.number}").open("ab") as log:
+        with self._log.open("ab") as log:
             self._process = subprocess.Popen(
                 [*command, "--workers", str(self.workers)],
                 env=os.environ | own,
@@ -79,9 +83,25 @@ class Group:
         self._process.send_signal(signal.SIGTERM)
         return self._process.wait(120)
 
+    def look(self) -> None:
+        """See that it has not ended by itself, after which nobody need wait for anything.
+
+        Raises:
+            SystemExit: It has.
+        """
+        code = self._process.poll() if self._process else None
+        if code not in (None, -signal.SIGKILL):
+            said = self._log.read_text("utf-8", "replace").splitlines()
+            raise SystemExit(f"{self.address} has ended with {code}: {' '.join(said[-1:])}")
+
+    @property
+    def _log(self) -> Path:
+        return self.folder / f"log-{self.number}"
+
     def _wait(self) -> None:
         ends = monotonic() + 60.0
         while monotonic() < ends:
+            self.look()
             with suppress(httpx.TransportError):
                 httpx.get(f"{self.address}/healthz", timeout=5)
                 return

@@ -35,6 +35,8 @@ _FOR_ALL = ("/tmp", "/var/tmp")  # noqa: S108 - only where the folder is made
 _START_SECONDS = 60.0
 _STOP_SECONDS = 20.0
 _ATTEMPTS = 3
+_PORTS = range(10_000, 30_000)
+"""Below those that systems give to connections: from 32768 on Linux, 49152 elsewhere."""
 _QUICK = {
     "fsync": "off",
     "full_page_writes": "off",
@@ -128,10 +130,16 @@ def _make_cluster(place: _Place, password: str) -> None:
 
 
 def free_port() -> int:
-    """Return a port of this machine at which nobody listens just now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """Return a port of this machine at which nobody listens just now.
+
+    It is none of those that the system gives away by itself: who starts again at it, after a crash,
+    may else find it taken by a connection of somebody else.
+    """
+    while True:
+        port = secrets.choice(_PORTS)
+        with contextlib.suppress(OSError), socket.socket() as probe:
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 def _answers(url: str) -> bool:

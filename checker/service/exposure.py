@@ -5,14 +5,20 @@ What others upload is read in a sandbox (`checker.base.sandbox`), unless somebod
 
 from __future__ import annotations
 
+import errno
 import ipaddress
 import socket
 from collections.abc import Callable, Mapping, Sequence
+from time import monotonic, sleep
 
 from checker.base.errors import CheckerError
 from checker.base.sandbox.layers import SECCOMP, Layer, hides_files
 from checker.base.words import plain, shortened
 from checker.service.web.config import config_from
+
+_ENDING_SECONDS, _PAUSE_SECONDS = 3.0, 0.1
+"""A service that was killed holds its address until its processes have ended, and whoever watches
+over it starts the next one at once."""
 
 # Whether a host is the machine itself: nobody stands on the way to it.
 
@@ -37,22 +43,34 @@ def listening(host: str, port: int) -> socket.socket:
     """
     shown = f"{plain(shortened(host, 200))} port {port}"
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(
-            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        )[0]
-        bound = socket.socket(family, kind, protocol)
-        try:
-            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            bound.bind(address)
-        except OSError:
-            bound.close()
-            raise
+        return _bound(host, port)
     except (OSError, UnicodeError) as error:
         reason = getattr(error, "strerror", None) or error
         raise CheckerError(
             f"{shown} cannot be used ({reason}); choose another --host or --port"
         ) from None
-    return bound
+
+
+def _bound(host: str, port: int) -> socket.socket:
+    """Return a bound socket; an address that is in use is waited for a little."""
+    family, kind, protocol, _, address = socket.getaddrinfo(
+        host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+    )[0]
+    bound, ends = socket.socket(family, kind, protocol), monotonic() + _ENDING_SECONDS
+    try:
+        bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        while True:
+            try:
+                bound.bind(address)
+            except OSError as error:
+                if error.errno != errno.EADDRINUSE or monotonic() > ends:
+                    raise
+                sleep(_PAUSE_SECONDS)
+            else:
+                return bound
+    except BaseException:
+        bound.close()
+        raise
 
 
 def address_of(bound: socket.socket) -> str:

@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
+from threading import Timer
 from urllib.parse import urlsplit
 
 import httpx
@@ -228,6 +229,14 @@ def test_a_port_that_is_taken_is_refused(serve: Serve) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         refused(serve("--port", port), f"127.0.0.1 port {port} cannot be used (Address already")
+
+
+def test_a_port_is_waited_for_until_its_last_holder_has_ended(serve: Serve) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        Timer(1.0, taken.close).start()  # the command takes less until it asks for the port
+        serving = serve("--workers", 0, "--port", port)
+        assert get(serving.url, "/healthz")[0] == 200
 
 
 def test_a_place_for_data_that_is_none_is_refused(serve: Serve, tmp_path: Path) -> None:
