@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
@@ -36,6 +36,7 @@ children = Children(Store(Path(sys.argv[1])))
 children.get_ready()
 time.sleep(600)
 """
+AT_ONCE = 4
 WAITING = 2
 """Processes that wait: one that checks, and one that reads meshes beside it."""
 
@@ -118,6 +119,19 @@ def test_all_of_its_threads_stand_back_behind_the_service(store: Store, children
     outcome = check(store, children, lambda: seen.extend(map(nicenesses, tasks())))
     assert isinstance(outcome, Checked)
     assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, 19)}
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/autogroup").is_file(), reason="the system puts no sessions into groups"
+)
+def test_those_that_start_at_once_all_stand_back_as_a_group() -> None:
+    with ExitStack() as stack:
+        started = [
+            stack.enter_context(closing(OwnLauncher(niceness=NICENESS))) for _ in range(AT_ONCE)
+        ]
+        assert all(launcher.layers for launcher in started)
+        found = [Path(f"/proc/{process}/autogroup").read_text() for process in launchers()]
+        assert [text.split()[-1] for text in found] == AT_ONCE * [str(NICENESS)]
 
 
 def test_one_that_waits_knows_no_secret_and_has_no_network(

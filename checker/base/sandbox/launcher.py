@@ -128,7 +128,7 @@ class OwnLauncher(Launcher):
                 of the account that its processes get.
             names: Layers, of `layers.ALL`; others than all are for tests of each alone.
             niceness: By how much its processes stand back behind others, as `nice` counts it.
-            loaded: Module that all of its processes need; it is loaded once for all.
+            loaded: Module that all of its processes need; it is loaded and prepared once for all.
         """
         wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
         sandbox = Sandbox(

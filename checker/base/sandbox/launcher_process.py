@@ -24,7 +24,7 @@ from collections.abc import Container, Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 from checker.base.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
@@ -85,6 +85,7 @@ _MOST_DESCRIPTORS = 1_048_576
 """That come with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
 _TELL_SECONDS = 0.5
+_NICE_TRIES, _NICE_SECONDS = 20, 0.1
 _PROCESSES_LIMIT = 512
 _COUNTS_BY_NAMESPACE = (5, 14)
 
@@ -254,8 +255,17 @@ def _stand_back(niceness: int) -> None:
     """Let come first what people wait for at this very moment: uploads, pages."""
     os.nice(niceness)
     # A session of its own may be a group of its own, within which alone niceness counts (sched(7)).
-    with suppress(OSError):
-        Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
+    # Of those who are not root, the system hears one in a tenth of a second on the whole machine.
+    group = Path("/proc/self/autogroup")
+    for _ in range(_NICE_TRIES):
+        try:
+            group.write_text(str(niceness), encoding="ascii")
+        except BlockingIOError:
+            sleep(_NICE_SECONDS)
+        except OSError:
+            return
+        else:
+            return
 
 
 def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
@@ -263,7 +273,7 @@ def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     if niceness:
         _stand_back(niceness)
     if loaded:
-        import_module(loaded)
+        import_module(loaded).prepare()
     with socket.socket(fileno=descriptor) as control:
         LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 

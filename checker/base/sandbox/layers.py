@@ -99,9 +99,9 @@ def _allow_files(sandbox: Sandbox, *, works: bool, draws: bool) -> int:
     )
 
 
-def _seccomp(_: Sandbox) -> str:
+def _seccomp(sandbox: Sandbox) -> str:
     seccomp.gain_nothing()
-    seccomp.forbid_calls()
+    seccomp.forbid_calls(changes=bool(sandbox.work))
     return f"{len(seccomp.FORBIDDEN)} system calls are forbidden"
 
 
@@ -123,8 +123,10 @@ def narrow(sandbox: Sandbox, *, works: bool, draws: bool) -> None:
     """
     # What cannot be narrowed stays in the sandbox that there is.
     if LANDLOCK in sandbox.names:
+        # Even if it takes nothing, it keeps the process from its launcher: a domain of its own.
         with suppress(NotHeld):
             _allow_files(sandbox, works=works, draws=draws)
     if SECCOMP in sandbox.names:
         with suppress(NotHeld):
-            seccomp.forbid_calls(changes=works, signals=False)
+            # Without a folder to work in, the launcher has forbidden changes already.
+            seccomp.forbid_others(changes=works or not sandbox.work)

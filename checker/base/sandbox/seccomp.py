@@ -13,6 +13,7 @@ import platform
 import struct
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache as once
 
 from checker.base.record import Record
 from checker.base.resources import table
@@ -136,43 +137,72 @@ def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = Tr
     Raises:
         NotHeld: The kernel has no filters, or the processor is not known.
     """
+    machine = _machine()
+    also = (*(() if opens else _OPENING), *(() if changes else _CHANGING))
+    _hold(
+        machine,
+        [*_refused(machine, (*FORBIDDEN, *also)), *_own(machine, signals), *_partly(machine)],
+    )
+
+
+def forbid_others(*, changes: bool = True) -> None:
+    """Keep a process to itself which `forbid_calls` holds in what it may call already, for good.
+
+    To build that filter again takes a new process as long as to be forked.
+
+    Args:
+        changes: As for `forbid_calls`.
+
+    Raises:
+        NotHeld: As by `forbid_calls`.
+    """
+    machine = _machine()
+    also = () if changes else _CHANGING
+    _hold(machine, [*_refused(machine, also), *_own(machine, signals=False)])
+
+
+def _machine() -> Architecture:
     machine = architecture()
     if machine is None:
         raise NotHeld("the system calls of this processor are not known")
-    own = None if signals else os.getpid()
-    also = (*(() if opens else _OPENING), *(() if changes else _CHANGING))
-    _install(b"".join(_packed(program(machine, also, own))))
+    return machine
 
 
-def program(machine: Architecture, also: Iterable[str], own: int | None) -> list[Step]:
-    """Return the filter for one kind of processor.
-
-    Args:
-        machine: The kind.
-        also: Names of calls that are forbidden besides those of `FORBIDDEN`.
-        own: The only process that may be sent signals; None for any.
-    """
-    steps: list[Step] = [
+def _hold(machine: Architecture, steps: Iterable[Step]) -> None:
+    """Have the kernel go through steps at each call, and allow what none of them decides."""
+    begin: list[Step] = [
         (_LOAD, 0, 0, _ARCH),
         (_EQUAL, 1, 0, machine.audit),
         (_RETURN, 0, 0, _KILL),
         (_LOAD, 0, 0, _NUMBER),
     ]
     if machine.foreign:
-        steps += [(_AT_LEAST, 0, 1, machine.foreign), (_RETURN, 0, 0, _KILL)]
-    for name in (*FORBIDDEN, *also):
-        steps += _on(name, machine, [(_RETURN, 0, 0, _ERROR | _EPERM)])
+        begin += [(_AT_LEAST, 0, 1, machine.foreign), (_RETURN, 0, 0, _KILL)]
+    _install(b"".join(_packed((*begin, *steps, (_RETURN, 0, 0, _ALLOW)))))
+
+
+def _refused(machine: Architecture, names: Iterable[str]) -> Iterator[Step]:
+    """Yield the steps that refuse calls, whatever their arguments."""
+    for name in names:
+        yield from _on(name, machine, [(_RETURN, 0, 0, _ERROR | _EPERM)])
+
+
+def _partly(machine: Architecture) -> Iterator[Step]:
+    """Yield the steps that refuse calls with some arguments."""
     # glibc goes back to clone(2), whose flags can be looked at.
-    steps += _on("clone3", machine, [(_RETURN, 0, 0, _ERROR | _ENOSYS)])
-    steps += _on("clone", machine, _refused_if(_ANY_BIT, 0, (_NEW_NAMESPACES,)))
-    steps += _on("ioctl", machine, _refused_if(_EQUAL, 1, _IOCTLS))
-    steps += _on("fcntl", machine, _refused_if(_EQUAL, 1, _FCNTLS))
+    yield from _on("clone3", machine, [(_RETURN, 0, 0, _ERROR | _ENOSYS)])
+    yield from _on("clone", machine, _refused_if(_ANY_BIT, 0, (_NEW_NAMESPACES,)))
+    yield from _on("ioctl", machine, _refused_if(_EQUAL, 1, _IOCTLS))
+    yield from _on("fcntl", machine, _refused_if(_EQUAL, 1, _FCNTLS))
+
+
+def _own(machine: Architecture, signals: bool) -> Iterator[Step]:
+    """Yield the steps that refuse calls about other processes; signals to them only if asked to."""
+    own = os.getpid()
     for name, argument in _OWN_PROCESS_ONLY.items():
-        steps += _on(name, machine, _refused_unless(argument, (0, os.getpid())))
-    if own is not None:
-        for name in _SIGNALS:
-            steps += _on(name, machine, _refused_unless(0, (own,)))
-    return [*steps, (_RETURN, 0, 0, _ALLOW)]
+        yield from _on(name, machine, _refused_unless(argument, (0, own)))
+    for name in () if signals else _SIGNALS:
+        yield from _on(name, machine, _refused_unless(0, (own,)))
 
 
 def _on(name: str, machine: Architecture, then: list[Step]) -> list[Step]:
@@ -207,6 +237,7 @@ def _install(code: bytes) -> None:
         raise NotHeld(f"the kernel filters no system calls ({os.strerror(ctypes.get_errno())})")
 
 
+@once
 def _libc() -> ctypes.CDLL:
     libc = ctypes.CDLL(None, use_errno=True)
     if not hasattr(libc, "prctl"):
