@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from threading import Lock
 from typing import Any
@@ -123,12 +124,12 @@ class Checks(Record, dict=True):
             "keep_seconds": keep_seconds,
             "cost": cost,
             "sender": "" if step.stage.is_final else order.sender,
+            "of_sender": order.sender,
+            "of_cost": cost,
             **_values(step),
         }
-        # SQLite has writers ask again after a while; among many, some would wait for seconds.
         try:
-            with self._writing, self.engine.begin() as connection:
-                entry["rank"] = rank(connection, Stage.STATIC, order.sender, cost)
+            with self._turn, self.engine.begin() as connection:
                 connection.execute(self._entering, entry)
                 self._tell(connection, id, step)
         except sa.exc.IntegrityError:
@@ -191,8 +192,7 @@ class Checks(Record, dict=True):
         with self.engine.begin() as connection:
             place: dict[str, Any] = {}
             if not step.stage.is_final:
-                at = rank(connection, step.stage, held.order.sender, cost)
-                place = {"cost": cost, "rank": at}
+                place = {"cost": cost, "rank": rank(step.stage, held.order.sender, cost)}
             return self._move(connection, held.id, step, *_is(held), **place)
 
     def put_off(self, held: Held, reason: str) -> bool:
@@ -340,6 +340,14 @@ class Checks(Record, dict=True):
             self._tell(connection, id, step)
         return moved
 
+    @property
+    def _turn(self) -> AbstractContextManager[object]:
+        """A turn of this process to write into SQLite, which has writers ask again after a while.
+
+        Among many, some would wait for seconds.
+        """
+        return self._writing if self.engine.dialect.name == "sqlite" else nullcontext()
+
     def _tell(self, connection: sa.Connection, id: str, step: Step) -> None:
         """Write an event, unless it was told before; the check's row is locked by now."""
         event = {
@@ -357,7 +365,9 @@ class Checks(Record, dict=True):
         """What writes a check; to build a statement takes longer than to run it."""
         moment = now(self.engine)
         expires = moment + sa.bindparam("keep_seconds", type_=sa.Double)
-        return sa.insert(CHECKS).values(created=moment, expires=expires)
+        own = (sa.bindparam("of_sender", type_=sa.Text), sa.bindparam("of_cost", type_=sa.Double))
+        place = rank(Stage.STATIC, *own)
+        return sa.insert(CHECKS).values(created=moment, expires=expires, rank=place)
 
     @cached_property
     def _telling(self) -> sa.Insert:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable, Mapping
+from time import monotonic
 
 from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks, Held, Taker
@@ -15,6 +16,9 @@ from checker.service.jobs.port import JobsUnreachable, Stage
 _LOG = logging.getLogger(__name__)
 _LOOK_SECONDS = 1.0
 """Between two looks into the queues when nothing changes: a check may wait for its next try."""
+_APART_SECONDS = 0.05
+"""Between two looks of which the first finds nothing: each upload is a change, and many come at
+once."""
 
 
 class Dispatcher:
@@ -53,8 +57,10 @@ class Dispatcher:
             changes: Tells of what may have come into the queues.
         """
         while not stop.is_set():
+            looked = monotonic()
             if not self._take_one():
                 changes.wait(_LOOK_SECONDS)
+                stop.wait(max(0.0, looked + _APART_SECONDS - monotonic()))
 
     def wait(self, seconds: float) -> bool:
         """Wait until nothing is in hand any more; False if something is after so many seconds."""

@@ -33,11 +33,14 @@ def queue_of(stage: str) -> Stage:
     return Stage.STATIC if stage in _BEFORE_TRIAL else Stage.TRIAL
 
 
-def rank(connection: sa.Connection, stage: Stage, sender: str, cost: float) -> float:
-    """Return the rank of a check that enters a queue.
+def rank(
+    stage: Stage,
+    sender: str | sa.BindParameter[str],
+    cost: float | sa.BindParameter[float],
+) -> sa.ColumnElement[float]:
+    """Return the rank of a check that enters a queue, as the database works it out.
 
     Args:
-        connection: Of the database.
         stage: Of the queue.
         sender: Who asks.
         cost: Of the check, seconds.
@@ -47,9 +50,7 @@ def rank(connection: sa.Connection, stage: Stage, sender: str, cost: float) -> f
         CHECKS.c.stage.in_(stands_in(stage)), *shorter
     )
     clock = sa.select(QUEUES.c.moment).where(QUEUES.c.stage == stage.value)
-    question = sa.select(before.scalar_subquery(), clock.scalar_subquery())
-    own, moment = connection.execute(question).one()
-    return float(moment + own + cost)
+    return clock.scalar_subquery() + before.scalar_subquery() + cost
 
 
 def set_clock(connection: sa.Connection, stage: Stage, rank: float) -> None:
