@@ -11,8 +11,9 @@ import pytest
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.changes import AWAY_SECONDS, CHANNEL, Changes
-from checker.service.jobs.durable.checks import Checks, Step, Taker
+from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, prepare
+from checker.service.jobs.durable.steps import Step, Taker
 from checker.service.jobs.port import Order, Stage
 from tests.effort import limited
 from tests.postgres import DATABASES, fresh_database

@@ -11,8 +11,10 @@ import pytest
 from hypothesis import settings
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from checker.service.jobs.durable.checks import PAUSES, TRIES, Checks, Held, Step, Taker, forget
+from checker.service.jobs.durable.checks import PAUSES, TRIES, Checks, forget
 from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.events import Events
+from checker.service.jobs.durable.steps import Held, Step, Taker
 from checker.service.jobs.durable.tables import make_tables
 from checker.service.jobs.port import Event, Order, Stage, State
 from tests.effort import examples
@@ -58,7 +60,7 @@ def state(checks: Checks, id: str) -> State:
 
 
 def told(checks: Checks, id: str) -> list[Event]:
-    return list(checks.events(id, 0))
+    return list(Events(checks.engine).after(id, 0))
 
 
 @pytest.fixture

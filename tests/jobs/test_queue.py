@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from checker.service.jobs.durable.checks import Checks, Step, Taker
+from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.steps import Step, Taker
 from checker.service.jobs.port import Stage
 from tests.effort import examples
 from tests.jobs.test_checks import DONE, ORDER, QUEUED, READ, SECRET, checks_in

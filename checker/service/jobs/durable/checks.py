@@ -1,4 +1,4 @@
-"""The table of checks: what was asked for, how far it is, who has it in hand, and what was told.
+"""The table of checks: what was asked for, how far it is, and who has it in hand.
 
 Every change is one transaction that holds only if the check is where it was thought to be: what a
 worker says that was taken for dead and comes back is not written. Checks go by their keys here and
@@ -18,13 +18,14 @@ import sqlalchemy as sa
 from msgspec import field
 
 from checker.base.record import Record
-from checker.base.words import plain, shortened
 from checker.service.jobs.durable.changes import tell
 from checker.service.jobs.durable.database import now
+from checker.service.jobs.durable.events import Events, storable
 from checker.service.jobs.durable.queue import ahead, next_in, queue_of, rank, set_clock
+from checker.service.jobs.durable.steps import Held, Step, Taker
 from checker.service.jobs.durable.tables import CHECKS, EVENTS, FINAL, STAGES, WAITS, WORKERS
 from checker.service.jobs.outcome import UNFINISHED
-from checker.service.jobs.port import Event, Order, Stage, State
+from checker.service.jobs.port import Order, Stage, State
 
 PAUSES = (1.0, 5.0, 30.0, 120.0)
 """Seconds before each further try of what came to nothing through no fault of the package. A disk
@@ -32,66 +33,14 @@ that is full, or a machine that is out of memory, may need minutes."""
 TRIES = len(PAUSES) + 1
 """The last one is alone on its machine."""
 WORKER_ENDED = "its worker process ended"
-EVENTS_AT_ONCE = 100
-_WORDS_LIMIT = 2000
 _BEGINS = {
     Stage.STATIC: "the static rules are running",
     Stage.TRIAL: "the trial is running",
 }
 
 
-class Taker(Record):
-    """A worker process that takes checks.
-
-    Attributes:
-        name: No other one has it at the same time.
-        host: Machine or container that it shares with others.
-    """
-
-    name: str
-    host: str
-
-
-class Held(Record):
-    """A stage of a check in the hands of a worker.
-
-    Attributes:
-        id: Key of the check.
-        worker: Its name.
-        stage: What it does.
-        order: What was asked for.
-        is_last: Whether this is its last try, to be made alone.
-    """
-
-    id: str
-    worker: str
-    stage: Stage
-    order: Order
-    is_last: bool = False
-
-
-class Step(Record):
-    """What a check comes to.
-
-    Attributes:
-        key: Of the event that tells it: it is told once, however often the step is taken.
-        stage: The new stage.
-        words: What is going on or went wrong, one sentence.
-        result: Key of the stored report, where there is a new one.
-        packages: As in `State`, with a new result.
-        data: Of the event.
-    """
-
-    key: str
-    stage: Stage
-    words: str
-    result: str = ""
-    packages: Sequence[Mapping[str, Any]] = ()
-    data: Mapping[str, Any] = field(default_factory=dict)
-
-
 class Checks(Record, dict=True):
-    """The table of checks, and that of their events.
+    """The table of checks; what becomes of one is told in that of events.
 
     Attributes:
         engine: Of the database.
@@ -131,7 +80,7 @@ class Checks(Record, dict=True):
         try:
             with self._turn, self.engine.begin() as connection:
                 connection.execute(self._entering, entry)
-                self._tell(connection, id, step)
+                self._events.write(connection, id, step)
         except sa.exc.IntegrityError:
             if self.state(id) is None:
                 raise
@@ -228,7 +177,7 @@ class Checks(Record, dict=True):
             "worker": row.worker,
             "stage": row.stage,
             "found": round(time.time(), 1),
-            "reason": _storable(reason),
+            "reason": storable(reason),
         }
         tries = row.tries + 1
         lost: dict[str, Any] = {"losses": [*row.losses, loss], "tries": tries}
@@ -291,23 +240,6 @@ class Checks(Record, dict=True):
                 expires=row.expires,
             )
 
-    def events(self, id: str, after: int) -> Sequence[Event]:
-        """Return what was told of a check after an event, in order."""
-        events = sa.select(EVENTS).where(EVENTS.c.check_id == id, EVENTS.c.number > after)
-        with self.engine.connect() as connection:
-            rows = connection.execute(events.order_by(EVENTS.c.number).limit(EVENTS_AT_ONCE))
-            return [
-                Event(row.number, Stage(row.stage), row.words, row.time, row.data) for row in rows
-            ]
-
-    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
-        """Return the number of the last event of each of these checks that is known."""
-        last = sa.func.max(EVENTS.c.number).label("last")
-        these = sa.select(EVENTS.c.check_id, last).where(EVENTS.c.check_id.in_(ids))
-        question = these.group_by(EVENTS.c.check_id)
-        with self.engine.connect() as connection:
-            return {row.check_id: row.last for row in connection.execute(question)}
-
     def waiting(self) -> tuple[Mapping[str, int], int]:
         """Return how many checks wait, by queue, and how many are in hand."""
         in_hand = CHECKS.c.worker != ""
@@ -337,7 +269,7 @@ class Checks(Record, dict=True):
             values["sender"] = ""
         moved = connection.execute(sa.update(CHECKS).where(*there).values(values)).rowcount == 1
         if moved:
-            self._tell(connection, id, step)
+            self._events.write(connection, id, step)
         return moved
 
     @property
@@ -348,17 +280,9 @@ class Checks(Record, dict=True):
         """
         return self._writing if self.engine.dialect.name == "sqlite" else nullcontext()
 
-    def _tell(self, connection: sa.Connection, id: str, step: Step) -> None:
-        """Write an event, unless it was told before; the check's row is locked by now."""
-        event = {
-            "its_check": id,
-            "its_key": step.key,
-            "its_stage": step.stage.value,
-            "its_words": _storable(step.words),
-            "its_data": dict(step.data),
-        }
-        connection.execute(self._telling, event)
-        tell(connection, id)
+    @cached_property
+    def _events(self) -> Events:
+        return Events(self.engine)
 
     @cached_property
     def _entering(self) -> sa.Insert:
@@ -368,25 +292,6 @@ class Checks(Record, dict=True):
         own = (sa.bindparam("of_sender", type_=sa.Text), sa.bindparam("of_cost", type_=sa.Double))
         place = rank(Stage.STATIC, *own)
         return sa.insert(CHECKS).values(created=moment, expires=expires, rank=place)
-
-    @cached_property
-    def _telling(self) -> sa.Insert:
-        """What writes an event."""
-        check = sa.bindparam("its_check", type_=sa.Text)
-        key = sa.bindparam("its_key", type_=sa.Text)
-        exists = sa.exists().where(EVENTS.c.check_id == check, EVENTS.c.key == key)
-        last = sa.select(sa.func.max(EVENTS.c.number)).where(EVENTS.c.check_id == check)
-        event: dict[str, sa.ColumnElement[Any]] = {
-            "check_id": check,
-            "number": sa.func.coalesce(last.scalar_subquery(), 0) + 1,
-            "key": key,
-            "stage": sa.bindparam("its_stage", type_=sa.Text),
-            "words": sa.bindparam("its_words", type_=sa.Text),
-            "time": now(self.engine),
-            "data": sa.bindparam("its_data", type_=sa.JSON),
-        }
-        chosen = sa.select(*event.values()).where(~exists)
-        return sa.insert(EVENTS).from_select(list(event), chosen)
 
 
 def forget(connection: sa.Connection, ids: Collection[str]) -> None:
@@ -399,7 +304,7 @@ def forget(connection: sa.Connection, ids: Collection[str]) -> None:
 
 
 def _values(step: Step) -> dict[str, Any]:
-    values: dict[str, Any] = {"stage": step.stage.value, "words": _storable(step.words)}
+    values: dict[str, Any] = {"stage": step.stage.value, "words": storable(step.words)}
     if step.result:
         values |= {"result": step.result, "packages": [dict(package) for package in step.packages]}
     return values
@@ -417,8 +322,3 @@ def _as_in(row: sa.Row[Any]) -> Sequence[sa.ColumnElement[bool]]:
         CHECKS.c.stage == row.stage,
         CHECKS.c.tries == row.tries,
     )
-
-
-def _storable(words: str) -> str:
-    """Return words as any database takes them: PostgreSQL refuses a zero character."""
-    return shortened(plain(words), _WORDS_LIMIT)

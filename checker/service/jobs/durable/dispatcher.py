@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from time import monotonic
 
 from checker.service.jobs.durable.changes import Changes
-from checker.service.jobs.durable.checks import Checks, Held, Taker
+from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import reachable
+from checker.service.jobs.durable.steps import Held, Taker
 from checker.service.jobs.durable.tables import STAGES
 from checker.service.jobs.port import JobsUnreachable, Stage
 

@@ -18,9 +18,10 @@ from msgspec import field
 from checker.base.record import Record
 from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
-from checker.service.jobs.durable.checks import Checks, Held, Step, Taker, forget
+from checker.service.jobs.durable.checks import Checks, forget
 from checker.service.jobs.durable.client import finished
 from checker.service.jobs.durable.database import now, reachable
+from checker.service.jobs.durable.steps import Held, Step, Taker
 from checker.service.jobs.durable.tables import CHECKS
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,

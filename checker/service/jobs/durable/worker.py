@@ -21,10 +21,11 @@ from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.changes import Changes
-from checker.service.jobs.durable.checks import PAUSES, Checks, Taker
+from checker.service.jobs.durable.checks import PAUSES, Checks
 from checker.service.jobs.durable.database import open_database, prepare, reachable
 from checker.service.jobs.durable.dispatcher import Dispatcher
 from checker.service.jobs.durable.stages import Retention, Stages
+from checker.service.jobs.durable.steps import Taker
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable, Stage
 from checker.service.jobs.sandbox import layers_of_checks
