@@ -1,11 +1,13 @@
 // Keeps the page of a check fresh: each event fetches the page, and what differs is put in its place.
 
 document.documentElement.classList.add("scripted");
-const EVERY = 3000; // ms between looks without an event: the queue moves without telling
+const EVERY = 3000; // ms between looks while no events are heard
+const MEANWHILE = 10000; // ms since the last look, else: the queue moves without telling
 const part = (id, page = document) => page.getElementById(id);
 const check = part("check");
 let events = null;
 let timer = 0;
+let looked = Date.now();
 let looking = false;
 let again = false;
 
@@ -41,6 +43,7 @@ async function refresh() {
   again = looking;
   if (looking) return;
   looking = true;
+  looked = Date.now();
   try {
     await look();
   } catch {
@@ -57,10 +60,15 @@ function finish() {
   clearInterval(timer);
 }
 
+function lookNowAndThen() {
+  const hears = events.readyState === EventSource.OPEN;
+  if (!hears || Date.now() - looked >= MEANWHILE) refresh();
+}
+
 function watch() {
   events = new EventSource(check.dataset.events);
   events.addEventListener("message", refresh);
-  timer = setInterval(refresh, EVERY);
+  timer = setInterval(lookNowAndThen, EVERY);
 }
 
 if (!("final" in check.dataset)) watch();

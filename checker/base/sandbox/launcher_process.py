@@ -272,8 +272,9 @@ def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
         _stand_back(niceness)
-    if loaded:
-        import_module(loaded).prepare()
+    module = import_module(loaded) if loaded else None
+    if module is not None and hasattr(module, "prepare"):
+        module.prepare()
     with socket.socket(fileno=descriptor) as control:
         LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 
