@@ -1,8 +1,9 @@
 """Many pages that follow one check: what they cost the web process, and how late events are there.
 
 Two hundred streams follow a check to which something happens twice a second, then one to which
-nothing happens. Run with `python -m bench.watchers [--postgres] [--watchers N]` from the top
-folder, as `make bench` does. Machines differ and are shared: see the pace that is printed.
+nothing happens, whose pages look by themselves now and then. Run with
+`python -m bench.watchers [--postgres] [--watchers N]` from the top folder, as `make bench` does.
+Machines differ and are shared: see the pace that is printed.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import asyncio
 import os
 import statistics
 import tempfile
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from time import perf_counter, time
@@ -31,6 +32,8 @@ PROCESSOR_LIMIT, LATE_LIMIT = 20.0, 0.2
 """Percent of a processor, and seconds."""
 MEASURED_SECONDS = 15.0
 BETWEEN_SECONDS = 0.5
+PAGE_SECONDS = 10.0
+"""Between two looks of a page to which nothing is told (`MEANWHILE` in templates/web/watch.js)."""
 PER_ADDRESS = 20
 """Streams of one address: those of this machine are many."""
 MODEL = b'<sdf version="1.6"><model name="a"/></sdf>'
@@ -73,23 +76,41 @@ class Check:
 
 async def watch(address: str, id: str, number: int, late: list[float]) -> None:
     """Follow a check for ever, and note how late each event is."""
-    host, _, port = urlsplit(address).netloc.rpartition(":")
-    mine = (f"127.0.0.{2 + number // PER_ADDRESS}", 0)
-    reader, writer = await asyncio.open_connection(host, int(port), local_addr=mine)
-    writer.write(f"GET /api/checks/{id}/events?after=1 HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
-    status = await reader.readline()
-    if b" 200 " not in status:
-        raise SystemExit(f"a stream is refused: {status!r}")
-    async for line in reader:
+    async for line in answered(address, f"/api/checks/{id}/events?after=1", number):
         if line.startswith(b"data: "):
             told = float(line.partition(b'"time": ')[2].partition(b",")[0])
             late.append(time() - told)
 
 
+async def look(address: str, id: str, number: int, watchers: int) -> None:
+    """Fetch the page of a check now and then for ever, each watcher at another moment."""
+    await asyncio.sleep(PAGE_SECONDS * number / watchers)
+    while True:
+        async for _ in answered(address, f"/checks/{id}", number):
+            pass
+        await asyncio.sleep(PAGE_SECONDS)
+
+
+async def answered(address: str, path: str, number: int) -> AsyncIterator[bytes]:
+    """Yield the lines of an answer; some watchers share an address."""
+    host, _, port = urlsplit(address).netloc.rpartition(":")
+    mine = (f"127.0.0.{2 + number // PER_ADDRESS}", 0)
+    reader, writer = await asyncio.open_connection(host, int(port), local_addr=mine)
+    writer.write(f"GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
+    status = await reader.readline()
+    if b" 200 " not in status:
+        raise SystemExit(f"{path} is refused: {status!r}")
+    async for line in reader:
+        yield line
+    writer.close()
+
+
 async def measured(address: str, id: str, watchers: int, check: Check | None) -> list[float]:
     """Print what watchers cost, and return how late events were; None has nothing happen."""
     late: list[float] = []
-    streams = [asyncio.create_task(watch(address, id, n, late)) for n in range(watchers)]
+    tasks = [asyncio.create_task(watch(address, id, n, late)) for n in range(watchers)]
+    if check is None:
+        tasks += [asyncio.create_task(look(address, id, n, watchers)) for n in range(watchers)]
     await asyncio.sleep(5.0)
     web = web_process()
     began, used = perf_counter(), processor_seconds(web)
@@ -98,12 +119,12 @@ async def measured(address: str, id: str, watchers: int, check: Check | None) ->
             await asyncio.to_thread(check.happen)
         await asyncio.sleep(BETWEEN_SECONDS)
     share = 100 * (processor_seconds(web) - used) / (perf_counter() - began)
-    what = "events twice a second" if check is not None else "nothing happens"
-    show(f"{watchers} watchers, {what}", share, "% of a processor", PROCESSOR_LIMIT)
-    for stream in streams:
-        if stream.done():
-            stream.result()
-        stream.cancel()
+    what = "streams, events twice a second" if check is not None else "pages, nothing happens"
+    show(f"{watchers} {what}", share, "% of a processor", PROCESSOR_LIMIT)
+    for task in tasks:
+        if task.done():
+            task.result()
+        task.cancel()
     return late
 
 
