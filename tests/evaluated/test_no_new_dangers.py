@@ -25,7 +25,6 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/base/sandbox/namespaces.py", BYTES): "system calls that enter the sandbox",
     ("checker/base/sandbox/seccomp.py", BYTES): "system calls that enter the sandbox",
     ("checker/base/sandbox/task.py", BYTES): "a system call that ends it with its parent",
-    ("checker/base/sandbox/launcher_process.py", MODULE): "named by who starts it",
     ("checker/base/sandbox/launcher_process.py", BYTES): "a system call that hands orphans over",
     ("checker/base/sandbox/task.py", MODULE): "named by the parent, before anything is read",
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",

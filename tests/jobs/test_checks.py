@@ -13,7 +13,6 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from checker.service.jobs.durable.checks import PAUSES, TRIES, Checks, forget
 from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.events import Events
 from checker.service.jobs.durable.steps import Held, Step, Taker
 from checker.service.jobs.durable.tables import make_tables
 from checker.service.jobs.port import Event, Order, Stage, State
@@ -60,7 +59,7 @@ def state(checks: Checks, id: str) -> State:
 
 
 def told(checks: Checks, id: str) -> list[Event]:
-    return list(Events(checks.engine).after(id, 0))
+    return list(checks.events.after(id, 0))
 
 
 @pytest.fixture

@@ -22,13 +22,12 @@ import socket
 import sys
 from collections.abc import Container, Sequence
 from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
 from checker.base.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
-from checker.base.sandbox.task import run
+from checker.base.sandbox.task import prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
 #
@@ -272,9 +271,8 @@ def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
         _stand_back(niceness)
-    module = import_module(loaded) if loaded else None
-    if module is not None and hasattr(module, "prepare"):
-        module.prepare()
+    if loaded:
+        prepared(loaded)
     with socket.socket(fileno=descriptor) as control:
         LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 

@@ -61,9 +61,7 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
             inherit(inner)
         hold_to(order["seconds"], order["memory"])
         narrow(sandbox, works=order["works"], draws=order["draws"])
-        module = import_module(order["module"])
-        if hasattr(module, "prepare"):
-            module.prepare()
+        module = prepared(order["module"])
         if order["serves"]:
             module.serve(socket.socket(fileno=request))
         elif order.get("lasts"):
@@ -78,6 +76,14 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
             _tell_fault(answer)
         return code
     return 0
+
+
+def prepared(name: str) -> ModuleType:
+    """Return a module that is loaded and, if it can be, prepared."""
+    module = import_module(name)
+    if hasattr(module, "prepare"):
+        module.prepare()
+    return module
 
 
 def code_of(error: BaseException) -> int:

@@ -80,7 +80,7 @@ class Checks(Record, dict=True):
         try:
             with self._turn, self.engine.begin() as connection:
                 connection.execute(self._entering, entry)
-                self._events.write(connection, id, step)
+                self.events.write(connection, id, step)
         except sa.exc.IntegrityError:
             if self.state(id) is None:
                 raise
@@ -269,7 +269,7 @@ class Checks(Record, dict=True):
             values["sender"] = ""
         moved = connection.execute(sa.update(CHECKS).where(*there).values(values)).rowcount == 1
         if moved:
-            self._events.write(connection, id, step)
+            self.events.write(connection, id, step)
         return moved
 
     @property
@@ -281,7 +281,8 @@ class Checks(Record, dict=True):
         return self._writing if self.engine.dialect.name == "sqlite" else nullcontext()
 
     @cached_property
-    def _events(self) -> Events:
+    def events(self) -> Events:
+        """The table of events."""
         return Events(self.engine)
 
     @cached_property

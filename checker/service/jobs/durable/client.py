@@ -14,7 +14,6 @@ from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.events import Events
 from checker.service.jobs.durable.pace import pace_of
 from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
 from checker.service.jobs.durable.steps import Step
@@ -59,10 +58,6 @@ class DurableJobs(Record, dict=True):
         """The table of checks."""
         return Checks(self.engine)
 
-    @cached_property
-    def _events(self) -> Events:
-        return Events(self.engine)
-
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
 
@@ -97,13 +92,13 @@ class DurableJobs(Record, dict=True):
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         """Return what has happened so far after event number `after`, in order."""
         with reachable():
-            return self._events.after(key_of_check(id), after)
+            return self.checks.events.after(key_of_check(id), after)
 
     def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
         """Return the number of the last event of each of these checks that is known."""
         keys = {key_of_check(id): id for id in ids}
         with reachable():
-            return {keys[key]: last for key, last in self._events.last(keys).items()}
+            return {keys[key]: last for key, last in self.checks.events.last(keys).items()}
 
     def changes(self) -> Changes:
         """Return what hears that something changed, at any check."""
