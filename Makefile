@@ -1,26 +1,21 @@
-# `make demo` shows what the checker does; `make test` runs the first tier of tests, `make test-all`
-# all that continuous integration runs. All start from a bare Debian or Ubuntu with Python 3.11 or
-# newer.
+# `make demo` checks the samples; `make test` runs the first tier of tests. Both need only Python 3.11
+# or newer. `make test-all` runs lint, types and all tiers, on Debian or Ubuntu. Tests and benches
+# over real packages read the folders that SUBT_CHECK_CORPUS, _REVIEWS and _MODERN name.
 
 PYTHON ?= python3
 BIN := .venv/bin
-CORPUS ?= $(wildcard ../shared/corpus)
-REVIEWS ?= $(wildcard ../shared/reviews)
-MODERN ?= $(wildcard ../shared/modern)
 WORKERS ?= auto
-MORE := browser or service or install or programs or oracle or corpus
-# Folders of real packages, where there are any: tests and benches do without.
-PACKAGES := $(if $(CORPUS),SUBT_CHECK_CORPUS=$(abspath $(CORPUS))) \
-  $(if $(REVIEWS),SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS))) \
-  $(if $(MODERN),SUBT_CHECK_MODERN=$(abspath $(MODERN)))
+THOROUGH := --hypothesis-profile=thorough
+MORE := browser or service or install or programs or oracle or corpus or root
 VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs linkcheck test test-more test-all viewer vscode lint types format bench picture editor-picture \
+.PHONY: demo dev docs linkcheck test smoke test-more test-all viewer vscode lint types format bench picture editor-picture \
   constraints clean golden
 
-demo: .venv/installed $(VIEWER)
+# Where there is no npm, the reports show pictures in place of the 3D view.
+demo: .venv/installed $(if $(shell command -v npm),$(VIEWER))
 	@mkdir -p demo
 	@echo "== good robots: of ROS 2 on two wheels; of SubT on wheels, on tracks, and in the air"
 	@$(BIN)/subt-check samples/acme_scout samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
@@ -39,13 +34,18 @@ dev: .venv/dev
 test: .venv/dev
 	$(BIN)/pytest -n $(WORKERS) -m "not ($(MORE))"
 
-# The other tiers.
-test-more: .venv/tested $(VIEWER)
-	$(PACKAGES) $(BIN)/pytest -n $(WORKERS) -m "$(MORE)"
+# A few tests of each other tier; without the program that a test needs, it is skipped.
+smoke: .venv/dev
+	$(BIN)/pytest -m smoke
 
-# Lint, types and all tiers.
-test-all:
-	.ci/run
+# The other tiers, with all examples of each property.
+test-more: .venv/tested $(VIEWER)
+	$(BIN)/pytest -n $(WORKERS) $(THOROUGH) -m "$(MORE)"
+
+# Lint, types and all tiers, with all examples of each property.
+test-all: lint types
+	$(BIN)/pytest -n $(WORKERS) $(THOROUGH) -m "not ($(MORE))"
+	$(MAKE) test-more
 
 lint: .venv/dev
 	$(BIN)/ruff check .
@@ -60,12 +60,12 @@ format: .venv/dev
 	$(BIN)/ruff format .
 
 bench: .venv/tested $(VIEWER)
-	$(PACKAGES) $(BIN)/python bench/static.py
-	$(PACKAGES) $(BIN)/python bench/trial.py
-	$(PACKAGES) $(BIN)/python -m bench.report
+	$(BIN)/python bench/static.py
+	$(BIN)/python bench/trial.py
+	$(BIN)/python -m bench.report
 	$(BIN)/python bench/hostile.py
 	$(BIN)/python -m bench.install
-	$(PACKAGES) $(BIN)/python -m bench.first_findings
+	$(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
 	$(BIN)/python -m bench.fairness
@@ -76,11 +76,11 @@ bench: .venv/tested $(VIEWER)
 	$(BIN)/python -m bench.reports
 	$(BIN)/python -m bench.watchers
 	$(BIN)/python -m bench.watchers --postgres
-	$(PACKAGES) $(BIN)/python -m bench.batch
-	$(PACKAGES) $(BIN)/python -m bench.xacro
-	$(PACKAGES) $(BIN)/python -m bench.repository
-	$(PACKAGES) $(BIN)/python -m bench.peers
-	$(PACKAGES) $(BIN)/python -m bench.editor
+	$(BIN)/python -m bench.batch
+	$(BIN)/python -m bench.xacro
+	$(BIN)/python -m bench.repository
+	$(BIN)/python -m bench.peers
+	$(BIN)/python -m bench.editor
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)

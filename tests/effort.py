@@ -20,7 +20,7 @@ _TASK_SECONDS = 0.02
 
 
 def examples(number: int) -> int:
-    """Return how many examples a property gets: this number in CI, a fifth of it while working."""
+    """Return how many examples a property gets: this number in `make test-all`, else a tenth."""
     return max(1, number * settings.default.max_examples // 100)
 
 

@@ -9,11 +9,16 @@ import pytest
 
 from tests.each import of_each
 from tests.effort import limited, seconds
-from tests.tiers import BY_PLACE, TESTS
+from tests.tiers import BY_PLACE, SMOKE, TESTS
 
 
 def test_places_of_tiers_exist() -> None:
     assert not [place for place in BY_PLACE if not (TESTS / place).exists()]
+
+
+def test_tests_that_the_gate_runs_exist() -> None:
+    for place, test in (each.split("::") for each in SMOKE):
+        assert f"\ndef {test}(" in (TESTS / place).read_text("utf-8")
 
 
 def test_the_first_tier_opens_no_port() -> None:

@@ -17,11 +17,12 @@ import pytest
 TESTS = Path(__file__).parent
 MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
-    "service": "needs a network port, a database server or workers of the service",
+    "service": "needs a network, a port, a database server, workers of the service, or kills",
     "install": "needs a second installation of the project: wheel, image, hook, editor's client",
     "programs": "needs what `make dev` does not install: ruby, git, zsh, Sphinx, OpenGL, schemas",
     "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
+    "root": "needs to mount a disk or to become another user",
 }
 BY_FIXTURE: Mapping[str, str] = {
     "chromium": "browser",
@@ -47,6 +48,8 @@ BY_PLACE: Mapping[str, str] = {
     "command/test_nothing_is_fetched.py": "service",
     "survival": "service",
     "viewer": "browser",
+    "jobs/test_check.py": "service",
+    "jobs/test_children.py": "service",
     "jobs/test_contract.py": "service",
     "jobs/test_end_to_end.py": "service",
     "sandbox/test_as_others.py": "service",
@@ -55,6 +58,16 @@ BY_PLACE: Mapping[str, str] = {
     "web/test_main.py": "service",
 }
 """Folders and modules, all of whose tests need the same."""
+SMOKE = (
+    "fixing/test_uncommitted.py::test_committed_files_are_fixed",
+    "oracle/test_libsdformat.py::test_models_are_read_alike",
+    "report/html/test_in_browser.py::test_without_javascript_everything_but_the_3d_is_there",
+    "serving/test_serve.py::test_what_is_sent_is_checked_and_told",
+    "test_wheel.py::test_a_sample_from_the_wheel_is_ready",
+    "test_wheel.py::test_it_carries_code_rules_data_and_samples",
+    "viewer/test_viewer.py::test_it_knows_the_trial_and_shows_its_start",
+)
+"""Tests of other tiers that the gate runs too; each is skipped without the program it needs."""
 _PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(
     ("git", "node", "npm", "ruby"), "programs"
 )
@@ -63,6 +76,8 @@ _PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(
 def marks_of(item: pytest.Item) -> Iterator[str]:
     """Yield the marks that a test has by its fixtures and its place."""
     place = item.path.relative_to(TESTS)
+    if f"{place.as_posix()}::{getattr(item, 'originalname', '')}" in SMOKE:
+        yield "smoke"
     for each in (place, *place.parents):
         if mark := BY_PLACE.get(each.as_posix()):
             yield mark

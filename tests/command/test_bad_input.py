@@ -181,7 +181,7 @@ def test_a_name_of_many_characters(run: Run, rover: Path, length: int) -> None:
     assert max(map(len, done.stdout.splitlines())) < 1000
 
 
-@pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="needs to become another user")
+@pytest.mark.root
 @pytest.mark.parametrize("spoilt", [".", "model.sdf", "launch", "subt-check.toml"])
 def test_what_may_not_be_read_is_said(rover: Path, spoilt: str, open_folder: Path) -> None:
     rover = rover.rename(open_folder / rover.name)

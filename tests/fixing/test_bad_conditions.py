@@ -106,6 +106,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     subprocess.run(["umount", str(folder)], check=True)
 
 
+@pytest.mark.root
 def test_a_disk_that_is_full(small_disk: Path) -> None:
     package = Path(shutil.copytree(SAMPLES / BROKEN, small_disk / BROKEN))
     fixed = wanted(package)
@@ -122,6 +123,7 @@ def test_a_disk_that_is_full(small_disk: Path) -> None:
     assert contents(package) != before
 
 
+@pytest.mark.service
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_killed_between_two_files(tmp_path: Path, count: int) -> None:
     package = Path(shutil.copytree(SAMPLES / BROKEN, tmp_path / BROKEN))

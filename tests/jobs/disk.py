@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,7 +10,7 @@ from pathlib import Path
 import pytest
 
 BLOCK = 65_536
-needs_mount = pytest.mark.skipif(os.geteuid() != 0, reason="only root mounts a disk")
+needs_mount = pytest.mark.root
 
 
 @contextmanager

@@ -189,7 +189,7 @@ def command(*arguments: object) -> subprocess.Popen[str]:
     return subprocess.Popen(words, stdout=pipe, stderr=pipe, text=True, cwd=SAMPLES.parent)
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="needs to become another user")
+@pytest.mark.root
 def test_a_folder_that_cannot_be_written_to(write: Write, open_folder: Path) -> None:
     source = write({"urdf/a.urdf": ROBOT}).rename(open_folder / "rover_description")
     # The first run loads all modules, which the other user may not be able to read.
@@ -221,6 +221,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     subprocess.run(["umount", str(place)], check=False)
 
 
+@pytest.mark.root
 def test_a_full_disk(small_disk: Path) -> None:
     said = "No space left on device; no package was made"
     with pytest.raises(NotMigrated, match=said):
@@ -240,6 +241,7 @@ def test_a_disk_that_is_full_at_the_first_mesh(
     assert not (tmp_path / "made").exists()
 
 
+@pytest.mark.service
 def test_a_kill_in_the_middle_leaves_no_half_package(tmp_path: Path) -> None:
     made = tmp_path / "made"
     child = command(SAMPLES / "husky_description", made)

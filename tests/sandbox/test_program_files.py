@@ -50,6 +50,7 @@ def test_a_relative_folder_opens_nothing(tmp_path: Path, monkeypatch: pytest.Mon
             assert not isinstance(said, bytes) or not starter.layers[0].held
 
 
+@pytest.mark.programs
 def test_an_environment_that_is_reached_by_a_link(tmp_path: Path) -> None:
     if namespaces.bubblewrap():
         pytest.skip(namespaces.bubblewrap())

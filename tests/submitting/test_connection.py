@@ -176,6 +176,7 @@ def test_an_upload_is_sent_whole_again(start_service: StartService, model: Path)
         assert len(asked.body) == int(asked.headers["content-length"])
 
 
+@pytest.mark.service
 def test_a_name_that_nobody_has_is_not_asked_again() -> None:
     started = time.monotonic()
     with pytest.raises(CheckerError, match=r"http://nobody\.invalid cannot be reached: "):

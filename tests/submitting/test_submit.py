@@ -236,6 +236,7 @@ def test_a_token_goes_along_and_is_told_to_nobody(
         assert "without encryption" not in each.stderr
 
 
+@pytest.mark.service
 def test_a_token_in_clear_over_a_network_is_warned_of(submit: Submit, model: Path) -> None:
     done = submit(model, "--server", "http://nobody.invalid", "--token", "s3cret")
     warned = "the token is sent to http://nobody.invalid without encryption; use https://"
