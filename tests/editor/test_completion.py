@@ -392,6 +392,7 @@ class TestModern:
         offered_ones = [
             element.tag in labels
             for subject, path in _paths(MODERN, ".sdf", ".xacro", ".urdf")
+            if ".srdf" not in path  # elements of SRDF are not offered yet
             for element, labels in _deleted(subject, path)
         ]
         assert len(offered_ones) > 100

@@ -12,6 +12,7 @@ from lxml import etree
 
 from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
+from checker.model.geometry.transform import rotation_from_rpy
 from checker.report.report import ReportedFinding
 from tests.conftest import SAMPLES
 from tests.oracle.conftest import Load
@@ -42,7 +43,7 @@ WITHOUT_TRACE = ("GEO001", "SDF002", "SDF007", "SDF014")
 """Rules whose fixes change nothing, or angles by a trace."""
 MODELS = (".sdf", ".world", ".urdf")
 _TURNED = 2e-3
-"""Radians by which GEO001 may turn something."""
+"""Radians by which GEO001 may turn something, and by which directions differ then."""
 
 
 def packages(variable: str) -> Iterator[Path]:
@@ -70,7 +71,7 @@ def values(text: str) -> dict[str, tuple[str, ...]]:
 
 
 def changed(before: str, after: str) -> Iterator[str]:
-    """Yield the paths of values that differ, but for angles that became exact."""
+    """Yield the paths of values that differ, except poses that became exact."""
     old, new = values(before), values(after)
     for path in sorted({**old, **new}):
         one, other = old.get(path, ()), new.get(path, ())
@@ -79,10 +80,19 @@ def changed(before: str, after: str) -> Iterator[str]:
 
 
 def _near(one: Sequence[str], other: Sequence[str]) -> bool:
-    numbers = [[float(word) for pose in poses for word in pose.split()] for poses in (one, other)]
+    """Return whether poses are nearly equal, however their rotations are written."""
+    numbers = [[number for pose in poses for number in _entries(pose)] for poses in (one, other)]
     return len(numbers[0]) == len(numbers[1]) and all(
         abs(a - b) <= _TURNED for a, b in zip(*numbers, strict=True)
     )
+
+
+def _entries(pose: str) -> Iterator[float]:
+    """Yield the position and the rotation matrix of a pose of six numbers."""
+    x, y, z, *rpy = map(float, pose.split())
+    yield from (x, y, z)
+    for row in rotation_from_rpy(*rpy):
+        yield from row
 
 
 def about(findings: Iterable[ReportedFinding]) -> re.Pattern[str]:
