@@ -45,7 +45,8 @@ class Settings(Record):
     Attributes:
         profile: Name of the profile that judges.
         profile_chosen: Whether the user named it; otherwise what is checked decides.
-        select: Rules to run, as `Rule.selectors` names them; empty for all of the profile.
+        select: Rules to run, as `Rule.selectors` names them: of a group or a concern, those of the
+            profile. Empty for all of the profile.
         ignore: Rule ids or groups to leave out.
         fail_on: Findings at or above this severity make the exit code 1.
         severity: Severity by rule id, where the user wants another.
@@ -88,6 +89,10 @@ class Settings(Record):
         """Whether the user wants this rule to run."""
         chosen = not self.select or _names(self.select, rule)
         return chosen and not _names(self.ignore, rule)
+
+    def names(self, rule: Rule) -> bool:
+        """Whether the user selects this rule itself, not only its group or concern."""
+        return rule.id in self.select or rule.name in self.select
 
     def overridden(self, **changes: Any) -> Settings:
         """Return settings in which those that are not None replace these."""

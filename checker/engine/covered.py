@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import itemgetter
 
 from checker.base.record import Record
 from checker.finding import Place, Severity
@@ -11,6 +12,9 @@ from checker.rule import Finding, Rule
 SeverityOf = Callable[[Rule, Finding], Severity]
 Said = tuple[Rule, list[Finding]]
 """A rule and what it found."""
+Cover = tuple[str, Finding]
+"""The id of a rule and what it says."""
+_Ranked = tuple[int, Finding]
 
 
 class Parted(Record):
@@ -18,12 +22,12 @@ class Parted(Record):
 
     Attributes:
         told: What it reports.
-        covered: What a more precise rule reports.
+        covered: What a more precise rule reports, each with what that rule says.
     """
 
     rule: Rule
     told: list[Finding]
-    covered: list[Finding]
+    covered: list[tuple[Finding, Cover]]
 
 
 def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parted]:
@@ -41,48 +45,56 @@ def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parte
     for rule, found in said:
         if rule.id in told:
             for each in found:
-                told[rule.id].add(each.places, severity_of(rule, each).rank)
+                told[rule.id].add(each, severity_of(rule, each).rank)
 
-    def is_covered(rule: Rule, finding: Finding) -> bool:
+    def cover_of(rule: Rule, finding: Finding) -> Cover | None:
         own = severity_of(rule, finding).rank
-        others = (told[other] for other in finding.covered_by if other in told)
-        return any(other.tells(finding.places, own) for other in others)
+        others = (id for id in finding.covered_by if id in told)
+        covers = ((id, told[id].telling(finding.places, own)) for id in others)
+        return next(((id, cover) for id, cover in covers if cover), None)
 
     parted = []
     for rule, found in said:
-        halves: tuple[list[Finding], list[Finding]] = ([], [])
-        for each in found:
-            halves[is_covered(rule, each)].append(each)
-        parted.append(Parted(rule, *halves))
+        covers = [(each, cover_of(rule, each)) for each in found]
+        parted.append(
+            Parted(
+                rule,
+                [each for each, cover in covers if cover is None],
+                [(each, cover) for each, cover in covers if cover is not None],
+            )
+        )
     return parted
 
 
 class _Told:
-    """Places that a rule reports, each with the rank of the gravest finding there."""
+    """Places that a rule reports, each with the gravest finding there and its rank."""
 
     def __init__(self) -> None:
         """Hold none yet."""
-        self._main: dict[tuple[str, int, str], int] = {}
-        self._around: dict[tuple[str, str], int] = {}
+        self._main: dict[tuple[str, int, str], _Ranked] = {}
+        self._around: dict[tuple[str, str], _Ranked] = {}
 
-    def add(self, places: Sequence[Place], rank: int) -> None:
+    def add(self, finding: Finding, rank: int) -> None:
         """Add the places of a finding, the main one first."""
-        main = _key(places[0])
-        self._main[main] = min(rank, self._main.get(main, rank))
-        for place in places:
+        ranked = rank, finding
+        main = _key(finding.places[0])
+        self._main[main] = min(ranked, self._main.get(main, ranked), key=itemgetter(0))
+        for place in finding.places:
             for element in _around(place.element):
                 at = place.file, element
-                self._around[at] = min(rank, self._around.get(at, rank))
+                self._around[at] = min(ranked, self._around.get(at, ranked), key=itemgetter(0))
 
-    def tells(self, places: Sequence[Place], rank: int) -> bool:
-        """Say whether findings of a rank, or graver ones, have the places of another finding."""
+    def telling(self, places: Sequence[Place], rank: int) -> Finding | None:
+        """Return the finding of a rank, or a graver one, that has the places of another finding."""
         main, *suspects = places
-        if self._main.get(_key(main), rank + 1) <= rank:
-            return True
-        return bool(suspects) and all(
-            bool(place.element) and self._around.get((place.file, place.element), rank + 1) <= rank
-            for place in suspects
-        )
+        at_main = self._main.get(_key(main))
+        if at_main and at_main[0] <= rank:
+            return at_main[1]
+        around = [
+            self._around.get((place.file, place.element)) for place in suspects if place.element
+        ]
+        told = [cover[1] for cover in around if cover and cover[0] <= rank]
+        return told[0] if told and len(told) == len(suspects) else None
 
 
 def _key(place: Place) -> tuple[str, int, str]:

@@ -16,7 +16,7 @@ from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.base.words import shortened
-from checker.engine.covered import Said, parted_by_cover
+from checker.engine.covered import Cover, Parted, Said, SeverityOf, parted_by_cover
 from checker.engine.options import options_of
 from checker.finding import (
     Fix,
@@ -27,7 +27,7 @@ from checker.finding import (
     numbered,
     without_line_numbers,
 )
-from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, Suppressed
+from checker.report.report import NO_TRIAL, Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import Profile
@@ -49,7 +49,7 @@ class Outcome(Record):
     Attributes:
         looked: Ids of the rules that had all they asked for, each with the options it used.
         suppressed: What they said and does not count.
-        covered: What they said and a more precise rule tells.
+        covered: What they said and a more precise rule tells; its finding repeats it.
     """
 
     findings: tuple[ReportedFinding, ...]
@@ -121,12 +121,14 @@ def _reported(
     def severity_of(rule: Rule, finding: Finding) -> Severity:
         return _severity(rule, finding.severity, profile, settings)
 
-    for each in parted_by_cover(said, severity_of):
+    shares = parted_by_cover(said, severity_of)
+    repeats = _repeats(shares, severity_of)
+    for each in shares:
         rule = each.rule
-        covered += _report(rule, each.covered, profile, settings)
+        covered += _report(rule, [found for found, _ in each.covered], profile, settings, {})
         spot_of = partial(_spot, rule, profile, settings)
         for suppression, group in parted(rule.id, each.told, matcher, spot_of).items():
-            reported = _report(rule, group, profile, settings)
+            reported = _report(rule, group, profile, settings, repeats)
             if suppression is None:
                 findings += reported
             else:
@@ -136,6 +138,22 @@ def _reported(
                 ]
     outcome = _outcome(_sorted(findings), suppressed, not_checked, looked)
     return replace(outcome, covered=tuple(covered))
+
+
+def _repeats(shares: Sequence[Parted], severity_of: SeverityOf) -> dict[Cover, list[Repeat]]:
+    """Return what less precise rules say, by the finding that is told in their place."""
+    covers = {(each.rule.id, found): cover for each in shares for found, cover in each.covered}
+    repeats: dict[Cover, list[Repeat]] = {}
+    for each in shares:
+        for found, cover in each.covered:
+            told = cover
+            while told in covers:
+                told = covers[told]
+            message = shortened(found.message, TEXT_LIMIT)
+            severity = severity_of(each.rule, found)
+            repeat = Repeat(each.rule.id, each.rule.name, severity, message, _bounded(found.places))
+            repeats.setdefault(told, []).append(repeat)
+    return repeats
 
 
 def _graded(finding: Finding, unloaded: Collection[str]) -> Finding:
@@ -180,7 +198,7 @@ def joined(*outcomes: Outcome) -> Outcome:
 
 
 def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
-    """Say whether a rule is to run; the user's selection counts more than the profile's."""
+    """Say whether a rule is to run: one of the profile, or one that the user names itself."""
     asked_for = _asked_for(rule, profile, settings)
     return asked_for and (settings.trial or not _needs_trial(rule))
 
@@ -194,7 +212,7 @@ def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) ->
 def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
     if "RepeatedTrial" in rule.needs.values() and not settings.thorough:
         return False
-    return settings.selects(rule) and (bool(settings.select) or profile.includes(rule))
+    return settings.selects(rule) and (settings.names(rule) or profile.includes(rule))
 
 
 def _needs_trial(rule: Rule) -> bool:
@@ -205,6 +223,9 @@ def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[
     """Say what the user switched off; what was not asked for in the first place goes unsaid."""
     if _asked_for(rule, profile, settings):
         yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)
+    elif settings.select and settings.selects(rule) and not profile.includes(rule):
+        reason = f"not in the profile {profile.name}; `--select {rule.id}` runs it"
+        yield NotChecked(rule.id, reason, Cause.SWITCHED_OFF)
     elif not settings.selects(rule) and profile.includes(rule) and not settings.select:
         yield NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF)
 
@@ -262,7 +283,11 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
 
 
 def _report(
-    rule: Rule, findings: list[Finding], profile: Profile, settings: Settings
+    rule: Rule,
+    findings: list[Finding],
+    profile: Profile,
+    settings: Settings,
+    repeats: Mapping[Cover, Sequence[Repeat]],
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
@@ -289,6 +314,7 @@ def _report(
             page.title,
             " ".join(page.source.split()),
             fixes if len(group) > 1 else (),
+            tuple(dict.fromkeys(each for own in group for each in repeats.get((rule.id, own), ()))),
         )
 
 
@@ -298,10 +324,13 @@ def _joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
     said = group[0].message
     for finding in group:
         own = "" if finding.message == said else shortened(finding.message, TEXT_LIMIT)
-        for number, place in enumerate(finding.places):
-            bounded = replace(place, note=shortened(place.note, TEXT_LIMIT))
+        for number, bounded in enumerate(_bounded(finding.places)):
             places.setdefault(bounded, replace(bounded, message="" if number else own))
     return tuple(places.values())
+
+
+def _bounded(places: Sequence[Place]) -> tuple[Place, ...]:
+    return tuple(replace(place, note=shortened(place.note, TEXT_LIMIT)) for place in places)
 
 
 def _joined_fix(fixes: Sequence[Fix]) -> Fix | None:

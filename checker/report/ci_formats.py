@@ -113,6 +113,7 @@ def _line(reported: ReportedFinding, package: PackageReport) -> str:
     where = path_of(place, package) + (f":{place.line}:{place.column}" if place.file else "/")
     repeats = sum(not other.note for other in reported.places[1:])
     more = f" (and {count(repeats, 'more place')})" if repeats else ""
+    more += f" (also {', '.join(reported.also)})" if reported.also else ""
     message = shortened(reported.message, 600)
     return _xml(f"{where} {reported.severity} {reported.rule} {reported.name}: {message}{more}")
 
@@ -164,6 +165,8 @@ def _words(reported: ReportedFinding) -> Iterator[str]:
     yield plain(shortened(reported.message, MESSAGE_LIMIT))
     if repeats := sum(not place.note for place in reported.places[1:]):
         yield f"also in {count(repeats, 'more place')}"
+    if reported.also:
+        yield f"also {', '.join(reported.also)}"
     if reported.how:
         yield f"fix: {plain(reported.how)}"
     yield reported.help

@@ -35,4 +35,5 @@ def _line(finding: ReportedFinding, package: PackageReport, settings: RenderSett
     more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
     severity = settings.palette.severity(finding.severity)
     where = where_text(finding.places[0], package)
-    return f"{where}: {severity}: {message}{more} [{finding.rule}]"
+    rules = ", also ".join((finding.rule, *finding.also))
+    return f"{where}: {severity}: {message}{more} [{rules}]"

@@ -35,6 +35,8 @@ def finding_text(
     if finding.severity is not Severity.INFO:
         yield from _frame(place, palette)
     yield from _other_places(finding.places[1:], package)
+    for rule, name in dict.fromkeys((repeat.rule, repeat.name) for repeat in finding.repeats):
+        yield f"    also {rule} {name}"
     if finding.severity is Severity.INFO or explained:
         return
     if finding.why:

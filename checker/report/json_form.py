@@ -63,6 +63,16 @@ class FixJson(Record):
     edits: tuple[EditJson, ...]
 
 
+class RepeatJson(Record):
+    """What another rule says of the same fault."""
+
+    rule: RuleId
+    name: Word
+    severity: Severity
+    message: Annotated[str, Meta(min_length=1)]
+    places: Annotated[tuple[PlaceJson, ...], Meta(min_length=1)]
+
+
 class FindingJson(Record):
     """A finding without what its rule's page says."""
 
@@ -75,6 +85,10 @@ class FindingJson(Record):
     places: Annotated[tuple[PlaceJson, ...], Meta(min_length=1)]
     help: Annotated[str, Meta(description="The command that shows the rule's page.")]
     fix: FixJson | UnsetType = UNSET
+    repeats: Annotated[
+        tuple[RepeatJson, ...] | UnsetType,
+        Meta(description="What less precise rules say of the same fault."),
+    ] = UNSET
 
 
 class SuppressedJson(Record):

@@ -23,6 +23,7 @@ from checker.report.json_form import (
     NotOpenedJson,
     PackageJson,
     PlaceJson,
+    RepeatJson,
     ReportJson,
     SuppressedJson,
     ToolJson,
@@ -33,6 +34,7 @@ from checker.report.report import (
     NotChecked,
     NotOpened,
     PackageReport,
+    Repeat,
     Report,
     ReportedFinding,
     Suppressed,
@@ -99,7 +101,13 @@ def _finding_json(reported: ReportedFinding) -> FindingJson:
         places=tuple(map(_place_json, reported.places)),
         help=reported.help,
         fix=msgspec.UNSET if reported.fix is None else _fix_json(reported.fix),
+        repeats=tuple(map(_repeat_json, reported.repeats)) or msgspec.UNSET,
     )
+
+
+def _repeat_json(repeat: Repeat) -> RepeatJson:
+    places = tuple(map(_place_json, repeat.places))
+    return RepeatJson(repeat.rule, repeat.name, repeat.severity, repeat.message, places)
 
 
 def _suppressed_json(suppressed: Suppressed) -> SuppressedJson:
@@ -190,7 +198,15 @@ def _finding(read: FindingJson) -> ReportedFinding:
         read.fingerprint,
         tuple(map(_place, read.places)),
         None if isinstance(read.fix, msgspec.UnsetType) else _fix(read.fix),
+        repeats=()
+        if isinstance(read.repeats, msgspec.UnsetType)
+        else tuple(map(_repeat, read.repeats)),
     )
+
+
+def _repeat(read: RepeatJson) -> Repeat:
+    places = tuple(map(_place, read.places))
+    return Repeat(read.rule, read.name, read.severity, read.message, places)
 
 
 def _suppressed(read: SuppressedJson) -> Suppressed:

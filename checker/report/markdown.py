@@ -83,6 +83,7 @@ def _row(pair: tuple[PackageReport, ReportedFinding]) -> str:
     repeats = sum(not other.note for other in reported.places[1:])
     more = f" (and {count(repeats, 'more place')})" if repeats else ""
     rule = f"{reported.rule} {_short(reported.name)}"
+    rule += f" (also {', '.join(reported.also)})" if reported.also else ""
     return f"| {reported.severity} | {rule} | {where}{line} | {_short(reported.message)}{more} |"
 
 

@@ -81,6 +81,16 @@ class NotChecked(Record):
         return self.severity in (Severity.ERROR, None)
 
 
+class Repeat(Record):
+    """What another rule says of a fault that a finding tells more precisely."""
+
+    rule: str
+    name: str
+    severity: Severity
+    message: str
+    places: tuple[Place, ...]
+
+
 class ReportedFinding(Record):
     """A fault, with all its places.
 
@@ -94,6 +104,7 @@ class ReportedFinding(Record):
         title: Of the rule's page: what is wrong in general.
         source: Where the rule comes from.
         fixes: Where it joins faults in several places, the fix of each that has one.
+        repeats: What less precise rules say of the same fault.
     """
 
     rule: str
@@ -110,6 +121,12 @@ class ReportedFinding(Record):
     title: str = ""
     source: str = ""
     fixes: tuple[Fix, ...] = ()
+    repeats: tuple[Repeat, ...] = ()
+
+    @property
+    def also(self) -> tuple[str, ...]:
+        """The ids of the other rules that report the same fault."""
+        return tuple(dict.fromkeys(repeat.rule for repeat in self.repeats))
 
     @property
     def help(self) -> str:

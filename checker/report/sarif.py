@@ -75,6 +75,8 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
         "partialFingerprints": {"subtCheck/v1": finding.fingerprint},
         "properties": {"package": plain(package.name)},
     }
+    if finding.also:
+        members["properties"]["also"] = list(finding.also)
     if others:
         related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.

@@ -144,6 +144,16 @@ def test_rules_are_chosen_by_id_group_or_name(
     assert reported(run(A, B, C, **settings)) == expected
 
 
+def test_of_a_group_only_the_rules_of_the_profile_run() -> None:
+    rule = rule_saying(finding(at(1), "odd"), id="SDF901")
+    judge = subt(rules=("SDF",), without=("SDF901",))
+    outcome = run(rule, profile=judge, select=("SDF",))
+    assert not outcome.findings
+    (skipped,) = outcome.not_checked
+    assert skipped.reason == "not in the profile subt; `--select SDF901` runs it"
+    assert reported(run(rule, profile=judge, select=("SDF901",))) == ["SDF901"]
+
+
 def test_what_is_switched_off_is_said_what_was_not_selected_is_not() -> None:
     off = NotChecked("BBB001", "switched off", Cause.SWITCHED_OFF)
     assert run(A, B, C, ignore=("BBB",)).not_checked == (off,)

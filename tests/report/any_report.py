@@ -10,6 +10,7 @@ from checker.report.report import (
     NotChecked,
     NotOpened,
     PackageReport,
+    Repeat,
     Report,
     ReportedFinding,
     Suppressed,
@@ -39,20 +40,25 @@ FIXES = st.builds(
     st.sampled_from(Safety),
     st.lists(st.builds(Edit, places(), TEXT, TEXT), min_size=1, max_size=3),
 )
+NAME = st.from_regex(r"[a-z]+(-[a-z0-9]+)*", fullmatch=True).map(lambda name: name[:60])
+MESSAGE = TEXT.map(lambda text: f"x{text}")
+PLACES = st.lists(places(), min_size=1, max_size=3).map(tuple)
+REPEATS = st.builds(Repeat, RULE, NAME, st.sampled_from(Severity), MESSAGE, PLACES)
 FINDINGS = st.builds(
     ReportedFinding,
     RULE,
-    st.from_regex(r"[a-z]+(-[a-z0-9]+)*", fullmatch=True).map(lambda name: name[:60]),
+    NAME,
     st.sampled_from(Severity),
     st.sampled_from(Concern),
-    TEXT.map(lambda text: f"x{text}"),
+    MESSAGE,
     st.from_regex(r"[0-9a-f]{16}", fullmatch=True),
-    st.lists(places(), min_size=1, max_size=3).map(tuple),
+    PLACES,
     st.none() | FIXES,
     TEXT,
     TEXT,
     title=TEXT,
     source=TEXT,
+    repeats=st.lists(REPEATS, max_size=2).map(tuple),
 )
 PACKAGES = st.builds(
     PackageReport,

@@ -15,6 +15,7 @@ from checker.report.report import (
     NotChecked,
     NotOpened,
     PackageReport,
+    Repeat,
     Report,
     ReportedFinding,
 )
@@ -60,6 +61,15 @@ def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
         "",
         "`subt-check rule SEN005` explains a rule",
     ]
+
+
+def test_rules_that_report_the_same_fault_are_named_once() -> None:
+    repeat = Repeat("SEN003", "lidar-scan", Severity.WARNING, "is odd", (PLACE,))
+    found = replace(FAULT, repeats=(repeat, replace(repeat, message="is odd, too")))
+    assert [line for line in lines(found) if "SEN003" in line] == ["    also SEN003 lidar-scan"]
+    report = Report((replace(PACKAGE, findings=(found,)),), {})
+    concise = to_text(report, replace(SETTINGS, concise=True))
+    assert "expected 1 [SEN005, also SEN003]\n" in concise
 
 
 def test_a_finding_about_the_folder_shows_the_folder_alone() -> None:

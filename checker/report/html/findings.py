@@ -109,6 +109,7 @@ class ShownFinding(Record):
     Attributes:
         anchor: By which a link leads to it.
         others: Further places; `more` are not shown.
+        also: Ids of other rules that report the same fault.
         elements: Of all places, the main one first: one of them may be a part of the robot.
     """
 
@@ -126,6 +127,7 @@ class ShownFinding(Record):
     more: int
     elements: tuple[str, ...]
     safety: str
+    also: tuple[str, ...]
     changes: tuple[Change, ...]
 
     @property
@@ -227,6 +229,7 @@ def _shown(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
         more=max(0, len(others) - _PLACES_SHOWN),
         elements=tuple(_elements(reported.places, unseen)),
         safety=str(reported.fix.safety) if reported.fix else "",
+        also=tuple(map(plain, reported.also)),
         changes=tuple(changes_of(reported.fix)) if reported.fix else (),
     )
 
