@@ -52,6 +52,19 @@ def test_an_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert ask_for(body, tmp_path, monkeypatch, LIMITS) == b"ping pong"
 
 
+def test_a_child_computes_with_the_numeric_kernels_of_its_parent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENBLAS_CORETYPE", "Haswell")
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "7")
+    monkeypatch.setenv("AWS_SECRET", "unknown to it")
+    body = "import os; return ' '.join(f'{k}={v}' for k, v in os.environ.items()).encode()"
+    answer = ask_for(body, tmp_path, monkeypatch)
+    assert isinstance(answer, bytes)
+    assert {b"OPENBLAS_CORETYPE=Haswell", b"OPENBLAS_NUM_THREADS=1"} <= set(answer.split())
+    assert b"SECRET" not in answer
+
+
 @pytest.mark.parametrize(
     ("body", "reason"),
     [

@@ -31,7 +31,10 @@ from checker.base.sandbox.task import DEBUG
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
 _PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "TZ", DEBUG)
-_FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__EGL_")
+_DRAWING = ("EGL_", "GALLIUM_", "LIBGL_", "LP_", "MESA_", "__EGL_")
+# What chooses the code that libraries of linear algebra run on this processor.
+_NUMERIC = ("BLIS_", "MKL_", "NVPL_", "OMP_", "OPENBLAS_", "VECLIB_")
+_FAMILIES = ("LC_", "PYTHON", *_DRAWING, *_NUMERIC)
 _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
