@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -81,6 +80,7 @@ def test_a_terminal_shows_how_far_it_is(samples: Path) -> None:
     assert shown.endswith("\r\x1b[K"), "the line is left empty"
 
 
+@pytest.mark.service
 @pytest.mark.parametrize("jobs", [1, 2])
 @pytest.mark.parametrize("to_all", [False, True], ids=["to one", "as a terminal does"])
 def test_an_interruption_ends_it_soon_and_leaves_nothing(
@@ -102,14 +102,13 @@ def test_an_interruption_ends_it_soon_and_leaves_nothing(
     ) as process:
         assert process.stdout is not None
         process.stdout.readline()
-        sent = time.monotonic()
         (os.killpg if to_all else os.kill)(process.pid, signal.SIGINT)
-        _, said = process.communicate()
-        took = time.monotonic() - sent
+        others, said = process.communicate()
     # A shell shows 130 for both: Python passes an interrupted `exec` on as the signal.
     assert process.returncode in (130, -signal.SIGINT)
     assert said == "subt-check: interrupted\n"
-    assert took < 2.0, "0.1 s on a machine that has nothing else to do"
+    verdicts = re.findall(r"(?m)^\S+: (?:Not ready|Ready|Incomplete)", others)
+    assert len(verdicts) < len(archives) - 1, "it goes on to the end"
     assert list(own.iterdir()) == []
 
 

@@ -123,7 +123,6 @@ def test_a_disk_that_is_full(small_disk: Path) -> None:
     assert contents(package) != before
 
 
-@pytest.mark.service
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_killed_between_two_files(tmp_path: Path, count: int) -> None:
     package = Path(shutil.copytree(SAMPLES / BROKEN, tmp_path / BROKEN))

@@ -60,7 +60,7 @@ def left_behind(store: Store) -> list[Path]:
     return [each for each in store.folder.rglob("*") if each.is_file() and each.name != "lock"]
 
 
-def eventually(holds: Callable[[], bool], seconds: float = 20.0) -> bool:
+def eventually(holds: Callable[[], bool], seconds: float = 90.0) -> bool:
     """Whether something holds after a while: a server notices what happens a moment later."""
     end = monotonic() + seconds
     while not holds() and monotonic() < end:

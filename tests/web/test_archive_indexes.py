@@ -147,7 +147,8 @@ def test_one_that_was_taken_over_says_nonsense(
     said: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read_by(HOSTILE.format(said=said), tmp_path, monkeypatch)
-    monkeypatch.setattr(archive_indexes, "SECONDS", 2.0)
+    if not said:
+        monkeypatch.setattr(archive_indexes, "SECONDS", 2.0)
     why = "has an index that cannot be read" if said else "takes more than the 2 s allowed"
     with pytest.raises(UnreadableInput, match=why):
         ArchiveIndexes().check(archive(tmp_path, "p/package.xml"), "a.zip")

@@ -25,7 +25,7 @@ WORK = "/subt-check-work"
 _USER, _UTS, _IPC, _NET = 0x10000000, 0x04000000, 0x08000000, 0x40000000
 """Flags of unshare(2): CLONE_NEWUSER and so on."""
 _LINKS = ("/bin", "/lib", "/lib32", "/lib64")
-_TRY_SECONDS = 10
+_TRY_SECONDS = 60
 
 
 def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list[str]:
