@@ -5,13 +5,15 @@
 PYTHON ?= python3
 BIN := .venv/bin
 WORKERS ?= auto
+# A worker takes neighbouring tests, which share fixtures.
+TEST := $(BIN)/pytest -n $(WORKERS) --dist worksteal
 THOROUGH := --hypothesis-profile=thorough
 MORE := browser or service or install or programs or oracle or corpus or root
 VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs linkcheck test smoke test-more test-all viewer vscode lint types format bench picture editor-picture \
+.PHONY: demo dev docs linkcheck test gate test-more test-all viewer vscode lint types format bench picture editor-picture \
   constraints clean golden
 
 # Where there is no npm, the reports show pictures in place of the 3D view.
@@ -32,19 +34,19 @@ dev: .venv/dev
 
 # The first tier: what needs neither a browser, a server, a second installation nor real packages.
 test: .venv/dev
-	$(BIN)/pytest -n $(WORKERS) -m "not ($(MORE))"
+	$(TEST) -m "not ($(MORE))"
 
-# A few tests of each other tier; without the program that a test needs, it is skipped.
-smoke: .venv/dev
-	$(BIN)/pytest -m smoke
+# The first tier, and a few tests of the others; one whose program is missing is skipped.
+gate: .venv/dev
+	$(TEST) -m "smoke or not ($(MORE))"
 
 # The other tiers, with all examples of each property.
 test-more: .venv/tested $(VIEWER)
-	$(BIN)/pytest -n $(WORKERS) $(THOROUGH) -m "$(MORE)"
+	$(TEST) $(THOROUGH) -m "$(MORE)"
 
 # Lint, types and all tiers, with all examples of each property.
 test-all: lint types
-	$(BIN)/pytest -n $(WORKERS) $(THOROUGH) -m "not ($(MORE))"
+	$(TEST) $(THOROUGH) -m "not ($(MORE))"
 	$(MAKE) test-more
 
 lint: .venv/dev

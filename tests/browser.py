@@ -44,9 +44,9 @@ def started() -> Iterator[Browser]:
         browser.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium() -> Iterator[Browser]:
-    """One browser for all tests of a session."""
+    """One browser for all tests of a module; the others find no event loop that runs."""
     with started() as browser:
         yield browser
 

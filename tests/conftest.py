@@ -12,6 +12,7 @@ import pytest
 from hypothesis import settings
 
 from tests.browser import chromium  # noqa: F401 (a fixture)
+from tests.effort import THOROUGH
 from tests.postgres import postgres_url  # noqa: F401 (a fixture)
 from tests.real_packages import CORPUS, needed_folder
 from tests.tiers import MARKS, Guard, marks_of
@@ -19,7 +20,7 @@ from tests.tiers import MARKS, Guard, marks_of
 # Machines differ and are shared: no example of a property is held against the clock. The gate tries
 # the same examples each time, so that it decides by the change alone; `make test-all` tries others.
 settings.register_profile("gate", deadline=None, max_examples=10, derandomize=True)
-settings.register_profile("thorough", deadline=None, max_examples=100)
+settings.register_profile(THOROUGH, deadline=None, max_examples=100)
 settings.load_profile("gate")
 
 # Where the tests run in the background, a shell has all that they start ignore Ctrl-C.

@@ -10,18 +10,37 @@ from __future__ import annotations
 
 import gc
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import TypeVar
 
 from hypothesis import settings
 
+Case = TypeVar("Case")
+THOROUGH = "thorough"
+"""The profile of hypothesis that `make test-all` chooses."""
 _TASK_SECONDS = 0.02
 """What the task takes on a machine of today that does nothing else."""
+
+
+def is_thorough() -> bool:
+    """Return whether these are the tests of `make test-all`, which have time for all cases."""
+    return settings.get_current_profile_name() == THOROUGH
 
 
 def examples(number: int) -> int:
     """Return how many examples a property gets: this number in `make test-all`, else a tenth."""
     return max(1, number * settings.default.max_examples // 100)
+
+
+def large(number: int) -> int:
+    """Return the size of a large input: this number in `make test-all`, else a quarter."""
+    return number if is_thorough() else number // 4
+
+
+def sampled(cases: Sequence[Case]) -> Sequence[Case]:
+    """Return cases that are much alike: all of them in `make test-all`, else every fourth."""
+    return cases if is_thorough() else cases[::4]
 
 
 def seconds(work: Callable[[], object]) -> float:

@@ -6,6 +6,7 @@ import inspect
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache as once
 from itertools import groupby
 from pathlib import PurePosixPath
 from textwrap import dedent
@@ -44,6 +45,7 @@ class Page(Record):
         return sentence + ("." if dot else "")
 
 
+@once
 def parse_page(docstring: str) -> Page:
     """Split a docstring into the parts of a page."""
     title, *paragraphs = [part.strip() for part in docstring.strip().split("\n\n")]

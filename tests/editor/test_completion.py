@@ -310,6 +310,12 @@ def test_elements_of_sdf_are_well_formed_and_state_what_they_must(version: str) 
 # Any text at all.
 
 
+@pytest.fixture(scope="module")
+def nowhere(tmp_path_factory: pytest.TempPathFactory) -> Subject:
+    """A folder without files."""
+    return subject_of(tmp_path_factory.mktemp("nowhere"))
+
+
 @given(
     pieces=strategies.lists(
         strategies.sampled_from(
@@ -323,14 +329,11 @@ def test_elements_of_sdf_are_well_formed_and_state_what_they_must(version: str) 
     ),
     share=strategies.floats(0.0, 1.0),
 )
-def test_any_text_can_be_completed(
-    tmp_path_factory: pytest.TempPathFactory, pieces: list[str], share: float
-) -> None:
+def test_any_text_can_be_completed(nowhere: Subject, pieces: list[str], share: float) -> None:
     text = "".join(pieces)
-    subject = subject_of(tmp_path_factory.getbasetemp())
     offset = round(share * len(text))
     for path in ("model.sdf", "robot.urdf.xacro"):
-        for item in completions_at(subject, path, text, offset):
+        for item in completions_at(nowhere, path, text, offset):
             assert 0 <= item.start <= item.end <= len(text)
 
 

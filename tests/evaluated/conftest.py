@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.effort import slowness
-
 ROOT = Path(__file__).parents[2]
-SECONDS = 1.0
-"""Processor time that reading a hostile text may take."""
+SECONDS = 5.0
+"""Processor time that reading a hostile text may take; the slowest takes 0.9, one without a limit
+20."""
 MEGABYTES = 200.0
 
 Measure = Callable[[str, str], str]
@@ -38,7 +37,7 @@ def bounded() -> Iterator[Measure]:
             asked.write(json.dumps([group, name]) + "\n")
             asked.flush()
             seconds, megabytes, said = json.loads(answered.readline())
-            assert seconds < SECONDS * (slowness() if seconds > SECONDS else 1), said
+            assert seconds < SECONDS, said
             assert megabytes < MEGABYTES, said
             return str(said)
 

@@ -24,5 +24,5 @@ REFUSED = (
 
 
 @pytest.mark.parametrize("name", SPAWNERS)
-def test_it_ends_within_a_second_and_with_a_reason(bounded: Measure, name: str) -> None:
+def test_it_ends_soon_and_with_a_reason(bounded: Measure, name: str) -> None:
     assert bounded("reading_spawners", name).startswith(REFUSED)

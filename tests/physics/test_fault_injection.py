@@ -15,6 +15,7 @@ from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
+from tests.effort import sampled
 from tests.physics import ackermann, multicopter, skid_steer, tracked
 from tests.physics.fault import Fault, Swap, put_into
 
@@ -26,7 +27,7 @@ def title(row: Fault | str) -> str:
     return row.name if isinstance(row, Fault) else row.removesuffix("_sensor_config_1")
 
 
-@pytest.mark.parametrize(("sample", "fault"), TABLE, ids=title)
+@pytest.mark.parametrize(("sample", "fault"), sampled(TABLE), ids=title)
 def test_a_physical_fault_is_found(sample: str, fault: Fault, tmp_path: Path) -> None:
     (report,) = check_package(put_into(sample, fault, tmp_path), Settings()).packages
     said = [each for each in report.findings if each.severity is not Severity.INFO]

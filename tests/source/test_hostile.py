@@ -9,7 +9,7 @@ import pytest
 from checker.source.text import SourceText
 from checker.source.xml import MAX_DEPTH, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
-from tests.effort import seconds
+from tests.effort import large, seconds
 from tests.source.documents import document, fault
 
 Texts = Callable[[int], str]
@@ -41,11 +41,12 @@ def read(text: str) -> None:
 @pytest.mark.parametrize("name", GROWING)
 def test_four_times_the_text_costs_no_square(name: str) -> None:
     text, size = GROWING[name]
-    small, large = text(size), text(4 * size)
+    size = large(size)
+    short, long = text(size), text(4 * size)
     # Linear growth gives 4, quadratic 16; the constant is for clocks that tick coarsely. A square
     # stays one however often it is tried.
     assert any(
-        seconds(lambda: read(large)) < 9 * seconds(lambda: read(small)) + 0.1 for _ in range(3)
+        seconds(lambda: read(long)) < 9 * seconds(lambda: read(short)) + 0.1 for _ in range(3)
     )
 
 

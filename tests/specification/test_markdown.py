@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from checker.source.markdown import PassageKind, read_markdown
 from checker.source.text import SourceText
-from tests.effort import limited
+from tests.effort import large, limited
 
 PIECES = st.lists(
     st.sampled_from(
@@ -93,4 +93,4 @@ def test_no_text_makes_the_reader_raise_and_every_passage_fits_its_span(text):
 )
 def test_long_monotonous_texts_take_little_time(piece):
     with limited(20):
-        read_markdown(SourceText("s.md", piece * 50_000))
+        read_markdown(SourceText("s.md", piece * large(50_000)))

@@ -12,7 +12,7 @@ from checker.model.specification.motion import MotionQuantity as Motion
 from checker.model.specification.quantities import QuantityKind
 from checker.model.specification.sheet import read_specification
 from checker.source.text import SourceText
-from tests.effort import limited
+from tests.effort import large, limited
 
 
 @pytest.mark.parametrize(
@@ -250,7 +250,7 @@ def test_no_text_makes_a_sheet_raise(text):
 )  # fmt: skip
 def test_long_monotonous_sheets_take_little_time(piece):
     with limited(20):
-        text = "# Motion endurance sensors\n* x" + piece * (200_000 // len(piece))
+        text = "# Motion endurance sensors\n* x" + piece * (large(200_000) // len(piece))
         sheet = read_specification(SourceText("s.md", text))
         assert sheet.total_mass is None
         assert len(sheet.limits) + len(sheet.sensors) < 20_000

@@ -12,6 +12,7 @@ from checker.base.parts import WorkerFailed
 from checker.model.robot import Robot
 from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
+from tests.effort import large
 from tests.model.robots import sdf
 from tests.trial.machines import chassis, four_wheels, trial_in_child, wheel
 
@@ -58,8 +59,8 @@ def test_a_hostile_robot_ends_as_a_trial_or_a_reason(robot: Robot) -> None:
     assert isinstance(trial_in_child(robot), Trial | WorkerFailed | str)
 
 
-def test_five_thousand_links_end_within_the_limits() -> None:
-    assert isinstance(trial_in_child(chain(5000)), Trial | WorkerFailed | str)
+def test_thousands_of_links_end_within_the_limits() -> None:
+    assert isinstance(trial_in_child(chain(large(5000))), Trial | WorkerFailed | str)
 
 
 def test_a_robot_without_collisions_is_no_trial() -> None:

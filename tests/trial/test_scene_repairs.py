@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from checker.physics.trial.mjcf.scene import Scene, build_scene
 from checker.physics.trial.trial import Repair
-from tests.effort import examples
+from tests.effort import examples, large
 from tests.model.robots import sdf, urdf
 from tests.trial.scenes import BALL, box, collision, compiled, joint, link, scene_of
 
@@ -238,18 +238,20 @@ def chain(count: int) -> str:
     return links + ties
 
 
-def test_five_thousand_links_in_one_chain() -> None:
+def test_thousands_of_links_in_one_chain() -> None:
     """Our code gets through; MuJoCo's parser says that this is too deep, and does not crash."""
-    scene = scene_of(chain(5000))
-    assert len(scene.bodies) == 5000
+    count = large(5000)
+    scene = scene_of(chain(count))
+    assert len(scene.bodies) == count
     with pytest.raises(ValueError, match="too deep"):
         mujoco.MjModel.from_xml_string(scene.mjcf)
 
 
-def test_five_thousand_links_side_by_side() -> None:
-    links = "".join(link(f"l{i}") for i in range(5000))
-    scene = scene_of(links + "".join(joint(f"l{i}", parent="l0") for i in range(1, 5000)))
-    assert scene.mjcf.count("<body") == scene.mjcf.count("</body>") == 5000
+def test_thousands_of_links_side_by_side() -> None:
+    count = large(5000)
+    links = "".join(link(f"l{i}") for i in range(count))
+    scene = scene_of(links + "".join(joint(f"l{i}", parent="l0") for i in range(1, count)))
+    assert scene.mjcf.count("<body") == scene.mjcf.count("</body>") == count
 
 
 def test_links_with_one_name() -> None:

@@ -14,7 +14,7 @@ from tests.xacro.hostile_expressions import ERRORS, LIMITED, REFUSED
 
 ROOT = Path(__file__).parent.parent.parent
 GROUPS = (REFUSED, LIMITED, ERRORS)
-SECONDS, MEMORY = 1.0, 200_000_000
+SECONDS, MEMORY = 5.0, 200_000_000
 
 
 @pytest.fixture(scope="module")
