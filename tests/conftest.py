@@ -14,7 +14,7 @@ from hypothesis import settings
 from tests.browser import chromium  # noqa: F401 (a fixture)
 from tests.effort import THOROUGH
 from tests.postgres import postgres_url  # noqa: F401 (a fixture)
-from tests.real_packages import CORPUS, needed_folder
+from tests.real_packages import CORPUS, needed_folder, not_judged
 from tests.tiers import MARKS, Guard, marks_of
 
 # Machines differ and are shared: no example of a property is held against the clock. The gate tries
@@ -47,6 +47,11 @@ def pytest_itemcollected(item: pytest.Item) -> None:
         item.add_marker(name)
     if item.get_closest_marker("root") and getattr(os, "geteuid", lambda: 1)() != 0:
         item.add_marker(pytest.mark.skip(reason="only root can"))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    for line in not_judged():
+        terminalreporter.write_line(line)
 
 
 @pytest.hookimpl(wrapper=True)

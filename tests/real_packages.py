@@ -1,12 +1,16 @@
 """Folders of real packages, where environment variables name them.
 
 A variable that is unset, empty or names no folder means that there are none: what needs them is
-skipped.
+skipped. Tests look at the folders that `judged/folders.json` lists, so that new packages make no
+test fail; these are counted at the end of a run.
 """
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -17,6 +21,8 @@ REVIEWS = "SUBT_CHECK_REVIEWS"
 """Corrected faults: packages before and after."""
 MODERN = "SUBT_CHECK_MODERN"
 """Packages of today's Gazebo and ROS."""
+_OWN_TESTS = {"bugs", "repro"}
+"""Folders of MODERN that tests read by other tables."""
 
 
 def named_folder(variable: str) -> Path | None:
@@ -32,6 +38,30 @@ def needed_folder(variable: str) -> Path:
     if folder is None:
         pytest.skip(f"{variable} names no folder of real packages")
     return folder
+
+
+@cache
+def _judged_names() -> dict[str, list[str]]:
+    table = Path(__file__).parent / "judged/folders.json"
+    names: dict[str, list[str]] = json.loads(table.read_text("utf-8"))
+    return names
+
+
+def judged_folders(variable: str) -> list[Path]:
+    """Return the judged folders below the one that a variable names; none where it is unset."""
+    folder = named_folder(variable)
+    paths = [folder / name for name in _judged_names()[variable]] if folder else []
+    return [path for path in paths if path.is_dir()]
+
+
+def not_judged() -> Iterator[str]:
+    """Yield a line for each variable with folders that are not judged yet."""
+    for variable in (CORPUS, REVIEWS, MODERN):
+        folder = named_folder(variable)
+        there = [path.name for path in folder.iterdir() if path.is_dir()] if folder else []
+        others = sorted({*there} - {*_judged_names()[variable]} - _OWN_TESTS)
+        if others:
+            yield f"{variable}: {len(others)} folders are not judged yet: {', '.join(others)}"
 
 
 def needs(variable: str) -> list[pytest.MarkDecorator]:

@@ -13,7 +13,7 @@ from functools import cache
 from checker.pipeline import check_package
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
-from tests.real_packages import REVIEWS, named_folder
+from tests.real_packages import REVIEWS, judged_folders, named_folder
 
 FOLDER = named_folder(REVIEWS)
 
@@ -79,8 +79,10 @@ def review_cases() -> list[ReviewCase]:
     """Return all cases; none when there is no folder of them."""
     if FOLDER is None:
         return []
+    judged = {folder.name for folder in judged_folders(REVIEWS)}
     entries = json.loads((FOLDER / "cases.json").read_text("utf-8"))
     return [
         ReviewCase(each["id"], each["package"], each["file"], tuple(each["rules"]), each["what"])
         for each in entries
+        if each["id"] in judged
     ]

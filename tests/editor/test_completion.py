@@ -24,7 +24,7 @@ from checker.source.xml import Element, XmlDocument, parse_xml
 from tests.each import of_each
 from tests.editor.subjects import CARET, offered, subject_of, text_of, written
 from tests.effort import examples, seconds, slowness
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, judged_folders, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">
@@ -341,12 +341,9 @@ def test_any_text_can_be_completed(nowhere: Subject, pieces: list[str], share: f
 
 
 def _paths(variable: str, *suffixes: str) -> list[tuple[Subject, str]]:
-    folder = named_folder(variable)
-    assert folder is not None
     found = [
         (subject_of(package), entry.path)
-        for package in sorted(folder.iterdir())
-        if package.is_dir()
+        for package in judged_folders(variable)
         for entry in subject_of(package).package.index.with_suffix(*suffixes)
         if entry.size > 1000
     ]
@@ -375,12 +372,9 @@ class TestCorpus:
         assert statistics.median(taken) < 0.05 * slowness()
 
     def test_what_was_deleted_is_offered(self) -> None:
-        folder = named_folder(CORPUS)
-        assert folder is not None
         tried = 0
-        for model in sorted(folder.glob("*/model.sdf")):
-            subject = subject_of(model.parent)
-            tried += _check_deletions(subject, "model.sdf")
+        for folder in judged_folders(CORPUS):
+            tried += _check_deletions(subject_of(folder), "model.sdf")
         assert tried > 300
 
 

@@ -25,7 +25,7 @@ from checker.source.xml import Element, XmlDocument
 from tests.each import of_each
 from tests.editor.subjects import shown, subject_of, text_of, written
 from tests.effort import limited
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, judged_folders, named_folder, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">
@@ -439,8 +439,7 @@ def _in_plugin(element: Element) -> bool:
 
 
 def _models(variable: str, suffix: str) -> list[Path]:
-    folder = named_folder(variable)
-    return sorted(folder.glob(f"*/{suffix}")) if folder is not None else [Path()]
+    return [folder / suffix for folder in judged_folders(variable)] or [Path()]
 
 
 @pytest.mark.parametrize("model", _models(CORPUS, "model.sdf"), ids=lambda it: it.parent.name)

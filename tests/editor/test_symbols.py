@@ -15,7 +15,7 @@ from checker.editor.names.symbols import symbols_of
 from checker.package.inputs import open_input
 from checker.package.package import Package
 from tests.editor.packages import package_of
-from tests.real_packages import CORPUS, MODERN, named_folder
+from tests.real_packages import CORPUS, MODERN, judged_folders, needed_folder
 
 Shown = tuple[object, ...]
 
@@ -240,13 +240,9 @@ def test_the_samples_have_sound_outlines(samples: Path) -> None:
 @pytest.mark.corpus
 @pytest.mark.parametrize("variable", [CORPUS, MODERN])
 def test_real_packages_have_sound_outlines(variable: str) -> None:
-    root = named_folder(variable)
-    if root is None:
-        pytest.skip(f"{variable} names no folder of real packages")
+    needed_folder(variable)
     seen = 0
-    for folder in sorted(it for it in root.iterdir() if it.is_dir() and it.name[0] != "."):
-        if folder.name in ("bugs", "repro"):
-            continue
+    for folder in judged_folders(variable):
         with open_input(folder) as opened:
             for package in opened.packages:
                 for file in package.index.with_suffix(".sdf", ".urdf", ".xacro", ".yaml", ".rb"):

@@ -21,7 +21,7 @@ from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.engine.stage import at, rule_saying, run
-from tests.real_packages import MODERN, needed_folder
+from tests.real_packages import MODERN, judged_folders, needed_folder
 
 Told = tuple[str, str, int, int, str]
 """A rule and a place that it reports."""
@@ -98,5 +98,5 @@ def test_submitted_robots(corpus: Path) -> None:
 
 @pytest.mark.corpus
 def test_packages_of_today() -> None:
-    folders = [each for each in sorted(needed_folder(MODERN).iterdir()) if each.is_dir()]
-    assert not [each for folder in folders for each in differences_below(folder)]
+    needed_folder(MODERN)
+    assert not [each for top in judged_folders(MODERN) for each in differences_below(top)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -13,17 +13,17 @@ from checker.finding import Safety
 from tests.conftest import SAMPLES
 from tests.fixing.damage import contents, lost, spoilt
 from tests.oracle.conftest import Load
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, judged_folders, needs
 
 SAFE, EVERY = [Safety.SAFE], list(Safety)
 FOLDERS = ("a copy", "{}-master", "{} (1)")
 SDF = (".sdf", ".world")
 
 
-def outermost(top: Path | None) -> Iterator[Path]:
-    """Yield the packages below a folder that lie in no other one."""
+def outermost(tops: Sequence[Path]) -> Iterator[Path]:
+    """Yield the packages below some folders that lie in no other one."""
     found: list[Path] = []
-    for path in sorted(top.rglob("*")) if top is not None else ():
+    for path in sorted(path for top in tops for path in top.rglob("*")):
         inside = any(path.parent.is_relative_to(folder) for folder in found)
         if path.name in ("package.xml", "model.config") and not inside:
             found.append(path.parent)
@@ -52,21 +52,23 @@ SHARES = 3
 
 
 @pytest.mark.parametrize(
-    ("top", "profile", "safeties"),
+    ("tops", "profile", "safeties"),
     [
-        pytest.param(SAMPLES, "subt", SAFE, id="samples-safe"),
-        pytest.param(SAMPLES, "subt", EVERY, id="samples-unsafe"),
-        pytest.param(named_folder(CORPUS), "subt", SAFE, marks=needs(CORPUS), id="corpus-safe"),
-        pytest.param(named_folder(CORPUS), "subt", EVERY, marks=needs(CORPUS), id="corpus-unsafe"),
+        pytest.param([SAMPLES], "subt", SAFE, id="samples-safe"),
+        pytest.param([SAMPLES], "subt", EVERY, id="samples-unsafe"),
+        pytest.param(judged_folders(CORPUS), "subt", SAFE, marks=needs(CORPUS), id="corpus-safe"),
+        pytest.param(
+            judged_folders(CORPUS), "subt", EVERY, marks=needs(CORPUS), id="corpus-unsafe"
+        ),
         # There are many of them, and the safe fixes are made here too.
         pytest.param(
-            named_folder(MODERN), "gazebo-harmonic", EVERY, marks=needs(MODERN), id="modern"
+            judged_folders(MODERN), "gazebo-harmonic", EVERY, marks=needs(MODERN), id="modern"
         ),
     ],
 )
 @pytest.mark.parametrize("share", range(SHARES))
 def test_nothing_is_damaged(
-    top: Path | None,
+    tops: Sequence[Path],
     profile: str,
     safeties: list[Safety],
     share: int,
@@ -74,7 +76,7 @@ def test_nothing_is_damaged(
     libsdformat: Load,
 ) -> None:
     wrong = []
-    for number, package in list(enumerate(outermost(top), len(safeties)))[share::SHARES]:
+    for number, package in list(enumerate(outermost(tops), len(safeties)))[share::SHARES]:
         # Each package in one folder: all in all of them take minutes and tell no more.
         name = FOLDERS[number % len(FOLDERS)].format(package.name)
         folder = tmp_path / str(number) / name

@@ -13,7 +13,7 @@ from tests.conftest import SAMPLES
 from tests.oracle.comparison import unexplained
 from tests.oracle.conftest import Load
 from tests.oracle.mutants import mutant
-from tests.real_packages import CORPUS, MODERN, REVIEWS, needed_folder, needs
+from tests.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, needs
 
 MODELS = Path(__file__).parent / "models"
 MUTANTS = int(os.environ.get("SUBT_CHECK_MUTANTS", "480"))
@@ -45,7 +45,8 @@ def test_models_are_read_alike(folder: Path, libsdformat: Load) -> None:
     [pytest.param(name, marks=needs(name), id=name) for name in (CORPUS, MODERN, REVIEWS)],
 )
 def test_real_models_are_read_alike(variable: str, libsdformat: Load) -> None:
-    assert not differing(models_in(needed_folder(variable)), libsdformat)
+    models = [model for folder in judged_folders(variable) for model in models_in(folder)]
+    assert not differing(models, libsdformat)
 
 
 @pytest.mark.parametrize("part", range(PARTS))

@@ -16,7 +16,7 @@ from checker.model.geometry.transform import rotation_from_rpy
 from checker.report.report import ReportedFinding
 from tests.conftest import SAMPLES
 from tests.oracle.conftest import Load
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, judged_folders, needs
 
 ABOUT: Mapping[str, str] = {
     "REF001": r"(uri|_map)",
@@ -47,11 +47,11 @@ _TURNED = 2e-3
 
 
 def packages(variable: str) -> Iterator[Path]:
-    """Yield the folders of packages below a folder of real ones."""
-    top = named_folder(variable)
-    for path in sorted(top.rglob("*")) if top is not None else ():
-        if path.name in ("package.xml", "model.config") and "after" not in path.parts:
-            yield path.parent
+    """Yield the folders of real packages."""
+    for top in judged_folders(variable):
+        for path in sorted(top.rglob("*")):
+            if path.name in ("package.xml", "model.config"):
+                yield path.parent
 
 
 def values(text: str) -> dict[str, tuple[str, ...]]:
