@@ -374,7 +374,8 @@ class TestCorpus:
     def test_what_was_deleted_is_offered(self) -> None:
         tried = 0
         for folder in judged_folders(CORPUS):
-            tried += _check_deletions(subject_of(folder), "model.sdf")
+            if (folder / "model.sdf").is_file():
+                tried += _check_deletions(subject_of(folder), "model.sdf")
         assert tried > 300
 
 
