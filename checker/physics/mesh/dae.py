@@ -37,7 +37,9 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     metres, unit_defects = metres_per_unit(root)
     textures, materials = _textures(root), DaeMaterials(root)
     is_skinned = next(root.iter("{*}instance_controller"), None) is not None
-    sets, faults = triangles_of_scene(only_geometry(root))
+    # Corners that are not finite are reported where the mesh is measured.
+    with np.errstate(invalid="ignore", over="ignore"):
+        sets, faults = triangles_of_scene(only_geometry(root))
     pieces = tuple(
         Piece(
             np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres,
