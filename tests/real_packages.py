@@ -1,7 +1,7 @@
 """Folders of real packages, where environment variables name them.
 
 A variable that is unset, empty or names no folder means that there are none: what needs them is
-skipped. Tests look at the folders that `judged/folders.json` lists, so that new packages make no
+skipped. Tests look at the folders that `real_packages.json` lists, so that new packages make no
 test fail; these are counted at the end of a run.
 """
 
@@ -42,7 +42,7 @@ def needed_folder(variable: str) -> Path:
 
 @cache
 def _judged_names() -> dict[str, list[str]]:
-    table = Path(__file__).parent / "judged/folders.json"
+    table = Path(__file__).parent / "real_packages.json"
     names: dict[str, list[str]] = json.loads(table.read_text("utf-8"))
     return names
 
