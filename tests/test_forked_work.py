@@ -20,7 +20,7 @@ DIES = {
 BEGIN = """
 import os, resource
 from stat import S_ISFIFO
-from time import monotonic, sleep
+from time import monotonic, process_time, sleep
 from checker.base.parts import WorkerFailed
 from checker.base import forked_work
 from checker.base.forked_work import forks_time, in_fork, in_forks
@@ -125,8 +125,8 @@ def test_each_has_the_processor_for_as_long() -> None:
     """Together they take longer than one may."""
     body = """
 def works():
-    until = sum(os.times()[:2]) + 0.7
-    while sum(os.times()[:2]) < until:
+    until = process_time() + 0.7
+    while process_time() < until:
         pass
     return b"done"
 print(*in_forks([works] * 4, 2, 1e9, "late"))
@@ -137,8 +137,8 @@ print(*in_forks([works] * 4, 2, 1e9, "late"))
 def test_none_is_begun_when_it_is_too_late() -> None:
     body = """
 def works():
-    until = sum(os.times()[:2]) + 0.6
-    while sum(os.times()[:2]) < until:
+    until = process_time() + 0.6
+    while process_time() < until:
         pass
     return b"done"
 print(in_forks([works] * 4, 5, forks_time() + 1.5, "came too late"))
@@ -161,8 +161,8 @@ print(*in_forks([waits] * 4, 5, forks_time() + 1.1, "came too late"))
 def test_what_takes_long_is_done_after_all_others() -> None:
     body = """
 def long():
-    until = sum(os.times()[:2]) + 3.2
-    while sum(os.times()[:2]) < until:
+    until = process_time() + 3.2
+    while process_time() < until:
         pass
     return b"long"
 forked_work._BRIEF = 1
