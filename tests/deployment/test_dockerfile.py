@@ -82,7 +82,7 @@ def test_what_it_starts_is_understood() -> None:
 
 def test_the_viewer_is_made_as_the_makefile_makes_it() -> None:
     (viewer,) = (stage for stage in STAGES if stage.name == "viewer")
-    assert f"\t{viewer.only('RUN')}\n" in (ROOT / "Makefile").read_text("utf-8")
+    assert f" {viewer.only('RUN')}\n" in (ROOT / "Makefile").read_text("utf-8")
 
 
 def test_the_reader_joins_lines_and_passes_over_comments() -> None:
