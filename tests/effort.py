@@ -59,6 +59,16 @@ def seconds(work: Callable[[], object]) -> float:
         gc.enable()
 
 
+def grows_linearly(short: Callable[[], object], long: Callable[[], object]) -> bool:
+    """Return whether four times as much to do costs at most nine times the work.
+
+    Linear growth gives 4, quadratic 16, which stays so however often it is tried. A constant is
+    for clocks that tick coarsely; it shrinks with the inputs (`large`), so that it hides no square.
+    """
+    tick = 0.1 if is_thorough() else 0.025
+    return any(seconds(long) < 9 * seconds(short) + tick for _ in range(3))
+
+
 @contextmanager
 def limited(most: float) -> Iterator[None]:
     """Assert that what is done inside is no more work than a machine of today does in a time.

@@ -22,7 +22,7 @@ REVIEWS = "SUBT_CHECK_REVIEWS"
 MODERN = "SUBT_CHECK_MODERN"
 """Packages of today's Gazebo and ROS."""
 _OWN_TESTS = {"bugs", "repro"}
-"""Folders of MODERN that tests read by other tables."""
+"""Folders of MODERN with faults, rebuilt or as they were: not packages to be judged."""
 
 
 def named_folder(variable: str) -> Path | None:
@@ -52,6 +52,12 @@ def judged_folders(variable: str) -> list[Path]:
     folder = named_folder(variable)
     paths = [folder / name for name in _judged_names()[variable]] if folder else []
     return [path for path in paths if path.is_dir()]
+
+
+def judged_files(variable: str, name: str) -> list[Path]:
+    """Return the files of a name that lie in judged folders."""
+    files = (folder / name for folder in judged_folders(variable))
+    return [file for file in files if file.is_file()]
 
 
 def not_judged() -> Iterator[str]:

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 from tests.each import of_each
-from tests.effort import limited, seconds
+from tests.effort import grows_linearly, limited, seconds
 from tests.tiers import BY_PLACE, SMOKE, TESTS
 
 
@@ -55,3 +55,11 @@ def test_work_is_limited() -> None:
         work()
     with pytest.raises(AssertionError, match="of work"), limited(most / 1000):
         work()
+
+
+def test_a_square_is_told_from_linear_growth() -> None:
+    def work(steps: int) -> None:
+        sum(range(steps))
+
+    assert grows_linearly(lambda: work(1_000_000), lambda: work(4_000_000))
+    assert not grows_linearly(lambda: work(1_000**2), lambda: work(4_000**2))

@@ -24,7 +24,7 @@ from checker.source.xml import Element, XmlDocument, parse_xml
 from tests.each import of_each
 from tests.editor.subjects import CARET, offered, subject_of, text_of, written
 from tests.effort import examples, seconds, slowness
-from tests.real_packages import CORPUS, MODERN, judged_folders, needs
+from tests.real_packages import CORPUS, MODERN, judged_files, judged_folders, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">
@@ -373,9 +373,8 @@ class TestCorpus:
 
     def test_what_was_deleted_is_offered(self) -> None:
         tried = 0
-        for folder in judged_folders(CORPUS):
-            if (folder / "model.sdf").is_file():
-                tried += _check_deletions(subject_of(folder), "model.sdf")
+        for model in judged_files(CORPUS, "model.sdf"):
+            tried += _check_deletions(subject_of(model.parent), "model.sdf")
         assert tried > 300
 
 

@@ -25,7 +25,7 @@ from checker.source.xml import Element, XmlDocument
 from tests.each import of_each
 from tests.editor.subjects import shown, subject_of, text_of, written
 from tests.effort import limited
-from tests.real_packages import CORPUS, MODERN, judged_folders, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, judged_files, named_folder, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">
@@ -438,12 +438,10 @@ def _in_plugin(element: Element) -> bool:
     return at is not None
 
 
-def _models(variable: str, suffix: str) -> list[Path]:
-    models = (folder / suffix for folder in judged_folders(variable))
-    return [model for model in models if model.is_file()] or [Path()]
+MODELS = judged_files(CORPUS, "model.sdf") or [Path()]
 
 
-@pytest.mark.parametrize("model", _models(CORPUS, "model.sdf"), ids=lambda it: it.parent.name)
+@pytest.mark.parametrize("model", MODELS, ids=lambda it: it.parent.name)
 class TestCorpus:
     pytestmark = needs(CORPUS)
 

@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 BLOCK = 65_536
-needs_mount = pytest.mark.root
 
 
 @contextmanager

@@ -30,7 +30,7 @@ from checker.service.jobs.outcome import (
 )
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
-from tests.jobs.disk import full, needs_mount, small_disk
+from tests.jobs.disk import full, small_disk
 from tests.jobs.launched import tasks
 from tests.web.server import eventually
 
@@ -283,7 +283,7 @@ def test_a_process_of_the_trial_is_killed(store: Store, samples: Path, tmp_path:
     assert isinstance(check(store, order, Stage.TRIAL), Checked)
 
 
-@needs_mount
+@pytest.mark.root
 @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
 def test_the_disk_is_full(stage: Stage, store: Store, samples: Path, tmp_path: Path) -> None:
     with small_disk(store.folder, 100_000_000) as disk:
@@ -295,7 +295,7 @@ def test_the_disk_is_full(stage: Stage, store: Store, samples: Path, tmp_path: P
         assert isinstance(check(store, order, stage), Checked)
 
 
-@needs_mount
+@pytest.mark.root
 def test_the_disk_gets_full_meanwhile(store: Store, samples: Path, tmp_path: Path) -> None:
     with small_disk(store.folder, 100_000_000) as disk, ExitStack() as later:
         order = given(store, "buggy.zip", packed([samples / BUGGY], tmp_path))
@@ -312,7 +312,7 @@ def test_the_disk_gets_full_meanwhile(store: Store, samples: Path, tmp_path: Pat
         assert isinstance(check(store, order, Stage.TRIAL), Checked)
 
 
-@needs_mount
+@pytest.mark.root
 def test_the_disk_has_no_room_for_what_is_unpacked(store: Store, tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "large.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("p/model.sdf", "<sdf version='1.6'><model name='p'/></sdf>")

@@ -9,7 +9,7 @@ import pytest
 from checker.source.text import SourceText
 from checker.source.xml import MAX_DEPTH, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
-from tests.effort import large, seconds
+from tests.effort import grows_linearly, large
 from tests.source.documents import document, fault
 
 Texts = Callable[[int], str]
@@ -43,11 +43,7 @@ def test_four_times_the_text_costs_no_square(name: str) -> None:
     text, size = GROWING[name]
     size = large(size)
     short, long = text(size), text(4 * size)
-    # Linear growth gives 4, quadratic 16; the constant is for clocks that tick coarsely. A square
-    # stays one however often it is tried.
-    assert any(
-        seconds(lambda: read(long)) < 9 * seconds(lambda: read(short)) + 0.1 for _ in range(3)
-    )
+    assert grows_linearly(lambda: read(short), lambda: read(long))
 
 
 @pytest.mark.parametrize("closed", [True, False])

@@ -14,7 +14,7 @@ import pytest
 from checker.base.errors import UnreadableInput
 from checker.service.web.uploads import archive_indexes
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
-from tests.jobs.disk import full, needs_mount, small_disk
+from tests.jobs.disk import full, small_disk
 from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 
@@ -204,7 +204,7 @@ def test_what_a_reader_says_of_the_disk_is_no_fault_of_the_archive(
         ArchiveIndexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
 
 
-@needs_mount
+@pytest.mark.root
 def test_a_disk_that_is_full_for_a_moment(tmp_path: Path) -> None:
     with small_disk(tmp_path / "disk", 2_000_000) as disk:
         looked, path = ArchiveIndexes(), archive(disk, "p/package.xml")

@@ -26,7 +26,7 @@ from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.uploads.transfer import AT_ONCE
-from tests.jobs.disk import needs_mount, small_disk
+from tests.jobs.disk import small_disk
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 from tests.web.test_archive_indexes import read_by
@@ -383,7 +383,7 @@ def serve(wire):
 """
 
 
-@needs_mount
+@pytest.mark.root
 @pytest.mark.service
 @pytest.mark.skipif(sys.platform != "linux", reason="the system has one address of its own")
 def test_the_copies_that_indexes_are_read_from_have_their_room(
