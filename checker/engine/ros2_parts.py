@@ -21,6 +21,7 @@ from checker.model.ros2_control.robot_control import (
 if TYPE_CHECKING:
     from checker.engine.subject import Subject
     from checker.model.ros.simulation import Simulations
+    from checker.model.ros.wiring.wiring import Wiring
 
 
 class Ros2Parts(Record, eq=False, dict=True):
@@ -84,3 +85,16 @@ class Ros2Parts(Record, eq=False, dict=True):
         if any(each.bridges.is_there or each.starts_gazebo for each in found.all):
             return found
         return self.subject.without_simulation
+
+    @cached_property
+    def wirings(self) -> tuple[Wiring, ...] | NotAvailable:
+        """The wiring of each launch file of ROS 2."""
+        launch = self.subject.ros2_launch
+        if isinstance(launch, NotAvailable):
+            return launch
+        simulations = self.subject.simulations
+        known = None if isinstance(simulations, NotAvailable) else simulations
+        from checker.model.ros.wiring.wiring import wirings
+
+        found = tuple(wirings(launch, known, self.control_reader))
+        return found or NotAvailable("no launch file starts a node", applicable=False)

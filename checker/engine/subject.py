@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from checker.expand.ros2_launch.graph import Ros2Launch
     from checker.expand.xacro.expansion import Expander
     from checker.model.ros.simulation import Simulations
+    from checker.model.ros.wiring.wiring import Wiring
     from checker.model.ros2_control.launched import LaunchedControl
     from checker.model.ros2_control.robot_control import RobotControl
     from checker.model.urdf.description import UrdfDescription
@@ -350,6 +351,12 @@ class Subject(Record, eq=False, dict=True):
         return self.ros2.simulations
 
     @property
+    def wirings(self) -> tuple[Wiring, ...] | NotAvailable:
+        """The wiring of each launch file of ROS 2."""
+        launch = self.ros2_launch
+        return launch if isinstance(launch, NotAvailable) else self.ros2.wirings
+
+    @property
     def without_simulation(self) -> NotAvailable:
         """Why there is nothing to say of a simulation."""
         reason = "no launch file starts Gazebo or a bridge to it"
@@ -391,6 +398,7 @@ _PROVIDERS: dict[str, Callable[[Subject], object]] = {
     "LaunchGraph": lambda subject: subject.submission.launch,
     "Ros2Launch": lambda subject: subject.ros2_launch,
     "Simulations": lambda subject: subject.simulations,
+    "Wiring": lambda subject: subject.wirings,
     "ControlSystem": lambda subject: subject.urdf.control,
     "RobotControl": lambda subject: subject.robot_controls,
     "LaunchedControl": lambda subject: subject.launched_controls,

@@ -2,9 +2,8 @@
 
 A drive of Gazebo (DiffDrive, OdometryPublisher …) reports odometry, and so does a drive controller
 of ros2_control, which publishes the transform from `odom` to the robot's base by itself. With
-Gazebo's transforms bridged to `/tf`, the base has two of them, and the robot jumps between two
-places. With Gazebo's odometry bridged to `/odom`, navigation reads speeds and places from one
-source, and transforms from the other.
+Gazebo's odometry bridged to `/odom`, navigation reads speeds and places from one source, and
+transforms from the other. WIR001 reports Gazebo's transforms that are bridged to `/tf` as well.
 
 Fix: bridge Gazebo's odometry to another topic, such as `/ground_truth`, or state
 `enable_odom_tf: false` for the controller and let one source alone give odometry.
@@ -32,10 +31,7 @@ _CHILD_FRAMES = {
 """Classes that report odometry, each with the parameter that names the frame of the base."""
 _CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
 """Those whose transforms go to /tf itself; others publish them on a topic of their own."""
-_EFFECTS = {
-    "/tf": "its transform of {base!r} is bridged to /tf",
-    "/odom": "its odometry of {base!r} is bridged to /odom",
-}
+_TOPIC = "/odom"
 
 
 @rule("BRG010", "odometry-from-two-sources", Severity.WARNING, Concern.INTERFACE)
@@ -47,12 +43,12 @@ def check(simulations: Simulations) -> Findings:
                 stated = next(iter(controller.texts("base_frame_id")), None)
                 base = stated.value if stated is not None else "base_link"
                 for entry, plugin in _bridged(simulation, spawned, base):
-                    effect = _EFFECTS[entry.ros_topic].format(base=base)
                     yield finding(
                         entry.passed.gz_topic,
-                        f"{plugin.class_name} reports odometry, and {effect}, while "
-                        f"{controller.called} publishes the transform of the same frame",
-                        key=f"{controller.name} {entry.ros_topic}",
+                        f"{plugin.class_name} reports the odometry of {base!r}, bridged to "
+                        f"{_TOPIC}, while {controller.called} publishes the transform of that "
+                        "frame",
+                        key=controller.name,
                         related=[(plugin, "reports odometry"), (controller, "publishes it, too")],
                     )
 
@@ -76,9 +72,9 @@ def _publishing(simulation: Simulation, spawned: SpawnedRobot) -> Iterator[Contr
 def _bridged(
     simulation: Simulation, spawned: SpawnedRobot, base: str
 ) -> Iterator[tuple[BridgeEntry, Plugin]]:
-    """Yield the bridges to /tf and /odom from plugins that report odometry of a frame."""
+    """Yield the bridges to /odom from plugins that report odometry of a frame."""
     for entry in simulation.entries:
-        if entry.direction is Direction.TO_IGN or entry.ros_topic not in _EFFECTS:
+        if entry.direction is Direction.TO_IGN or entry.ros_topic != _TOPIC:
             continue
         for topic in simulation.topics_of(entry):
             owner = topic.owner
@@ -122,7 +118,7 @@ base_controller:
     right_wheel_names: [right_wheel_joint]
     enable_odom_tf: @
 """
-_TOPIC = """- ros_topic_name: {}
+_ENTRY = """- ros_topic_name: {}
   gz_topic_name: /model/rover/{}  # {}
   ros_type_name: {}
   gz_type_name: gz.msgs.{}
@@ -142,21 +138,14 @@ def _rover(topic: str, odom_tf: str = "true", base: str = "base_link") -> dict[s
     }
 
 
-def _transforms(mark: str = "") -> str:
-    return _TOPIC.format("/tf", "pose", mark, "tf2_msgs/msg/TFMessage", "Pose_V")
-
-
 def _odometry(topic: str = "odom", mark: str = "") -> str:
-    return _TOPIC.format(topic, "odometry", mark, "nav_msgs/msg/Odometry", "Odometry")
+    return _ENTRY.format(topic, "odometry", mark, "nav_msgs/msg/Odometry", "Odometry")
 
 
 GOOD = [
-    _rover(_transforms(), odom_tf="false"),
-    _rover(_transforms(), base="rover/base"),
+    _rover(_odometry(), odom_tf="false"),
+    _rover(_odometry(), base="rover/base"),
     _rover(_odometry("ground_truth")),
-    {**_rover(_transforms()), "@launch": {}},
+    {**_rover(_odometry()), "@launch": {}},
 ]
-BAD = [
-    _rover(_transforms("^ BRG010")),
-    _rover(_odometry(mark="^ BRG010")),
-]
+BAD = [_rover(_odometry(mark="^ BRG010"))]

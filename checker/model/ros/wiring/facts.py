@@ -1,0 +1,38 @@
+"""What is known of the nodes that people launch most: the table `ros_nodes`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+from msgspec import convert, field
+
+from checker.base.record import Record
+from checker.base.resources import table
+
+TransformFact = tuple[str, str, Mapping[str, str]]
+"""Parent, child, and the values that parameters must have; `{x}` is the value of parameter x."""
+
+
+class NodeFacts(Record):
+    """The interface of a program.
+
+    Attributes:
+        name: Of its node where the launch file sets none; empty when none is fixed.
+        publishes: Topics that it may publish, each with its types.
+        publishes_more: Types of topics that are only known when it runs; `*` for any.
+        transforms: That it publishes, of those whose frames parameters decide.
+        defaults: Of the parameters in them.
+    """
+
+    name: str = ""
+    publishes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    publishes_more: tuple[str, ...] = ()
+    transforms: tuple[TransformFact, ...] = ()
+    defaults: Mapping[str, str] = field(default_factory=dict)
+
+
+@cache
+def node_facts() -> Mapping[str, NodeFacts]:
+    """Return the known programs by package and executable: `nav2_amcl/amcl`."""
+    return convert(table("ros_nodes")["nodes"], dict[str, NodeFacts])

@@ -1,0 +1,107 @@
+"""A node of a launch as the ROS graph sees it: its full name, its parameters, its topics."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.expand.launch.graph import resolve_name
+from checker.expand.ros2_launch.graph import Node, ParameterFile, is_known
+from checker.model.ros.wiring.facts import NodeFacts, node_facts
+from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
+from checker.model.ros2_control.robot_control import ControlReader
+
+_REFERENCE = re.compile(r"\{([\w.]+)\}")
+_DEEPEST = 4
+"""Parameters whose defaults are the values of one another."""
+_OWN_RULES = ("-r", "--remap", "-p", "--param", "--params-file", "__node", "__ns", "__name")
+"""Beginnings of words by which a command line gives names and parameters as well."""
+
+
+class WiredNode(Record, eq=False, dict=True):
+    """A node that a launch file starts.
+
+    Attributes:
+        node: As the launch file has it.
+        files: Its parameter files.
+        facts: What is known of its program; None for one that nobody knows.
+    """
+
+    node: Node
+    files: tuple[LoadedFile, ...] = ()
+    facts: NodeFacts | None = None
+
+    @property
+    def name(self) -> str:
+        """Its name without the namespace; empty when it is not known."""
+        if self.node.name is not None and self.node.name.value:
+            return self.node.name.value if is_known(self.node.name.value) else ""
+        return self.facts.name if self.facts is not None else ""
+
+    @property
+    def full_name(self) -> str:
+        """Its namespace and name; empty when they are not known."""
+        known = self.name and is_known(self.node.namespace) and not self._rules
+        return resolve_name(self.name, self.node.namespace) if known else ""
+
+    @property
+    def called(self) -> str:
+        """What a message calls it."""
+        return f"node {self.full_name or self.node.executable.value!r}"
+
+    @property
+    def _rules(self) -> bool:
+        return any(word.value.startswith(_OWN_RULES) for word in self.node.arguments)
+
+    @property
+    def knows_parameters(self) -> bool:
+        """Whether all that gives it parameters was read."""
+        read = all(file.is_read for file in self.files)
+        return bool(self.full_name) and read and not self.node.unread
+
+    @cached_property
+    def settings(self) -> Mapping[str, Setting]:
+        """The parameters that it gets."""
+        return settings_of(self.node, self.files, self.name, self.node.namespace)
+
+    def filled(self, text: str) -> str | None:
+        """Return a text of the table with the values of parameters; None when one is not known."""
+        defaults = self.facts.defaults if self.facts is not None else {}
+        for _ in range(_DEEPEST):
+            for name in _REFERENCE.findall(text):
+                setting = self.settings.get(name)
+                value = defaults.get(name) if setting is None else setting.text
+                if value is None:
+                    return None
+                text = text.replace(f"{{{name}}}", value)
+        return None if _REFERENCE.search(text) else text
+
+    def resolve(self, name: str) -> str:
+        """Return the absolute topic that it gets when it asks for a name; empty if not known."""
+        own, namespace = self.name, self.node.namespace
+        topic = resolve_name(name, namespace, own)
+        for remap in self.node.remaps:
+            if resolve_name(remap.source, namespace, own) == topic:
+                topic = resolve_name(remap.target, namespace, own)
+                break
+        known = is_known(topic) and not self._rules and not self.node.unread
+        return topic if known else ""
+
+
+def wired_node(node: Node, reader: ControlReader) -> WiredNode:
+    """Return a node with its parameter files.
+
+    Args:
+        node: As the launch file has it.
+        reader: Of the files of the package that is checked.
+    """
+    program = f"{node.package.value}/{node.executable.value}"
+    files = tuple(_loaded(given, reader) for given in node.parameter_files)
+    return WiredNode(node, files, node_facts().get(program))
+
+
+def _loaded(given: ParameterFile, reader: ControlReader) -> LoadedFile:
+    file = reader.file(given.path)
+    return LoadedFile(given) if file is None else LoadedFile(given, file.path, file.blocks, True)

@@ -1,0 +1,89 @@
+"""The parameters that a node gets: from files and from the launch file, by the rules of rcl."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from checker.base.record import Record
+from checker.expand.ros2_launch.graph import Node, Parameter, ParameterFile, is_known
+from checker.model.ros2_control.parameters import NodeBlock
+from checker.source.text import Span
+
+_EVERY = "/**"
+
+
+class Setting(Record, eq=False):
+    """The value of a parameter.
+
+    Attributes:
+        value: Text, number, truth value, list or mapping.
+        span: The value where it is written.
+    """
+
+    value: object
+    span: Span
+
+    @property
+    def text(self) -> str | None:
+        """The value as text, truth values in small letters; None when it is not known."""
+        text = str(self.value)
+        if isinstance(self.value, bool):
+            return text.lower()
+        return text if is_known(text) else None
+
+
+class LoadedFile(Record, eq=False):
+    """A parameter file that a node is given.
+
+    Attributes:
+        given: Where the launch file names it.
+        path: As the package lists it; empty when it is not at hand.
+        blocks: What it gives to which nodes; none when it cannot be read.
+        is_read: Whether it could be read.
+    """
+
+    given: ParameterFile
+    path: str = ""
+    blocks: tuple[NodeBlock, ...] = ()
+    is_read: bool = False
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names that its blocks are for."""
+        return tuple(dict.fromkeys(block.name for block in self.blocks))
+
+
+def settings_of(
+    node: Node, files: Iterable[LoadedFile], name: str, namespace: str
+) -> Mapping[str, Setting]:
+    """Return the parameters of a node, those that count.
+
+    rcl joins all files by the keys of their blocks, each at the place where it comes first, and a
+    later block counts. launch writes the parameters of a launch file into a block for every node
+    as well, unless the node has a name and a namespace of its own.
+
+    Args:
+        node: That gets them.
+        files: Its parameter files.
+        name: Of the node.
+        namespace: Absolute.
+    """
+    by_given = {id(file.given): file for file in files}
+    blocks: dict[str, dict[str, Setting]] = {}
+    own = "" if node.name is not None and namespace != "/" else _EVERY
+    for parameter in node.parameters:
+        if isinstance(parameter, Parameter):
+            setting = Setting(parameter.value, parameter.span)
+            blocks.setdefault(own, {})[parameter.name] = setting
+        elif (file := by_given.get(id(parameter))) is not None:
+            for block in file.blocks:
+                if block.is_for(name, namespace):
+                    blocks.setdefault(block.name, {}).update(_settings(block))
+    return {name: setting for block in blocks.values() for name, setting in block.items()}
+
+
+def _settings(block: NodeBlock) -> dict[str, Setting]:
+    return {
+        name: Setting(parameter.node.plain() if parameter.is_known else "$(", parameter.span)
+        for name, parameter in block.parameters.items()
+    }

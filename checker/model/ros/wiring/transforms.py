@@ -1,0 +1,128 @@
+"""The transforms of a launch: which frame gets its parent from whom."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.base.record import Record
+from checker.expand.launch.bridge import Direction
+from checker.model.components import Plugin
+from checker.model.ros.simulation import Simulation
+from checker.model.ros.spawned import SpawnedRobot
+from checker.model.ros.wiring.nodes import WiredNode
+from checker.model.ros2_control.controllers import Controller
+from checker.model.ros2_control.launched import spawner_of
+from checker.source.text import Span
+
+TOPIC = "/tf"
+_FRAMES = {
+    "AckermannSteering": ("frame_id", "child_frame_id"),
+    "DiffDrive": ("frame_id", "child_frame_id"),
+    "MecanumDrive": ("frame_id", "child_frame_id"),
+    "TrackedVehicle": ("frame_id", "child_frame_id"),
+    "OdometryPublisher": ("odom_frame", "robot_base_frame"),
+}
+"""Plugins of Gazebo that publish odometry: parameters for the parent and the child."""
+_CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
+"""Those whose transforms go to /tf itself; others publish them on a topic of their own."""
+
+
+class Transform(Record, eq=False):
+    """A transform that somebody publishes.
+
+    Attributes:
+        parent: The frame that it starts from.
+        child: The frame that it places.
+        topic: Absolute: `/tf`, or what a remap makes of it.
+        span: What decides that it is published.
+        by: Who publishes it, for a message.
+        cure: How to switch it off, for a message.
+        source: The node, plugin or controller.
+    """
+
+    parent: str
+    child: str
+    topic: str
+    span: Span
+    by: str
+    cure: str
+    source: object
+
+    def __str__(self) -> str:
+        """Return it as messages write it."""
+        return f"{self.parent} → {self.child}"
+
+
+def transforms(nodes: tuple[WiredNode, ...], simulation: Simulation | None) -> Iterator[Transform]:
+    """Yield the transforms of odometry and localisation that a launch publishes for certain.
+
+    Args:
+        nodes: That are started.
+        simulation: What the launch file simulates.
+    """
+    if simulation is not None:
+        yield from _bridged(simulation)
+        for spawned in simulation.robots:
+            yield from _of_controllers(nodes, spawned)
+    for node in nodes:
+        yield from _of_node(node)
+
+
+def _bridged(simulation: Simulation) -> Iterator[Transform]:
+    unsure = [robot.robot for robot in simulation.robots if robot.node.starts is not True]
+    for entry in simulation.entries:
+        if entry.direction is Direction.TO_IGN or entry.gz_name != "Pose_V" or not entry.ros_topic:
+            continue
+        owners = [it.owner for it in simulation.topics_of(entry) if "Pose_V" in it.messages]
+        owner = owners[0] if len(owners) == 1 else None  # of several, names do not tell which
+        if not isinstance(owner, Plugin) or any(owner in robot.plugins for robot in unsure):
+            continue
+        frames = [
+            next((t.value for t in owner.at(it)), "") for it in _FRAMES.get(owner.class_name, ())
+        ]
+        if frames and all(frames):
+            parent, child = frames
+            by = f"plugin {owner.class_name} by the bridge of {entry.ros_topic}"
+            cure = f"remove the bridge of {entry.gz_topic}"
+            span = entry.passed.gz_topic.span
+            yield Transform(parent, child, entry.ros_topic, span, by, cure, owner)
+
+
+def _of_controllers(nodes: tuple[WiredNode, ...], spawned: SpawnedRobot) -> Iterator[Transform]:
+    control = spawned.control
+    if control is None or any(it.namespace.value != "/" for it in control.managers):
+        return
+    started = {
+        name.value
+        for node in nodes
+        if (spawner := spawner_of(node.node)) is not None
+        for name in spawner.names
+    }
+    for controller in control.controllers:
+        if controller.class_name in _CONTROLLERS and controller.name in started:
+            yield from _of_controller(controller)
+
+
+def _of_controller(controller: Controller) -> Iterator[Transform]:
+    flag = controller.flag("enable_odom_tf", default=True)
+    if not flag or "tf_frame_prefix" in controller.parameters:
+        return
+    parent, child = (
+        next((text.value for text in controller.texts(name)), default)
+        for name, default in (("odom_frame_id", "odom"), ("base_frame_id", "base_link"))
+    )
+    cure = f"state `enable_odom_tf: false` for {controller.called}"
+    yield Transform(parent, child, TOPIC, controller.span, controller.called, cure, controller)
+
+
+def _of_node(node: WiredNode) -> Iterator[Transform]:
+    if node.facts is None or not node.knows_parameters:
+        return
+    for parent, child, wanted in node.facts.transforms:
+        if all(node.filled(f"{{{name}}}") == node.filled(it) for name, it in wanted.items()):
+            frames, topic = (node.filled(parent), node.filled(child)), node.resolve(TOPIC)
+            switch = next(iter(wanted))
+            span = node.settings[switch].span if switch in node.settings else node.node.span
+            if frames[0] and frames[1] and topic:
+                cure = f"state `{switch}: false` for {node.called}"
+                yield Transform(frames[0], frames[1], topic, span, node.called, cure, node)

@@ -1,0 +1,1 @@
+"""WIR: what the nodes of a ROS 2 launch are to one another."""

@@ -1,0 +1,137 @@
+"""A frame gets its transform from two nodes of a launch.
+
+TF keeps what came last. With two publishers of one transform the robot jumps between two places,
+many times a second; with two parents for one frame the tree is a different one each time, and
+whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive controller
+of ros2_control) and a filter that takes its odometry (`ekf_node`) both publish `odom` to the base
+unless one of them is told not to.
+
+It is reported where both are started with the defaults of all arguments, and the frames of both
+are known from their parameters.
+
+Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's transforms, or state
+`enable_odom_tf: false` for the controller. Without: `publish_tf: false` for the filter.
+Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
+`publish_tf`; ros2_controllers, `enable_odom_tf`.
+"""
+
+from itertools import combinations
+
+from checker.model.ros.wiring.transforms import Transform
+from checker.model.ros.wiring.wiring import Wiring
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("WIR001", "transform-from-two-nodes", Severity.WARNING, Concern.INTERFACE)
+def check(wiring: Wiring) -> Findings:
+    """Report each two publishers of a transform, or of two parents of one frame."""
+    for first, second in combinations(wiring.transforms, 2):
+        same_frame = (first.child, first.topic) == (second.child, second.topic)
+        if same_frame and first.source is not second.source:
+            yield finding(
+                first.span,
+                f"{_fault(first, second)}: {first.cure}, or {second.cure}",
+                key=f"{first.child} {first.by} {second.by}",
+                related=[(second.span, f"{second.by} publishes {second}")],
+            )
+
+
+def _fault(first: Transform, second: Transform) -> str:
+    if first.parent == second.parent:
+        return f"transform {first} has two publishers, {first.by} and {second.by}"
+    return (
+        f"frame {first.child!r} has two parents, {first.parent!r} from {first.by} and "
+        f"{second.parent!r} from {second.by}"
+    )
+
+
+_TRANSFORMS = """- ros_topic_name: /tf
+  gz_topic_name: /model/rover/tf{}
+  ros_type_name: tf2_msgs/msg/TFMessage
+  gz_type_name: gz.msgs.Pose_V
+  direction: GZ_TO_ROS
+"""
+_ROBOT = """<robot name="rover">
+  <link name="base_link"/>
+  <gazebo>
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+      <frame_id>odom</frame_id><child_frame_id>base_link</child_frame_id>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+_EKF = """LaunchDescription([
+        Node(package="robot_localization", executable="ekf_node",{} parameters=[
+            os.path.join(HERE, "config", "ekf.yaml"){}]),
+"""
+_LAUNCHED = "LaunchDescription([\n"
+_MARK = "  # ^ WIR001"
+
+
+def _filter(settings: str, mark: str = "", more: str = "", name: str = "") -> dict[str, object]:
+    return {
+        "@bridge": _TRANSFORMS.format(mark),
+        "@launch": {_LAUNCHED: _EKF.format(name, more)},
+        "urdf/rover.urdf": _ROBOT,
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}\n",
+    }
+
+
+_CONTROL = """
+  <ros2_control name="base" type="system">
+    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  </ros2_control>
+  <gazebo>
+    <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+      <parameters>$(find acme_rover_bringup)/config/base.yaml</parameters>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+_YAML = """controller_manager:
+  ros__parameters:
+    base_controller: {type: diff_drive_controller/DiffDriveController}
+base_controller:%
+  ros__parameters: {enable_odom_tf: @}
+"""
+_SPAWNER = """LaunchDescription([
+        Node(package="controller_manager", executable="spawner", arguments=["base_controller"]),
+"""
+
+
+def _controlled(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, object]:
+    return {
+        "@bridge": _TRANSFORMS.format(mark),
+        "@launch": {_LAUNCHED: _SPAWNER},
+        "urdf/rover.urdf": _ROBOT.replace("</robot>\n", _CONTROL),
+        "config/base.yaml": _YAML.replace("@", odom_tf).replace("%", yaml),
+    }
+
+
+GOOD = [
+    {"@bridge": True},
+    _filter("publish_tf: false"),
+    _filter("world_frame: map"),
+    _filter("base_link_frame: base_footprint"),
+    _filter("publish_tf: true", more=", {'publish_tf': False}"),
+    {**_filter("publish_tf: true"), "@launch": {}},
+    {**_filter("publish_tf: true"), "@bridge": True},
+    {
+        **_filter("publish_tf: true"),
+        "@bridge": _TRANSFORMS.format("").replace("ros_topic_name: /tf", "ros_topic_name: /gz/tf"),
+    },
+    _filter("publish_tf: false", name=' name="ekf_filter_node",'),
+    _controlled("false"),
+]
+BAD = [
+    _filter("publish_tf: true", _MARK),
+    _filter("odom_frame: map, world_frame: map", _MARK),
+    _filter("publish_tf: false", _MARK, name=' name="ekf",'),
+    _controlled("true", _MARK),
+    {
+        **_controlled("true", yaml=_MARK),
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _SPAWNER + _EKF.format("", "").partition("\n")[2]},
+        "config/ekf.yaml": "/**:\n  ros__parameters: {publish_tf: true}\n",
+    },
+]
