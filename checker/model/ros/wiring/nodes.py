@@ -89,6 +89,25 @@ class WiredNode(Record, eq=False, dict=True):
         known = is_known(topic) and not self._rules and not self.node.unread
         return topic if known else ""
 
+    @cached_property
+    def published(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The topics that it may publish, absolute, each with its types; those that are known."""
+        facts = self.facts.publishes if self.facts is not None else {}
+        filled = ((self.filled(topic), types) for topic, types in facts.items())
+        resolved = ((self.resolve(topic), types) for topic, types in filled if topic)
+        return tuple((topic, types) for topic, types in resolved if topic)
+
+    def publishes_more(self, message: str) -> str:
+        """Say why it may publish a type on a topic that `published` lacks; else nothing."""
+        program = f"{self.node.package.value}/{self.node.executable.value}"
+        if self.facts is None or self.node.components:
+            return f"what {program} publishes is not known"
+        own = [types for types in self.facts.publishes.values() if message in types]
+        known = sum(message in types for _, types in self.published)
+        if len(own) > known or {message, "*"} & set(self.facts.publishes_more):
+            return f"some of the topics that {program} publishes are not known"
+        return ""
+
 
 def wired_node(node: Node, reader: ControlReader) -> WiredNode:
     """Return a node with its parameter files.

@@ -6,11 +6,26 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
+from checker.expand.launch.bridge import Direction
+from checker.expand.ros2_launch.graph import (
+    Include,
+    LaunchGraph,
+    Process,
+    Ros2Launch,
+    share_path,
+    shown,
+)
+from checker.model.ros.servers import is_gazebo, is_gazebo_include
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.model.ros.wiring.nodes import WiredNode, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
 from checker.model.ros2_control.robot_control import ControlReader
+
+_CLASSIC = "gazebo_ros"
+_QUIET_COMMANDS = tuple(
+    ("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")
+)
+"""Beginnings of commands that publish nothing."""
 
 
 class Wiring(Record, eq=False, dict=True):
@@ -18,18 +33,69 @@ class Wiring(Record, eq=False, dict=True):
 
     Attributes:
         graph: Of the launch file.
-        nodes: That it starts with the defaults of all arguments.
+        every_node: Its nodes, those that conditions leave out among them.
         simulation: What it simulates and bridges; None when it has nothing to do with Gazebo.
     """
 
     graph: LaunchGraph
-    nodes: tuple[WiredNode, ...]
+    every_node: tuple[WiredNode, ...]
     simulation: Simulation | None
+
+    @cached_property
+    def nodes(self) -> tuple[WiredNode, ...]:
+        """The nodes that it starts with the defaults of all arguments."""
+        return tuple(node for node in self.every_node if node.node.starts)
 
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
         """Transforms of odometry and localisation that it publishes for certain."""
         return tuple(transforms(self.nodes, self.simulation))
+
+    def publishers(self, message: str) -> dict[str, str]:
+        """Return the topics on which a type may be published, each with who does it.
+
+        Args:
+            message: The type: `std_msgs/msg/String`.
+        """
+        found = {
+            topic: node.called
+            for node in self.every_node
+            for topic, types in node.published
+            if message in types
+        }
+        entries = self.simulation.entries if self.simulation is not None else ()
+        for entry in entries:
+            if entry.passed.ros_type.value == message and entry.direction is not Direction.TO_IGN:
+                found[entry.ros_topic] = "a bridge"
+        return found
+
+    def more_publishers(self, message: str) -> str:
+        """Say why there may be more topics of a type than `publishers` names; else nothing."""
+        for node in self.every_node:
+            if reason := node.publishes_more(message):
+                return reason
+        reasons = [unread.reason for unread in self.graph.unread]
+        reasons += [f"{it.message}" for it in self.graph.faults]
+        if self.graph.components:
+            reasons.append("components are loaded into a container")
+        if not all(map(_publishes_nothing, self.graph.processes)):
+            reasons.append("a command may publish anything")
+        for include in self.graph.includes:
+            if not include.path and not _is_of_gazebo(include):
+                reasons.append(f"{shown(include.target.value)} is not read")
+        if self.simulation is not None:
+            reasons += self.simulation.bridges.unread
+        return next(iter(reasons), "")
+
+
+def _is_of_gazebo(include: Include) -> bool:
+    target = share_path(include.target.value)
+    return is_gazebo_include(include) or (target is not None and target.package == _CLASSIC)
+
+
+def _publishes_nothing(process: Process) -> bool:
+    words = tuple(word.value for word in process.words[:2])
+    return is_gazebo(process) or words in _QUIET_COMMANDS
 
 
 def wirings(
@@ -45,6 +111,6 @@ def wirings(
     launched = simulations.launched if simulations is not None else ()
     by_graph = {id(simulation.graph): simulation for simulation in launched}
     for graph in launch.entries:
-        nodes = tuple(wired_node(node, reader) for node in graph.nodes if node.starts)
+        nodes = tuple(wired_node(node, reader) for node in graph.nodes)
         if nodes:
             yield Wiring(graph, nodes, by_graph.get(id(graph)))

@@ -1,0 +1,92 @@
+"""The wiring of a launch: which parameters a node gets, and what is not known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.base.parts import NotAvailable
+from checker.engine.subject import Subject
+from checker.model.ros.wiring.wiring import Wiring
+from checker.package.inputs import open_input
+from checker.rule_testing import write_example
+
+HEAD = "LaunchDescription([\n"
+FILE = 'os.path.join(HERE, "config", "a.yaml")'
+
+
+def wiring(nodes: str, folder: Path, yaml: str = "") -> Wiring:
+    """Return the wiring of a launch file that starts nodes beside those of a rover."""
+    example = {"@bridge": True, "@launch": {HEAD: f"{HEAD}{nodes},\n"}, "config/a.yaml": yaml}
+    with open_input(write_example(example, folder)) as opened:
+        subject = Subject(opened.packages[0])
+        found = subject.wirings
+        subject.close()
+    assert not isinstance(found, NotAvailable)
+    (launched,) = found
+    return launched
+
+
+@pytest.mark.parametrize(
+    ("node", "yaml", "value"),
+    [
+        (f"parameters=[{FILE}]", "lidar: {ros__parameters: {rate: 1}}", 1),
+        (f"parameters=[{FILE}]", "/lidar: {ros__parameters: {rate: 1}}", 1),
+        (f"parameters=[{FILE}]", "/**/lidar: {ros__parameters: {rate: 1}}", 1),
+        (f"parameters=[{FILE}]", "camera: {ros__parameters: {rate: 1}}", None),
+        (f"parameters=[{FILE}]", "r1/lidar: {ros__parameters: {rate: 1}}", None),
+        (f"parameters=[{FILE}], namespace='r1'", "lidar: {ros__parameters: {rate: 1}}", None),
+        (f"parameters=[{FILE}], namespace='r1'", "r1: {lidar: {ros__parameters: {rate: 1}}}", 1),
+        (f"parameters=[{FILE}], namespace='r1'", "'/*/lidar': {ros__parameters: {rate: 1}}", 1),
+        (
+            f"parameters=[{FILE}]",
+            "lidar: {ros__parameters: {rate: 1}}\n/**: {ros__parameters: {rate: 2}}",
+            2,
+        ),
+        (f"parameters=[{FILE}, {{'rate': 3}}]", "lidar: {ros__parameters: {rate: 1}}", 3),
+        (f"parameters=[{{'rate': 3}}, {FILE}]", "lidar: {ros__parameters: {rate: 1}}", 1),
+        (
+            f"parameters=[{FILE}, {{'rate': 3}}]",
+            "/**: {ros__parameters: {rate: 2}}\nlidar: {ros__parameters: {rate: 1}}",
+            1,  # what the launch file says is for every node, and joins the first block
+        ),
+        (
+            f"parameters=[{FILE}, {{'rate': 3}}], namespace='r1'",
+            "/**: {ros__parameters: {rate: 2}}\n/**/lidar: {ros__parameters: {rate: 1}}",
+            3,
+        ),
+    ],
+)
+def test_the_parameters_that_count(node: str, yaml: str, value: int | None, tmp_path: Path) -> None:
+    launched = wiring(f'Node(package="a", executable="b", name="lidar", {node})', tmp_path, yaml)
+
+    setting = launched.nodes[0].settings.get("rate")
+    assert (setting.value if setting is not None else None) == value
+
+
+@pytest.mark.parametrize(
+    ("action", "why"),
+    [
+        ('Node(package="a", executable="b")', "what a/b publishes is not known"),
+        (
+            'Node(package="topic_tools", executable="relay")',
+            "some of the topics that topic_tools/relay publishes are not known",
+        ),
+        ("another()", "another is not defined"),
+        ('Node(package="joy", executable="joy_node")', ""),
+    ],
+)
+def test_what_else_may_publish(action: str, why: str, tmp_path: Path) -> None:
+    unknown = wiring(action, tmp_path).more_publishers("std_msgs/msg/String")
+
+    assert unknown.startswith(why)
+    assert bool(unknown) is bool(why)
+
+
+def test_names_that_a_command_line_gives_are_not_known(tmp_path: Path) -> None:
+    node = 'Node(package="joy", executable="joy_node", ros_arguments=["-r", "__node:=stick"])'
+    launched = wiring(node, tmp_path)
+
+    assert launched.nodes[0].full_name == ""
+    assert not launched.nodes[0].knows_parameters
