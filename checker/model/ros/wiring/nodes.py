@@ -11,6 +11,7 @@ from checker.expand.launch.graph import resolve_name
 from checker.expand.ros2_launch.graph import Node, ParameterFile, is_known
 from checker.model.ros.wiring.facts import NodeFacts, node_facts
 from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
+from checker.model.ros2_control.parameters import NodeBlock
 from checker.model.ros2_control.robot_control import ControlReader
 
 _REFERENCE = re.compile(r"\{([\w.]+)\}")
@@ -54,6 +55,10 @@ class WiredNode(Record, eq=False, dict=True):
     @property
     def _rules(self) -> bool:
         return any(word.value.startswith(_OWN_RULES) for word in self.node.arguments)
+
+    def reads(self, block: NodeBlock) -> bool:
+        """Whether a block of a parameter file is for it."""
+        return block.is_for(self.name, self.node.namespace)
 
     @property
     def knows_parameters(self) -> bool:

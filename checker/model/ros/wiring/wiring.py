@@ -74,18 +74,29 @@ class Wiring(Record, eq=False, dict=True):
         for node in self.every_node:
             if reason := node.publishes_more(message):
                 return reason
+        unread = self.simulation.bridges.unread if self.simulation is not None else ()
+        return next(iter((*self.unread, *unread)), "")
+
+    @cached_property
+    def unread(self) -> tuple[str, ...]:
+        """Why it may start more than its nodes."""
         reasons = [unread.reason for unread in self.graph.unread]
-        reasons += [f"{it.message}" for it in self.graph.faults]
+        reasons += [fault.message for fault in self.graph.faults]
         if self.graph.components:
             reasons.append("components are loaded into a container")
         if not all(map(_publishes_nothing, self.graph.processes)):
-            reasons.append("a command may publish anything")
+            reasons.append("a command may start anything")
         for include in self.graph.includes:
             if not include.path and not _is_of_gazebo(include):
                 reasons.append(f"{shown(include.target.value)} is not read")
-        if self.simulation is not None:
-            reasons += self.simulation.bridges.unread
-        return next(iter(reasons), "")
+        return tuple(reasons)
+
+    @property
+    def knows_nodes(self) -> bool:
+        """Whether it starts no nodes but those whose names are known."""
+        return not self.unread and all(
+            node.full_name and not node.node.components for node in self.every_node
+        )
 
 
 def _is_of_gazebo(include: Include) -> bool:
