@@ -55,6 +55,10 @@ class NotReadable(Record):
     reason: str
 
 
+class TooLarge(NotReadable):
+    """A file that is larger than what is read: a limit of the checker, no fault of the file."""
+
+
 def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
     """Read a regular file of at most `limit` bytes.
 
@@ -69,14 +73,14 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
             if not stat.S_ISREG(status.st_mode):
                 return NotReadable(path, "is not a regular file")
             if status.st_size > limit:
-                return NotReadable(path, _too_large(status.st_size, limit))
+                return _too_large(path, status.st_size, limit)
             data = file.read(status.st_size + 1)
             if len(data) > status.st_size:
                 # It grows while it is read.
                 data += file.read(limit + 1 - len(data))
     except (OSError, ValueError) as error:
         return NotReadable(path, f"cannot be read: {getattr(error, 'strerror', None) or error}")
-    return data if len(data) <= limit else NotReadable(path, _too_large(len(data), limit))
+    return data if len(data) <= limit else _too_large(path, len(data), limit)
 
 
 def open_file(location: Path) -> BinaryIO:
@@ -90,5 +94,6 @@ def open_file(location: Path) -> BinaryIO:
     return open(os.open(location, flags | getattr(os, "O_BINARY", 0)), "rb")  # noqa: PTH123 - a descriptor, not a path
 
 
-def _too_large(size: int, limit: int) -> str:
-    return f"has {size / 1e6:.1f} MB, more than the limit of {limit / 1e6:g} MB"
+def _too_large(path: str, size: int, limit: int) -> TooLarge:
+    reason = f"has {size / 1e6:.1f} MB, more than the limit of {limit / 1e6:g} MB"
+    return TooLarge(path, reason)

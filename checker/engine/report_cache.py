@@ -29,6 +29,7 @@ from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
 from checker.rulebook.discovery import rules_of_others
 from checker.settings import Settings
+from checker.source.xml import elements_limit
 
 
 def from_stored(members: Any, path: str) -> PackageReport:
@@ -69,7 +70,7 @@ def memory_key(package: Package, settings: Settings) -> str:
 
 def program_parts() -> list[str]:
     """Return what every report depends on, whatever is checked: the program, libraries, rules."""
-    physics = f"physics {PHYSICS.is_installed}"
+    physics = f"physics {PHYSICS.is_installed}, {elements_limit()} elements"
     libraries = map(version_of, _LIBRARIES)
     return [code_hash(*OWN_CODE), physics, *libraries, *rules_of_others()]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import field
 from msgspec.structs import replace
 
-from checker.base.files import NotReadable
+from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
 from checker.package.index import (
@@ -48,11 +48,12 @@ from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.setup_py import SetupFile, read_setup
 from checker.source.text import SourceText
 from checker.source.xml import (
-    ATTRIBUTES_LIMIT,
-    ELEMENTS_LIMIT,
+    ATTRIBUTES_FOR_ONE,
+    ELEMENTS_VARIABLE,
     XmlDocument,
     attributes_in,
     elements_in,
+    elements_limit,
     parse_xml,
 )
 from checker.source.xml_positions import XmlFault
@@ -62,14 +63,11 @@ if TYPE_CHECKING:
 
 XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro")
 BYTES_LIMIT = 200_000_000
-ELEMENTS_FOR_ALL = 200_000
-"""Of the XML files of one package; those of the largest real one have 5 500."""
+DOCUMENTS_FOR_ALL = 4
+"""Documents with as many elements as one may have that a package may have; the largest real package
+has 5 500 elements."""
 RUBY_FILES = 20
 """That a spawner may load."""
-
-
-class TooLarge(NotReadable):
-    """An XML file with more elements than are checked."""
 
 
 class Package(Record, eq=False, dict=True):
@@ -268,18 +266,20 @@ class Package(Record, eq=False, dict=True):
     def _parsed(self, path: str, source: SourceText) -> XmlDocument | XmlFault | TooLarge:
         count, attributes = elements_in(source.text), attributes_in(source.text)
         known = sum(self._elements.values())
-        if count > ELEMENTS_LIMIT:
-            reason = f"has {count:,} elements; only files of up to {ELEMENTS_LIMIT:,} are checked"
-        elif attributes > ATTRIBUTES_LIMIT:
-            most = f"only files of up to {ATTRIBUTES_LIMIT:,} are checked"
+        limit = elements_limit()
+        of_attributes, for_all = limit * ATTRIBUTES_FOR_ONE, limit * DOCUMENTS_FOR_ALL
+        if count > limit:
+            reason = f"has {count:,} elements; only files of up to {limit:,} are checked"
+        elif attributes > of_attributes:
+            most = f"only files of up to {of_attributes:,} are checked"
             reason = f"has {attributes:,} attributes; {most}"
-        elif known + count > ELEMENTS_FOR_ALL:
-            before = f"the XML files before have {known:,} of the {ELEMENTS_FOR_ALL:,} for all"
+        elif known + count > for_all:
+            before = f"the XML files before have {known:,} of the {for_all:,} for all"
             reason = f"has {count:,} elements; {before}"
         else:
             self._elements[path] = count
             return parse_xml(source)
-        return TooLarge(path, reason)
+        return TooLarge(path, f"{reason} ({ELEMENTS_VARIABLE}={2 * limit} doubles the limit)")
 
     @property
     def too_large(self) -> tuple[TooLarge, ...]:

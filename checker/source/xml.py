@@ -7,6 +7,7 @@ Entities, document types and network access are off in both.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
@@ -22,8 +23,10 @@ from checker.source.xml_tags import AttributeSpans, locate_tags, namespace_fault
 MAX_DEPTH = 250
 ELEMENTS_LIMIT = 50_000
 """Of one document; the largest of 5 000 real ones has 3 705. Each takes up to 9 kB as a robot."""
-ATTRIBUTES_LIMIT = 400_000
-"""Of one document; the largest real one has 2 000. Each takes 0.5 kB."""
+ELEMENTS_VARIABLE = "SUBT_CHECK_ELEMENTS"
+"""Environment variable that states another limit of elements, for whoever has the memory."""
+ATTRIBUTES_FOR_ONE = 8
+"""Attributes that a document may have for each element that it may have. Each takes 0.5 kB."""
 _PATH_LIMIT = 400
 """Characters of an element's path; what is longer keeps its end."""
 _BLANKS = " \t\r\n"
@@ -85,6 +88,12 @@ class XmlDocument(Record, eq=False, dict=True):
         if not isinstance(nodes, list):
             return []
         return [self.element_of(node) for node in nodes if isinstance(node, etree._Element)]
+
+
+def elements_limit() -> int:
+    """Return how many elements a document may have."""
+    said = os.environ.get(ELEMENTS_VARIABLE, "")
+    return int(said) if said.isdecimal() and said.isascii() and len(said) < 10 else ELEMENTS_LIMIT
 
 
 def elements_in(text: str) -> int:

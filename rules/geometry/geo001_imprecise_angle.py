@@ -6,7 +6,8 @@ solver may let tilted ones creep: under the profile `subt` it is a warning. Else
 and for other targets, it is information; for Gazebo from Fortress on, less than a microradian is
 not reported.
 
-Fix: write 1.5707963267948966 or 3.1415926535897932.
+Fix: write 1.5707963267948966 or 3.1415926535897932. Where it turns a part that is no wheel by more
+than the rounding of four decimals, as for 3.14, the fix is unsafe: the part moves.
 Source: Model Migration Guide, step 3: "ensure that the orientations of the wheel collisions use
 high precision numbers".
 """
@@ -17,12 +18,14 @@ from decimal import Decimal
 
 from checker.model.components import Pose
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 HALF_PI = math.pi / 2
 EXACT_HALF_PI = Decimal("1.57079632679489661923")
 """To more digits than a float has, so that a multiple of it is right in every digit written."""
+_ROUNDED = 2e-5
+"""Radians that readers with six digits do not see; 1.5708 and 3.1416 are closer."""
 _MOST_DIGITS = 17
 """Of all behind the point that tell one float near π from the next."""
 
@@ -58,14 +61,20 @@ def check(
                 continue
             of_wheel = link in wheels and off > harmless
             meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")
+            safe = off <= (tolerance if of_wheel else _ROUNDED)
+            kind = "wheel" if of_wheel else "elsewhere"
             where = "angle of a wheel's collision" if of_wheel else "angle"
             yield finding(
                 angle,
                 f"{where} is {angle.span.text}, which differs from "
                 f"{'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
                 severity=severity if of_wheel else Severity.INFO,
-                key="wheel" if of_wheel else "elsewhere",
-                fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{decimals}f}"),
+                key=kind if safe else f"{kind} by more",
+                fix=replace_text(
+                    angle,
+                    f"{quarters * EXACT_HALF_PI:.{decimals}f}",
+                    Safety.SAFE if safe else Safety.UNSAFE,
+                ),
             )
 
 

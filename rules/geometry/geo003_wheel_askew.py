@@ -4,16 +4,21 @@ The wheel tumbles like a coin instead of rolling. A cylinder's axis is its own z
 turns it, and that pose is missing or turns it about the wrong axis. None of the accepted packages
 that we checked shows this.
 
-Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`.
+A URDF joint without `<axis>` turns about its x axis.
+
+Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`, in URDF with an
+`<origin rpy="1.5707963267948966 0 0"/>`; or give the joint the `<axis>` that it lacks.
 Source: Model Migration Guide, step 3: orientations of the wheel collisions; the axis of a cylinder
-is z in SDF and URDF.
+is z in SDF and URDF; URDF specification, joint: "axis" is (1,0,0) by default.
 """
 
 import math
 
+from checker.model.geometry.placed_shapes import Placed
+from checker.model.locomotion.locomotion import Wheel
 from checker.model.locomotion.wheels import askew, tread
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
 @rule("GEO003", "wheel-askew", Severity.ERROR, Concern.ROBOT)
@@ -35,6 +40,9 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
         rolls = tread(robot, wheel)
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
             continue
+        if robot.format == "urdf" and not wheel.joint.axes[0].xyz[0].stated:
+            yield _without_axis(robot, wheel, rolls, severity)
+            continue
         yield finding(
             rolls.shape.pose,
             f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
@@ -43,6 +51,24 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             severity=severity,
             related=[(wheel.joint, "the joint")],
         )
+
+
+def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity) -> Finding:
+    """Report a joint of URDF that states no axis, and the one that its wheel needs."""
+    joint = robot.pose_of_joint(wheel.joint)
+    along = rolls.pose.rotate((0.0, 0.0, 1.0))
+    own = joint.inverse.rotate(along) if joint is not None else along
+    # Of the two directions of a line the positive one is usual.
+    sign = math.copysign(1.0, max(own, key=abs))
+    needed = " ".join(f"{round(sign * number, 4) + 0.0:g}" for number in own)
+    return finding(
+        wheel.joint,
+        f"joint {wheel.joint.name.value!r} has no <axis>, so it turns about x, URDF's default, "
+        f"across the {rolls.shape.geometry.shape} of wheel {wheel.link.name.value!r}: expected "
+        f'<axis xyz="{needed}"/>',
+        severity=severity,
+        related=[(rolls.shape.pose, f"the {rolls.shape.geometry.shape}")],
+    )
 
 
 def _wheel(collision: str, xyz: str = "0 1 0") -> str:
@@ -70,7 +96,13 @@ def _cylinder(pose: str, radius: float = 0.1) -> str:
 """
 
 
-def _urdf(origin: str, plugin: str = "", kind: str = "continuous") -> dict[str, str]:
+def _urdf(
+    origin: str,
+    plugin: str = "",
+    kind: str = "continuous",
+    axis: str = '<axis xyz="0 1 0"/>',
+    mark: str = "",
+) -> dict[str, str]:
     wheel = f"""
 <link name="left_wheel">
   <collision>
@@ -78,11 +110,11 @@ def _urdf(origin: str, plugin: str = "", kind: str = "continuous") -> dict[str, 
     <geometry><cylinder radius="0.1" length="0.05"/></geometry>
   </collision>
 </link>
-<joint name="left_axle" type="{kind}">
+<joint name="left_axle" type="{kind}">{mark}
   <origin xyz="0 0.3 0"/>
   <parent link="base_link"/>
   <child link="left_wheel"/>
-  <axis xyz="0 1 0"/>
+  {axis}
 </joint>
 <gazebo>{plugin}</gazebo>
 """
@@ -104,6 +136,8 @@ GOOD = [
     _wheel("<collision name='c'><geometry><sphere/></geometry></collision>"),
     _urdf(_LYING),
     _urdf(_LYING, _CLASSIC),
+    # URDF's default axis is x.
+    _urdf('<origin rpy="0 1.5707963267948966 0"/>', axis=""),
     # No wheel that rolls.
     _urdf("<origin/>", kind="fixed"),
 ]
@@ -112,5 +146,6 @@ BAD = [
     _wheel(_cylinder("  <!-- ^ GEO003 -->")),
     _wheel(_cylinder("\n<pose>0 0 0 1.5 0 0</pose>  <!-- ^ GEO003 -->")),
     _urdf("<origin/>  <!-- ^ GEO003 -->"),
+    _urdf(_LYING, axis="", mark="  <!-- ^ GEO003 -->"),
     _urdf('<origin rpy="1.5 0 0"/>  <!-- ^ GEO003 -->', _CLASSIC),
 ]

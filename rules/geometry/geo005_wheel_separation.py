@@ -4,8 +4,9 @@ The plugin computes the rates of wheels or tracks from the turn rate with `wheel
 `tracks_separation`, and steering angles with `wheel_base` and `kingpin_width`. Skid-steer robots
 raise the separation on purpose, by half or more, because their wheels slip sideways in a turn. A
 separation below the true distance, or far above it, is a mistake: the robot turns too slowly or too
-fast. With a wrong wheel base or kingpin width the wheels steer about different points. None of the
-accepted packages that we checked shows this.
+fast. Distances are those between the middles of the shapes that the wheels roll on, wherever the
+origins of their links are. With a wrong wheel base or kingpin width the wheels steer about
+different points. None of the accepted packages that we checked shows this.
 
 Fix: set the plugin's `<wheel_separation>` to the distance of left and right wheels, in metres; for
 a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the distance of the axles and
@@ -53,8 +54,8 @@ def _message(counted: CountedDistance, least: float, most: float) -> str:
     )
 
 
-def _rover(separation: str) -> str:
-    return f"""{_pair("wheel", 0)}
+def _rover(separation: str, *, outside: bool = False) -> str:
+    return f"""{_pair("wheel", 0, outside=outside)}
 <plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
   <left_joint>wheel_left_joint</left_joint>
   <right_joint>wheel_right_joint</right_joint>
@@ -76,17 +77,28 @@ def _car(sizes: str) -> str:
 """
 
 
-def _pair(name: str, x: float, axis: str = "0 1 0") -> str:
+def _outside(side: int) -> str:
+    """Return a wheel's cylinder 0.1 m outside of the origin of its link."""
+    return f"""
+<collision name="c">
+  <pose>0 {side * 0.1} 0 1.5707963267948966 0 0</pose>
+  <geometry><cylinder><radius>0.1</radius><length>0.05</length></cylinder></geometry>
+</collision>
+"""
+
+
+def _pair(name: str, x: float, axis: str = "0 1 0", *, outside: bool = False) -> str:
+    left, right = (_outside(1), _outside(-1)) if outside else ("", "")
     return "".join(
         f"""
-<link name="{name}_{side}"><pose>{x} {y} 0 0 0 0</pose></link>
+<link name="{name}_{side}"><pose>{x} {y} 0 0 0 0</pose>{shape}</link>
 <joint name="{name}_{side}_joint" type="revolute">
   <parent>base_link</parent>
   <child>{name}_{side}</child>
   <axis><xyz>{axis}</xyz></axis>
 </joint>
 """
-        for side, y in (("left", 0.2), ("right", -0.2))
+        for side, y, shape in (("left", 0.2, left), ("right", -0.2, right))
     )
 
 
@@ -119,12 +131,14 @@ GOOD = [
     _rover(f"<wheel_separation>0.4{_END}"),
     _rover(f"<wheel_separation>0.6{_END}"),
     _rover(""),
+    _rover(f"<wheel_separation>1.4{_END}", outside=True),
     _car(_BASE + _KINGPINS),
     _crawler("0.4</tracks_separation>"),
 ]
 BAD = [
     _rover(f"<wheel_separation>0.2{_END}{_MARK}"),
     _rover(f"<wheel_separation>1.2{_END}{_MARK}"),
+    _rover(f"<wheel_separation>0.4{_END}{_MARK}", outside=True),
     _car(f"<wheel_base>1.5</wheel_base>{_MARK}\n{_KINGPINS}"),
     _car(f"{_BASE}\n<kingpin_width>0.8</kingpin_width>{_MARK}"),
     _crawler(f"0.2</tracks_separation>{_MARK}"),

@@ -170,7 +170,9 @@ def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
 
 
 def _written(joint: Joint) -> str:
-    return " ".join(f"{number.value:g}" for number in joint.axes[0].xyz)
+    xyz = joint.axes[0].xyz
+    default = "" if xyz[0].stated else " (the default, for it states none)"
+    return " ".join(f"{number.value:g}" for number in xyz) + default
 
 
 def _dot(a: Vector, b: Vector) -> float:

@@ -62,9 +62,8 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         return
     installed = _installed(build)
     whole = "" in installed
-    for folder in USUAL_FOLDERS:
-        entry = package.index.find(folder)
-        if entry is None or not entry.is_folder or whole or _covers(installed, folder):
+    for folder in _filled_folders(package):
+        if whole or _covers(installed, folder):
             continue
         message = f"folder {folder}/ is not installed"
         yield _finding(build, message, _LESS.get(folder), _added(build, "DIRECTORY", [folder]))
@@ -77,6 +76,13 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         yield _finding(build, message, None, _added(build, "FILES", [MODEL_FILES[0]]))
 
 
+def _filled_folders(package: Package) -> Iterator[str]:
+    """Yield the usual folders with files in them: git keeps no other, and no clone installs it."""
+    for folder in USUAL_FOLDERS:
+        if any(file.path.startswith(f"{folder}/") for file in package.index.files):
+            yield folder
+
+
 def _by_setup(package: Package) -> Findings:
     """Compare the package's files with `data_files` of setup.py."""
     setup = package.setup
@@ -86,9 +92,8 @@ def _by_setup(package: Package) -> Findings:
         yield unchecked("data_files of setup.py is computed, so what is installed is not known")
         return
     origins = {origin for _, origin in package.installed}
-    for folder in USUAL_FOLDERS:
-        entry = package.index.find(folder)
-        if entry is None or not entry.is_folder or _covers(origins, folder):
+    for folder in _filled_folders(package):
+        if _covers(origins, folder):
             continue
         message = f"folder {folder}/ is not installed: data_files names no file of it"
         yield finding(setup, message, severity=_LESS.get(folder), key=message)
@@ -164,6 +169,12 @@ GOOD = [
         "setup.py": _SETUP.replace("  # ^ PKG008", "").replace("*/*.none", "*/*"),
     },
     {"meshes/a.dae": "<COLLADA/>", "CMakeLists.txt": "install(DIRECTORY . DESTINATION share)\n"},
+    # An empty folder.
+    {
+        "worlds/example.sdf": None,
+        "CMakeLists.txt": "install(DIRECTORY launch urdf thumbnails DESTINATION share)\n"
+        "install(FILES model.sdf model.config DESTINATION share)\n",
+    },
 ]
 BAD = [
     {"CMakeLists.txt": None, "setup.py": _SETUP},

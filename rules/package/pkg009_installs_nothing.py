@@ -34,8 +34,9 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         path = posixpath.normpath(item.value.rstrip("/") or ".")
         if package.exists(path):
             continue
-        alike = [other for other in package.index.similar(path) if other != path]
-        what = "folder" if install.kind == "DIRECTORY" else "file"
+        is_folder = install.kind == "DIRECTORY"
+        alike = [] if is_folder else [name for name in package.index.similar(path) if name != path]
+        what = "folder" if is_folder else "file"
         yield finding(
             item,
             f"{what} {item.value} is installed, but does not exist"
@@ -85,4 +86,6 @@ GOOD = [
 BAD = [
     {"CMakeLists.txt": _INSTALL.replace("urdf", "urdf meshes  # ^ PKG009")},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES Model.sdf DESTINATION share)  # ^ PKG009\n"},
+    # No file stands for a folder.
+    {"CMakeLists.txt": f"{_INSTALL}install(DIRECTORY model DESTINATION share)  # ^ PKG009\n"},
 ]

@@ -10,9 +10,9 @@ order of the views is this rule's own.
 
 import posixpath
 
-from checker.base.files import NotReadable
+from checker.base.files import NotReadable, TooLarge
 from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.binary_headers import png_fault
 
 FOLDER = "thumbnails"
@@ -28,7 +28,7 @@ def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
 
     Options:
         limit_megabytes: Size in MB (10⁶ bytes) above which a PNG file in `thumbnails` is not read,
-            but reported as too large.
+            but listed as not checked.
     """
     folder = package.index.find(FOLDER)
     if folder is None or not folder.is_folder:
@@ -40,6 +40,9 @@ def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
         if posixpath.dirname(file.path) != FOLDER:
             continue
         data = package.read_bytes(file.path, int(min(limit_megabytes, _ALL) * 1e6))
+        if isinstance(data, TooLarge):
+            yield unchecked(f"{file.path} {data.reason}: the option limit_megabytes raises it")
+            continue
         fault = data.reason if isinstance(data, NotReadable) else png_fault(data)
         if fault is not None:
             yield finding(package.place(file.path), f"{file.path} {fault}")

@@ -11,10 +11,10 @@ Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, t
 
 from collections.abc import Iterator
 
-from checker.base.files import NotReadable
+from checker.base.files import NotReadable, TooLarge
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText, Span
 from checker.source.xml_errors import GAZEBO_FILES
 from checker.source.xml_positions import XmlFault
@@ -29,7 +29,9 @@ def check(package: Package) -> Findings:
         paths.append(model.path)
     for path in paths:
         document = package.xml(path)
-        if isinstance(document, NotReadable):
+        if isinstance(document, TooLarge):
+            yield unchecked(f"{path} {document.reason}")
+        elif isinstance(document, NotReadable):
             yield finding(_top(path), f"{path} {document.reason}")
         elif isinstance(document, XmlFault):
             yield from _refused(path, document)

@@ -6,7 +6,8 @@ as on all other robots, and not from 0 to 2π; for later releases of Gazebo that
 since many devices do so. If the first angle is not below the last, all rays point in one direction
 or the scan is mirrored.
 
-Fix: write -3.141592653589793 and 3.141592653589793 for a full turn, and the smaller angle first.
+Fix: write the smaller angle first. For a full turn write -3.141592653589793 and 3.141592653589793,
+or, where programs take ray 0 for the front, 0 and 6.283185307179586.
 Source: reviews of SubT models, which had 3.1459 and 0 … 6.283 corrected to ±3.14159.
 """
 
@@ -19,6 +20,7 @@ from checker.model.sensing.lidar import Scan
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 
 _TURN = 2 * math.pi
+_AROUND = (-math.pi, math.pi)
 _NEAR = 0.1
 """Radians: an angle this close to a full turn is meant to be one."""
 
@@ -32,37 +34,40 @@ def check(
     Options:
         tolerance: Radians by which a scan may exceed a full turn; more is reported.
         near: Radians within which the ends of a scan count as 0 and 2π, which is reported, and its
-            width counts as a full turn, which the fix writes as -π to π.
+            width counts as a full turn, which the fix writes: from 0 to 2π if it begins near 0.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:
             continue
         name = f"lidar {sensor.name.value!r}"
-        usual = Severity.INFO if context.of_gazebo_sim else None
-        yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near, usual)
-        yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near, usual)
+        yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near, context)
+        yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near, context)
 
 
 def _one_way(
-    phrase: str, scan: Scan, tolerance: float, near: float, usual: Severity | None
+    phrase: str, scan: Scan, tolerance: float, near: float, context: Context
 ) -> Iterator[Finding]:
     lower, upper = scan.lower.value, scan.upper.value
     if not math.isfinite(lower) or not math.isfinite(upper):
         return
     phrase = f"{phrase} from {lower:.6g} to {upper:.6g} rad"
-    full_turn = _written(scan, -math.pi, math.pi) if abs(scan.angle - _TURN) < near else None
     if scan.angle > _TURN + tolerance:
+        full_turn = abs(scan.angle - _TURN) < near
+        # The first ray stays where programs look for it.
+        ends, words = ((0.0, _TURN), "0 to 2π") if abs(lower) < near else (_AROUND, "-π to π")
         over = f"{phrase}, {scan.angle - _TURN:.2g} rad more than a full turn"
-        expected = ": expected -π to π" if full_turn is not None else ""
-        yield finding(scan.lower, over + expected, key=f"over {scan.angle:.6g}", fix=full_turn)
+        expected = f": expected {words}" if full_turn else ""
+        fix = _written(scan, *ends) if full_turn else None
+        yield finding(scan.lower, over + expected, key=f"over {scan.angle:.6g}", fix=fix)
     elif abs(lower) < near and abs(upper - _TURN) < near:
         yield finding(
             scan.lower,
             f"{phrase}: expected -π to π",
-            severity=usual,
+            severity=Severity.INFO if context.of_gazebo_sim else None,
             key="from 0",
-            fix=full_turn,
+            # It would turn ray 0 to the back, which only SubT asks for.
+            fix=_written(scan, *_AROUND) if context.profile == "subt" else None,
         )
     elif scan.angle <= 0 and scan.samples.value > 1:
         swapped = _written(scan, upper, lower) if scan.angle < 0 else None

@@ -7,20 +7,27 @@ from pathlib import Path
 import pytest
 
 from checker.base.allowance import Allowance
-from checker.base.files import NotReadable
+from checker.base.files import TooLarge
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-from checker.package.package import ELEMENTS_FOR_ALL
+from checker.package.package import DOCUMENTS_FOR_ALL
 from checker.pipeline import check_package
 from checker.report.report import Cause, VerdictKind
 from checker.rule_testing import write_example
 from checker.settings import Settings
 from checker.source.text import SourceText
-from checker.source.xml import ATTRIBUTES_LIMIT, ELEMENTS_LIMIT, XmlDocument, elements_in, parse_xml
+from checker.source.xml import (
+    ATTRIBUTES_FOR_ONE,
+    ELEMENTS_LIMIT,
+    XmlDocument,
+    elements_in,
+    parse_xml,
+)
 from tests.conftest import SAMPLES
 
 GOOD = SAMPLES / "subtcheck_quadro_sensor_config_1"
+_REMEDY = "SUBT_CHECK_ELEMENTS=100000 doubles the limit"
 
 
 def test_a_part_that_needs_too_much_is_not_available_and_not_tried_again() -> None:
@@ -42,13 +49,14 @@ def test_elements_are_counted_before_they_are_parsed(text: str) -> None:
 
 
 def test_a_file_of_too_many_attributes_is_not_read(tmp_path: Path) -> None:
-    attributes = (f"a{n}='1'" for n in range(ATTRIBUTES_LIMIT + 1))
+    attributes = (f"a{n}='1'" for n in range(ELEMENTS_LIMIT * ATTRIBUTES_FOR_ONE + 1))
     text = f"<launch {' '.join(attributes)}/>"
     package = write_example({"launch/a.launch": text}, tmp_path)
     with open_input(package) as opened:
         read = opened.packages[0].xml("launch/a.launch")
-    assert isinstance(read, NotReadable)
-    assert read.reason == "has 400,001 attributes; only files of up to 400,000 are checked"
+    assert isinstance(read, TooLarge)
+    most = "only files of up to 400,000 are checked"
+    assert read.reason == f"has 400,001 attributes; {most} ({_REMEDY})"
 
 
 def test_a_model_of_too_many_elements_is_not_checked_and_the_others_are(tmp_path: Path) -> None:
@@ -57,9 +65,30 @@ def test_a_model_of_too_many_elements_is_not_checked_and_the_others_are(tmp_path
     (report,) = check_package(package, Settings(trial=False, cache=False)).packages
     assert report.verdict is not VerdictKind.READY
     reasons = {unseen.reason for unseen in report.not_checked if unseen.cause is Cause.NOT_AT_HAND}
-    assert any("model.sdf has 50," in reason and "are checked" in reason for reason in reasons)
+    assert any("model.sdf has 50," in reason and _REMEDY in reason for reason in reasons)
     assert not report.crashed
-    assert report.findings
+    assert {each.places[0].file for each in report.findings if each.rule == "SDF001"} == {
+        "urdf/broken.urdf"
+    }
+
+
+def test_the_limit_of_elements_can_be_raised(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    example = {"launch/a.launch": f"<launch>{'<node/>' * ELEMENTS_LIMIT}</launch>"}
+    package = write_example(example, tmp_path)
+    settings = Settings(trial=False, select=("SDF001",))
+    monkeypatch.setenv("SUBT_CHECK_CACHE", str(tmp_path / "cache"))
+
+    def reasons() -> list[str]:
+        (report,) = check_package(package, settings).packages
+        assert not report.findings
+        return [unseen.reason for unseen in report.not_checked if unseen.rule == "SDF001"]
+
+    (reason,) = reasons()
+    assert reason.startswith("launch/a.launch has 50,001 elements")
+    monkeypatch.setenv("SUBT_CHECK_ELEMENTS", "100000")
+    assert not reasons()
 
 
 def test_a_description_of_too_many_elements_is_the_reason_that_there_is_no_robot(
@@ -74,7 +103,8 @@ def test_a_description_of_too_many_elements_is_the_reason_that_there_is_no_robot
     settings = Settings(trial=False, cache=False, profile="urdf")
     (report,) = check_package(folder, settings).packages
     (reason,) = {unseen.reason for unseen in report.not_checked if unseen.rule == "KIN001"}
-    assert reason == "urdf/r.urdf has 50,002 elements; only files of up to 50,000 are checked"
+    most = "only files of up to 50,000 are checked"
+    assert reason == f"urdf/r.urdf has 50,002 elements; {most} ({_REMEDY})"
 
 
 def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
@@ -83,7 +113,7 @@ def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
     with open_input(package) as opened:
         (found,) = opened.packages
         read = [isinstance(found.xml(f"launch/{n}.launch"), XmlDocument) for n in range(9)]
-        assert read.count(True) * 45_000 <= ELEMENTS_FOR_ALL
+        assert read.count(True) * 45_000 <= ELEMENTS_LIMIT * DOCUMENTS_FOR_ALL
         assert read == sorted(read, reverse=True)
         assert len(found.too_large) == read.count(False) > 0
         assert "for all" in found.too_large[0].reason

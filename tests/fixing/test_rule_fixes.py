@@ -115,3 +115,39 @@ def test_names_keep_their_prefix_where_a_text_would_still_mention_it(tmp_path: P
             )
             assert [each.fix for each in findings] == [None] * len(findings)
             assert findings
+
+
+def safeties(example: Example, rule: str, folder: Path, profile: str = "subt") -> list[str]:
+    """Return how safe the fixes are that a rule offers for an example."""
+    settings = Settings(trial=False, profile=profile, select=(rule,))
+    with open_input(write_example(example, folder)) as opened:
+        found = findings_of(opened.packages[0], settings, NO_CACHE)
+    return [each.fix.safety.value if each.fix else "none" for each in found]
+
+
+@pytest.mark.parametrize(
+    ("angle", "safety"), [("1.5708", "safe"), ("3.1416", "safe"), ("3.14", "unsafe")]
+)
+def test_a_safe_fix_moves_no_part(angle: str, safety: str, tmp_path: Path) -> None:
+    lid = f'<link name="lid"><pose>0 0 0.1 0 0 {angle}</pose></link>'
+    assert safeties(lid, "GEO001", tmp_path) == [safety]
+
+
+@pytest.mark.parametrize(
+    ("profile", "safety"), [("subt", "unsafe"), ("gazebo-harmonic", "none"), ("urdf", "none")]
+)
+def test_ray_0_of_a_lidar_stays_where_it_is(profile: str, safety: str, tmp_path: Path) -> None:
+    lidar = """<sensor name="s" type="gpu_lidar"><lidar><scan><horizontal><samples>360</samples>
+      <min_angle>0</min_angle><max_angle>6.28</max_angle></horizontal></scan></lidar></sensor>"""
+    assert safeties(lidar, "SEN003", tmp_path, profile) == [safety]
+
+
+def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
+    build = "project(a)\ninstall(DIRECTORY model launch DESTINATION share/a)\n"
+    with open_input(write_example({"CMakeLists.txt": build}, tmp_path)) as opened:
+        settings = Settings(trial=False, profile="subt", select=("PKG009",))
+        after, changed = fixed(opened.packages[0], settings)
+        assert changed
+        source = after.read("CMakeLists.txt")
+    assert isinstance(source, SourceText)
+    assert "install(DIRECTORY launch DESTINATION" in source.text

@@ -42,8 +42,8 @@ OF_SUBT = {"SEN014"}
 WITHOUT_TRACE = ("GEO001", "SDF002", "SDF007", "SDF014")
 """Rules whose fixes change nothing, or angles by a trace."""
 MODELS = (".sdf", ".world", ".urdf")
-_TURNED = 2e-3
-"""Radians by which GEO001 may turn something, and by which directions differ then."""
+_TURNED, _WHEEL_TURNED = 1e-4, 2e-3
+"""Radians by which GEO001 may turn a part, and a wheel's collision; so far directions differ."""
 
 
 def packages(variable: str) -> Iterator[Path]:
@@ -75,15 +75,16 @@ def changed(before: str, after: str) -> Iterator[str]:
     old, new = values(before), values(after)
     for path in sorted({**old, **new}):
         one, other = old.get(path, ()), new.get(path, ())
-        if one != other and not (path.endswith("/pose") and _near(one, other)):
+        turned = _WHEEL_TURNED if "/collision[" in path else _TURNED
+        if one != other and not (path.endswith("/pose") and _near(one, other, turned)):
             yield path
 
 
-def _near(one: Sequence[str], other: Sequence[str]) -> bool:
+def _near(one: Sequence[str], other: Sequence[str], turned: float) -> bool:
     """Return whether poses are nearly equal, however their rotations are written."""
     numbers = [[number for pose in poses for number in _entries(pose)] for poses in (one, other)]
     return len(numbers[0]) == len(numbers[1]) and all(
-        abs(a - b) <= _TURNED for a, b in zip(*numbers, strict=True)
+        abs(a - b) <= turned for a, b in zip(*numbers, strict=True)
     )
 
 

@@ -11,9 +11,9 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.geometry.transform import Vector
-from checker.model.locomotion.locomotion import Side, TrackedDrive, WheelDrive
+from checker.model.locomotion.locomotion import Side, TrackedDrive, Wheel, WheelDrive
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
-from checker.model.locomotion.wheels import stands_askew
+from checker.model.locomotion.wheels import stands_askew, tread
 from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located
 
@@ -166,15 +166,15 @@ class CountedDistance(Record, eq=False):
 def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
     """Yield the distances of all drive plugins; those of parts without a place are left out."""
     for drive in robot.locomotion.wheel_drives:
-        yield from _of_wheels(drive)
+        yield from _of_wheels(robot, drive)
         yield from _of_steering(robot, drive)
     for tracked in robot.locomotion.tracked_drives:
         yield from _of_tracks(robot, tracked)
 
 
-def _of_wheels(drive: WheelDrive) -> Iterator[CountedDistance]:
+def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
-    left, right = ([wheel.centre for wheel in drive.on(side)] for side in Side)
+    left, right = ([_middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
     true = _apart(left, right, axis) if axis is not None else None
     if true is not None and drive.separation_tag:
         what, slips = "left and right wheels", drive.slips
@@ -182,6 +182,12 @@ def _of_wheels(drive: WheelDrive) -> Iterator[CountedDistance]:
         yield CountedDistance(
             drive.plugin, drive.separation_tag, separation, true, what, slips=slips
         )
+
+
+def _middle_of(robot: Robot, wheel: Wheel) -> Vector | None:
+    """Return the middle of what a wheel rolls on; the joint's origin where that is not known."""
+    rolls = tread(robot, wheel)
+    return wheel.centre if rolls is None or wheel.centre is None else rolls.box.centre
 
 
 def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
@@ -197,7 +203,7 @@ def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
         yield CountedDistance(
             drive.plugin, drive.kingpin_tag, drive.kingpin_width, width, what, steers=True
         )
-    rear = [wheel.centre for wheel in drive.wheels if wheel.steering is None]
+    rear = [_middle_of(robot, wheel) for wheel in drive.wheels if wheel.steering is None]
     base = _apart([*left, *right], rear, _FORWARD)
     if base is not None and drive.wheel_base is not None:
         stated = drive.wheel_base
