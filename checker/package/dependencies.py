@@ -96,17 +96,25 @@ def _built(build: CMakeFile) -> Iterator[str]:
             yield words[words.index(_OUTPUT_NAME) + 1]
 
 
-_FIND = re.compile(r"\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)")
-_MODEL = re.compile(r"(?:model|package)://([a-z][a-z0-9_]{0,199}_sensor_config_\d{1,4})/")
+_PATH = r"(?:/{1,4}([\w./-]{1,300})(?![\w./$%{-]))?"
+"""A path behind a package, where all of it is written."""
+_FIND = re.compile(r"(\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\))" + _PATH)
+_MODEL = re.compile(r"((?:model|package)://([a-z][a-z0-9_]{0,199}_sensor_config_\d{1,4})/)")
 """Submissions alone: other models, and those on Fuel in upper case, come from elsewhere."""
 
 
 class Use(Record):
-    """One place at which a package is used; `how` is the text that uses it."""
+    """One place at which a package is used.
+
+    Attributes:
+        how: The text that uses it.
+        path: Of the file in it that is used; empty where that is not written.
+    """
 
     package_name: str
     place: Place
     how: str
+    path: str = ""
 
 
 def uses_of(package: Package) -> Iterator[Use]:
@@ -129,11 +137,11 @@ def uses_of(package: Package) -> Iterator[Use]:
 def _in_launch_file(element: Element) -> Iterator[Use]:
     for name, value in element.attributes.items():
         for match in _FIND.finditer(value):
-            yield Use(match[1], _place(element, name), match.group())
+            yield Use(match[2], _place(element, name), match[1], match[3] or "")
         if name == "pkg" and element.tag in ("node", "test") and "$" not in value:
             yield Use(value, _place(element, name), f"pkg={value}")
     for match in _FIND.finditer(element.value):
-        yield Use(match[1], element.text.span.place(), match.group())
+        yield Use(match[2], element.text.span.place(), match[1], match[3] or "")
 
 
 def _place(element: Element, attribute: str) -> Place:
@@ -142,7 +150,20 @@ def _place(element: Element, attribute: str) -> Place:
 
 def _in_model(element: Element) -> Iterator[Use]:
     if element.tag == "uri" and (match := _MODEL.match(element.value)):
-        yield Use(match[1], element.text.span.place(), match.group())
+        yield Use(match[2], element.text.span.place(), match[1])
+
+
+def former_names(package: Package) -> frozenset[str]:
+    """Return names of packages that are not at hand and whose files this package has, all of them.
+
+    It was renamed, and still uses its own files by the name that it had.
+    """
+    own: dict[str, bool] = {}
+    for use in uses_of(package):
+        name = use.package_name
+        if use.path and package.workspace.package(name) is None:
+            own[name] = own.get(name, True) and package.exists(use.path)
+    return frozenset(name for name, every in own.items() if every)
 
 
 # What a package takes from another robot's package although it has the file itself.

@@ -3,9 +3,11 @@
 A package that package.xml does not name is not installed with the robot: launch files of another
 submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count. The
 same happens if package.xml misspells the package of a team or plugin: it is reported if a package
-of a similar name is available, and that one is not.
+of a similar name is available, and that one is not. A package that is not at hand and of which this
+package has every file that it uses is this package itself, under the name that it had before.
 
-Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
+Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
+package's own name instead of its former one.
 Source: REP 149, exec_depend; in model reviews, authors added the dependency on configuration 1.
 """
 
@@ -13,7 +15,7 @@ from collections.abc import Iterator
 
 from checker.base.resources import table
 from checker.finding import Fix
-from checker.package.dependencies import Use, taken_in_vain, uses_of
+from checker.package.dependencies import Use, former_names, taken_in_vain, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
@@ -46,10 +48,15 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if manifest is None:
         return
     others: dict[str, Use] = {}
+    former = former_names(package)
     copied = {use.place for use in taken_in_vain(package)}  # PKG012: to be replaced, not declared
     for use in uses_of(package):
         name = use.package_name
         if name in (package.name, manifest.name.value) or use.place in copied:
+            continue
+        if name in former:
+            if not manifest.depends_on(name):
+                yield finding(use.place, _renamed(package, use), severity=Severity.INFO, key=name)
             continue
         beside = name not in PROVIDED and package.workspace.package(name) is not None
         if SUBMISSION_NAME.search(name) or beside:
@@ -65,6 +72,13 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     yield from _distribution(package, others, fix)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
+
+
+def _renamed(package: Package, use: Use) -> str:
+    return (
+        f"{use.how}: {use.package_name} is not at hand, and {package.name} has all files that it "
+        f"uses of it: expected {package.name}, if it was renamed"
+    )
 
 
 def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
@@ -175,6 +189,11 @@ BAD = [
         "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),
     },
     {"launch/vehicle_topics.launch": _launch("subt_ros"), "@reported": [".:1"]},
+    # Its own former name.
+    {
+        "launch/a.launch": "<launch/>",
+        "launch/b.launch": _launch("rover_description", "  <!-- ^ PKG007 -->"),
+    },
     {
         "model.sdf": None,
         "launch/spawner.rb": None,

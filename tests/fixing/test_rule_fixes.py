@@ -151,3 +151,9 @@ def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
         source = after.read("CMakeLists.txt")
     assert isinstance(source, SourceText)
     assert "install(DIRECTORY launch DESTINATION" in source.text
+
+
+def test_no_package_depends_on_its_own_former_name(tmp_path: Path) -> None:
+    include = "<launch><include file='$(find rover_description)/launch/a.launch'/></launch>"
+    example = {"launch/a.launch": "<launch/>", "launch/b.launch": include}
+    assert safeties(example, "PKG007", tmp_path) == ["none"]
