@@ -193,7 +193,7 @@ def test_sparse_file_of_200_mb_is_not_read(rover: Path) -> None:
     package = package_at(rover)
     assert package.index.entries["big.sdf"].size == 200_000_000
     expected = "has 200.0 MB, more than the limit of 20 MB"
-    assert package.read("big.sdf") == NotReadable("big.sdf", expected)
+    assert package.read("big.sdf") == TooLarge("big.sdf", expected)
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig", "utf-8", "utf-32"])
