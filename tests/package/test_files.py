@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.base.files import NotReadable, read_bytes
+from checker.base.files import NotReadable, TooLarge, read_bytes
 from checker.package.index import EntryKind, LinkState, normal_path
 from checker.package.package import Package
 from checker.package.workspace import Workspace
