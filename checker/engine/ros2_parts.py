@@ -94,7 +94,10 @@ class Ros2Parts(Record, eq=False, dict=True):
             return launch
         simulations = self.subject.simulations
         known = None if isinstance(simulations, NotAvailable) else simulations
+        from checker.model.ros.spawned import SpawnedReader
         from checker.model.ros.wiring.wiring import wirings
 
-        found = tuple(wirings(launch, known, self.control_reader))
+        package, reader = self.subject.package, self.control_reader
+        robots = SpawnedReader(package, self.subject.expander, reader)
+        found = tuple(wirings(launch, known, reader, robots))
         return found or NotAvailable("no launch file starts a node", applicable=False)

@@ -2,15 +2,16 @@
 
 TF keeps what came last. With two publishers of one transform the robot jumps between two places,
 many times a second; with two parents for one frame the tree is a different one each time, and
-whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive controller
-of ros2_control) and a filter that takes its odometry (`ekf_node`) both publish `odom` to the base
-unless one of them is told not to.
+whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive plugin of
+Gazebo Classic, a drive controller of ros2_control) and a filter that takes its odometry
+(`ekf_node`) both publish `odom` to the base unless one of them is told not to.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.
 
 Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's transforms, or state
-`enable_odom_tf: false` for the controller. Without: `publish_tf: false` for the filter.
+`enable_odom_tf: false` for the controller, or `<publish_odom_tf>false</publish_odom_tf>` for the
+plugin of Gazebo Classic. Without: `publish_tf: false` for the filter.
 Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
 `publish_tf`; ros2_controllers, `enable_odom_tf`.
 """
@@ -108,6 +109,36 @@ def _controlled(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, objec
     }
 
 
+_CLASSIC = """<launch>
+  <include file="$(find-pkg-share gazebo_ros)/launch/gazebo.launch.py"/>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/rover.urdf')"/>
+  </node>
+  <node pkg="gazebo_ros" exec="spawn_entity.py" args="-topic robot_description -entity rover"/>
+  <node pkg="robot_localization" exec="ekf_node">
+    <param name="base_link_frame" value="base_footprint"/>
+  </node>
+</launch>
+"""
+
+
+def _classic(plugin: str) -> dict[str, object]:
+    return {
+        "@bridge": True,
+        "launch/rover.launch.py": None,
+        "launch/classic.launch.xml": _CLASSIC,
+        "urdf/rover.urdf": f"""<robot name="rover">
+  <link name="base_footprint"/>
+  <gazebo><plugin name="drive" {plugin}</plugin></gazebo>
+</robot>
+""",
+    }
+
+
+_TF = "<publish_odom_tf>{}</publish_odom_tf>"
+_XML_MARK = "  <!-- ^ WIR001 -->"
+
 GOOD = [
     {"@bridge": True},
     _filter("publish_tf: false"),
@@ -122,12 +153,16 @@ GOOD = [
     },
     _filter("publish_tf: false", name=' name="ekf_filter_node",'),
     _controlled("false"),
+    _classic('filename="libgazebo_ros_diff_drive.so">'),
+    _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
     _filter("publish_tf: true", _MARK),
     _filter("odom_frame: map, world_frame: map", _MARK),
     _filter("publish_tf: false", _MARK, name=' name="ekf",'),
     _controlled("true", _MARK),
+    _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("true")}{_XML_MARK}'),
+    _classic(f'filename="libgazebo_ros_planar_move.so">{_XML_MARK}'),
     {
         **_controlled("true", yaml=_MARK),
         "@bridge": True,

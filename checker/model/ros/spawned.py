@@ -100,6 +100,13 @@ class SpawnedReader:
                     robots.append(spawned)
         return robots, unknown
 
+    def published(self, graph: LaunchGraph) -> Iterator[Robot]:
+        """Yield the robots that a robot_state_publisher gets for certain, those that are known."""
+        for description in loaded_descriptions(self._package, graph):
+            read = self._robot(description) if _publishes(description) else ""
+            if description.node.starts and not isinstance(read, str):
+                yield read.robot
+
     def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:
             return f"argument {description.unknown[0]!r} of the robot is not known"

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.expand.launch.bridge import Direction
 from checker.model.components import Plugin
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
 from checker.model.ros.simulation import Simulation
 from checker.model.ros.spawned import SpawnedRobot
 from checker.model.ros.wiring.nodes import WiredNode
@@ -25,6 +27,17 @@ _FRAMES = {
 """Plugins of Gazebo that publish odometry: parameters for the parent and the child."""
 _CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
 """Those whose transforms go to /tf itself; others publish them on a topic of their own."""
+
+_CLASSIC = {
+    "gazebo_ros_ackermann_drive": ("publish_odom_tf", "false", "base_footprint"),
+    "gazebo_ros_diff_drive": ("publish_odom_tf", "false", "base_footprint"),
+    "gazebo_ros_planar_move": ("publish_odom_tf", "true", "base_footprint"),
+    "gazebo_ros_tricycle_drive": ("publish_odom", "false", "base_link"),
+}
+"""Drives of Gazebo Classic, by library: what makes them publish, its default, that of the child.
+
+From gazebo_ros_pkgs, branch ros2 at d52f7c47, gazebo_plugins/src.
+"""
 
 
 class Transform(Record, eq=False):
@@ -53,13 +66,18 @@ class Transform(Record, eq=False):
         return f"{self.parent} → {self.child}"
 
 
-def transforms(nodes: tuple[WiredNode, ...], simulation: Simulation | None) -> Iterator[Transform]:
+def transforms(
+    nodes: tuple[WiredNode, ...], simulation: Simulation | None, in_classic: tuple[Robot, ...]
+) -> Iterator[Transform]:
     """Yield the transforms of odometry and localisation that a launch publishes for certain.
 
     Args:
         nodes: That are started.
         simulation: What the launch file simulates.
+        in_classic: Robots that it puts into Gazebo Classic.
     """
+    for plugin in (plugin for robot in in_classic for plugin in robot.plugins):
+        yield from _of_classic(plugin)
     if simulation is not None:
         yield from _bridged(simulation)
         for spawned in simulation.robots:
@@ -86,6 +104,22 @@ def _bridged(simulation: Simulation) -> Iterator[Transform]:
             cure = f"remove the bridge of {entry.gz_topic}"
             span = entry.passed.gz_topic.span
             yield Transform(parent, child, entry.ros_topic, span, by, cure, owner)
+
+
+def _of_classic(plugin: Plugin) -> Iterator[Transform]:
+    library = library_stem(plugin.filename.value)
+    if library not in _CLASSIC or any("tf" in text.value for text in plugin.at("ros/remapping")):
+        return
+    switch, usual, child = _CLASSIC[library]
+    stated = {
+        name: next(plugin.at(name), None) for name in (switch, "odometry_frame", "robot_base_frame")
+    }
+    values = {name: text.value.strip() for name, text in stated.items() if text is not None}
+    if values.get(switch, usual).lower() in ("1", "true"):
+        parent, child = values.get("odometry_frame", "odom"), values.get("robot_base_frame", child)
+        span = text.span if (text := stated[switch]) is not None else plugin.span
+        by, cure = f"plugin {plugin.filename.value}", f"state `<{switch}>false</{switch}>`"
+        yield Transform(parent, child, TOPIC, span, by, cure, plugin)
 
 
 def _of_controllers(nodes: tuple[WiredNode, ...], spawned: SpawnedRobot) -> Iterator[Transform]:

@@ -10,13 +10,16 @@ from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.graph import (
     Include,
     LaunchGraph,
+    Node,
     Process,
     Ros2Launch,
     share_path,
     shown,
 )
+from checker.model.robot import Robot
 from checker.model.ros.servers import is_gazebo, is_gazebo_include
 from checker.model.ros.simulation import Simulation, Simulations
+from checker.model.ros.spawned import SpawnedReader
 from checker.model.ros.wiring.nodes import WiredNode, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
 from checker.model.ros2_control.robot_control import ControlReader
@@ -35,11 +38,13 @@ class Wiring(Record, eq=False, dict=True):
         graph: Of the launch file.
         every_node: Its nodes, those that conditions leave out among them.
         simulation: What it simulates and bridges; None when it has nothing to do with Gazebo.
+        in_classic: Robots that it puts into Gazebo Classic.
     """
 
     graph: LaunchGraph
     every_node: tuple[WiredNode, ...]
     simulation: Simulation | None
+    in_classic: tuple[Robot, ...] = ()
 
     @cached_property
     def nodes(self) -> tuple[WiredNode, ...]:
@@ -49,7 +54,7 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
         """Transforms of odometry and localisation that it publishes for certain."""
-        return tuple(transforms(self.nodes, self.simulation))
+        return tuple(transforms(self.nodes, self.simulation, self.in_classic))
 
     def publishers(self, message: str) -> dict[str, str]:
         """Return the topics on which a type may be published, each with who does it.
@@ -110,18 +115,29 @@ def _publishes_nothing(process: Process) -> bool:
 
 
 def wirings(
-    launch: Ros2Launch, simulations: Simulations | None, reader: ControlReader
+    launch: Ros2Launch,
+    simulations: Simulations | None,
+    reader: ControlReader,
+    robots: SpawnedReader,
 ) -> Iterator[Wiring]:
     """Yield the wiring of each launch file that starts a node.
 
     Args:
         launch: The launch files of a package.
         simulations: What they simulate; None when that is nothing.
-        reader: Of the files of the package.
+        reader: Of the parameter files of the package.
+        robots: Of the robots that launch files are given.
     """
     launched = simulations.launched if simulations is not None else ()
     by_graph = {id(simulation.graph): simulation for simulation in launched}
     for graph in launch.entries:
         nodes = tuple(wired_node(node, reader) for node in graph.nodes)
         if nodes:
-            yield Wiring(graph, nodes, by_graph.get(id(graph)))
+            spawns = any(_spawns_in_classic(node) for node in graph.nodes)
+            in_classic = tuple(robots.published(graph)) if spawns else ()
+            yield Wiring(graph, nodes, by_graph.get(id(graph)), in_classic)
+
+
+def _spawns_in_classic(node: Node) -> bool:
+    program = (node.package.value, node.executable.value)
+    return node.starts is True and program == (_CLASSIC, "spawn_entity.py")
