@@ -325,7 +325,11 @@ class Subject(Record, eq=False, dict=True):
         """Return the robot of a description with its controllers."""
         control = self.ros2.controls_by_file.get(description.file)
         robot = description.robot
-        return robot if control is None else replace(robot, controllers=control.controllers)
+        if control is None:
+            return robot
+        words = self.package.workspace.launch_words
+        started = tuple(each for each in control.controllers if each.name in words)
+        return replace(robot, controllers=started or control.controllers)
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.submission.spawned, NotAvailable):

@@ -28,18 +28,25 @@ class PluginLibrary(Record):
         filename: As plugins usually name it: `libignition-gazebo-diff-drive-system.so`.
         classes: Full names of its classes.
         parameters: Tags that its source asks for; None where the source is not known.
+        computed: Pattern of further tags, whose names its source computes; empty where it does not.
         rewrites: Words that the release replaces in a class before it looks for it.
     """
 
     filename: str
     classes: tuple[str, ...]
     parameters: frozenset[str] | None = None
+    computed: str = ""
     rewrites: Mapping[str, str] = field(default_factory=dict)
 
     def has_class(self, name: str) -> bool:
         """Say whether a plugin of this library may have the name."""
         name = _INLINE_NAMESPACE.sub("::", name)
         return name in self.classes or _rewritten(name, self.rewrites) in self.classes
+
+    def reads(self, tag: str) -> bool:
+        """Say whether its source asks for a tag; True where the source is not known."""
+        known = self.parameters is None or tag in self.parameters
+        return known or bool(self.computed and re.fullmatch(self.computed, tag))
 
 
 def library_stem(filename: str) -> str:
@@ -71,10 +78,12 @@ def gazebo_libraries(release: str) -> Mapping[str, PluginLibrary]:
     entry = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})
     rewrites = entry.get("rewrites", {})
     back = {new: old for old, new in rewrites.items()}
+    computed = table("gazebo_plugins")["computed_params"]
     for system in entry["plugins"]:
         parameters = frozenset({*system["params"], *system.get("attrs", ())})
         classes = tuple(system["classes"])
-        library = PluginLibrary(system["filenames"][1], classes, parameters, rewrites)
+        pattern = computed.get(system["name"], "")
+        library = PluginLibrary(system["filenames"][1], classes, parameters, pattern, rewrites)
         stems = {library_stem(name) for name in system["filenames"]}
         stems |= {_rewritten(stem, back) for stem in stems}
         libraries.update(dict.fromkeys(sorted(stems), library))

@@ -43,7 +43,7 @@ from checker.model.unknowns import (
     unplaced_part,
 )
 from checker.source.text import Located
-from checker.source.xml import XmlDocument
+from checker.source.xml import Element, XmlDocument
 
 
 class Robot(Part, dict=True):
@@ -114,8 +114,22 @@ class Robot(Part, dict=True):
     @property
     def is_static(self) -> bool:
         """Whether the model says that nothing moves it."""
-        static = self.element.child("static")
-        return static is not None and static.text.value.lower() in ("1", "true")
+        return _states_static(self.element)
+
+    @cached_property
+    def is_prop(self) -> bool:
+        """Whether nothing of it moves, senses or acts: a barrel, not a robot."""
+        movable = any(not joint.immovable for joint in self.joints)
+        return not (movable or self.sensors or self.plugins)
+
+    def is_still(self, link: Link) -> bool:
+        """Say whether a model around a link, this one or one nested in it, is static."""
+        element: Element | None = link.element
+        while element is not None:
+            if element.tag == "model" and _states_static(element):
+                return True
+            element = element.parent
+        return False
 
     @cached_property
     def mass(self) -> float:
@@ -378,3 +392,8 @@ class Robot(Part, dict=True):
         if frame is None or not 0.0 < length < math.inf:
             return None
         return frame.rotate((x / length, y / length, z / length))
+
+
+def _states_static(model: Element) -> bool:
+    static = model.child("static")
+    return static is not None and static.text.value.lower() in ("1", "true")

@@ -65,6 +65,11 @@ class FileEntry(Record):
         """Whether it is a folder, or a followed link to one."""
         return self.content is EntryKind.FOLDER
 
+    @property
+    def is_of_tests(self) -> bool:
+        """Whether it lies in a folder of tests, which may be about another robot."""
+        return not {"test", "tests"}.isdisjoint(self.path.split("/")[:-1])
+
 
 class IndexFault(Record):
     """What of a folder could not be indexed or read, and why."""

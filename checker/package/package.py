@@ -288,7 +288,12 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def build(self) -> CMakeFile | None:
-        """CMakeLists.txt; None when it is missing or no text."""
+        """CMakeLists.txt; None when it is missing or no text, or setup.py builds the package."""
+        manifest = self.xml("package.xml")
+        export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
+        build_type = export.child("build_type") if export is not None else None
+        if build_type is not None and build_type.text.value == "ament_python":
+            return None
         source = self.read("CMakeLists.txt")
         return read_cmake(source) if isinstance(source, SourceText) else None
 

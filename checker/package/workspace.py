@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -23,6 +24,8 @@ MANIFEST_LIMIT = 1_000_000
 LEVELS_ABOVE = 2
 """Folders above a workspace in which packages of the challenge are looked for."""
 THUMBNAILS = "thumbnails"
+_LAUNCH_FILE = re.compile(r"(?:^|/)launch/.*\.(?:py|xml|ya?ml|sh)$|[._]launch(?:\.\w+)?$")
+_WORD = re.compile(r"\w+")
 
 
 class Workspace(Record, eq=False, dict=True):
@@ -95,6 +98,18 @@ class Workspace(Record, eq=False, dict=True):
                 if file.size:
                     by_size.setdefault(file.size, []).append((package, f"{THUMBNAILS}/{file.path}"))
         return by_size
+
+    @cached_property
+    def launch_words(self) -> frozenset[str]:
+        """Every word of the launch files of all available packages, comments included."""
+        texts = (
+            package.read(file.path)
+            for package in self.packages.values()
+            for file in package.index.files
+            if _LAUNCH_FILE.search(file.path)
+        )
+        readable = (text for text in texts if not isinstance(text, NotReadable))
+        return frozenset(word for text in readable for word in _WORD.findall(text.text))
 
     def holds(self, real: Path) -> bool:
         """Say whether a real path lies within a package of the workspace."""

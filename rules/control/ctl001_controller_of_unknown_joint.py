@@ -72,6 +72,7 @@ _FIXED = '<joint name="mount" type="fixed"><parent link="base_link"/><child link
 
 GOOD = [
     {"@urdf": True},
+    {"@urdf": True, "test/config/control.yaml": _config("elbow")},
     {"@urdf": True, _CONFIG: _config('"shoulder"')},
     {"@urdf": True, _CONFIG: "arm:\n  drive:\n    type: my_controllers/Drive\n    wheels: 4\n"},
 ]

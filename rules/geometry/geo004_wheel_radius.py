@@ -57,6 +57,8 @@ def _worst(
         f"{wheel.link.name.value!r} has a {length} of {(wheel.radius or 0.0) * times:.4g} m"
         + (f", and {count - 1} more wheels differ" if count > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,
+        # Plugin and controller, or the files of two distributions, say the same of one wheel.
+        key=f"{wheel.link.name.value} {stated.value:g}",
         related=[(wheel.link, "the wheel")],
     )
 

@@ -10,25 +10,30 @@ Source: geometry: boxes along the robot's axes around each collision and visual.
 from collections.abc import Sequence
 
 from checker.model.components import Collision, Visual
-from checker.model.geometry.boxes import TooManyPairs, clusters
+from checker.model.geometry.boxes import Box, TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, placed, union
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
+_EQUAL = 1e-6
+"""Metres by which computed distances may be off: 20.0 mm are not more than 20 mm."""
+
 
 @rule("GEO012", "floating-part", Severity.WARNING, Concern.ROBOT)
-def check(robot: Robot, *, gap: float = 0.02) -> Findings:
+def check(robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 
     Options:
         gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
             count as connected.
+        gap_of_wheels: The same for a wheel: many models leave out its axle.
     """
     if robot.is_static:
         return
     shapes, unknown = _shapes(robot)
     try:
-        groups = clusters([shape.box for shape in shapes], gap)
+        boxes = _reaching(robot, shapes, max(gap_of_wheels - gap, 0.0))
+        groups = clusters(boxes, gap + _EQUAL)
     except TooManyPairs:
         yield unchecked("too many shapes are close together to look for a floating one")
         return
@@ -54,6 +59,15 @@ def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
     placed_shapes = {piece.shape for piece in known}
     shapes = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
     return known, [shape for shape in shapes if shape not in placed_shapes]
+
+
+def _reaching(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:
+    """Return the boxes of shapes, those of wheels longer by the axle that is not modelled."""
+    wheels = {link.scoped_name for link in robot.wheels}
+    return [
+        shape.box.grown(reach) if shape.link.scoped_name in wheels else shape.box
+        for shape in shapes
+    ]
 
 
 def _diagonal(group: Sequence[Placed]) -> float:
@@ -98,5 +112,25 @@ _BRACKET = """
 _UNKNOWN = """
 <visual name="m"><geometry><mesh><uri>meshes/wheel.dae</uri></mesh></geometry></visual>
 """
-GOOD = [_camera("0.4 0 0.15"), _camera("0.4 0 0.165"), _camera("0 0 0.45", bracket=_BRACKET)]
+_WHEEL = """
+<link name="body">
+  <pose>0 0 0.2 0 0 0</pose>
+  <visual name="v"><geometry><box><size>1 0.4 0.2</size></box></geometry></visual>
+</link>
+<link name="left_wheel">
+  <pose>0 0.27 0.1 0 0 0</pose>
+  <visual name="v"><geometry><box><size>0.2 0.04 0.2</size></box></geometry></visual>
+</link>
+<joint name="j" type="fixed"><parent>base_link</parent><child>body</child></joint>
+<joint name="axle" type="continuous">
+  <parent>body</parent><child>left_wheel</child><axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+GOOD = [
+    _WHEEL,
+    _camera("0.4 0 0.17"),
+    _camera("0.4 0 0.15"),
+    _camera("0.4 0 0.165"),
+    _camera("0 0 0.45", bracket=_BRACKET),
+]
 BAD = [_camera("0 0 0.45", _MARK), _camera("1.5 0 0", _MARK)]

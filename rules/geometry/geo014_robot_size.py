@@ -6,7 +6,8 @@ the accepted packages that we checked shows this. Outside of SubT, only models t
 wheels are judged: others may be a sensor, a tool or scenery.
 
 Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` of meshes.
-Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m and 50 g to 5 t.
+Source: SDFormat and URDF use SI units; ground and air robots from 5 cm and 50 g to lorries of
+25 m and 50 t.
 """
 
 from checker.model.geometry.placed_shapes import placed, union
@@ -20,9 +21,9 @@ def check(
     context: Context,
     *,
     smallest: float = 0.05,
-    largest: float = 10.0,
+    largest: float = 25.0,
     lightest: float = 0.05,
-    heaviest: float = 5000.0,
+    heaviest: float = 50_000.0,
 ) -> Findings:
     """Compare the longest side of the box around all shapes, and the mass, with real robots.
 
@@ -73,10 +74,10 @@ def _robot(size: str, mass: str, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ GEO014 -->"
-GOOD = [_robot("0.5 0.3 0.01", "12"), "<frame name='no_shapes'/>"]
+GOOD = [_robot("12 2.5 3", "18000"), _robot("0.5 0.3 0.01", "12"), "<frame name='no_shapes'/>"]
 BAD = [
     _robot("500 300 10", "12", _MARK),
     _robot("0.005 0.003 0.001", "12", _MARK),
     _robot("0.5 0.3 0.1", "0.012", _MARK),
-    _robot("0.5 0.3 0.1", "12000", _MARK),
+    _robot("0.5 0.3 0.1", "120000", _MARK),
 ]

@@ -2,7 +2,8 @@
 
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. A link that only
-fixed joints connect to the world never moves, so its mass does not matter. In URDF a link without
+fixed joints connect to the world never moves, nor does one of a static model, so its mass does not
+matter. In URDF a link without
 `<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks. From SDF 1.11
 on `<inertial auto="true">` has the simulator work it out from collisions and densities.
 
@@ -12,6 +13,8 @@ Source: SDFormat specification, link/inertial: the defaults.
 """
 
 from collections.abc import Iterator
+
+from msgspec.structs import replace
 
 from checker.model.components import Inertial, Link
 from checker.model.sdf.auto_inertia import is_automatic
@@ -26,13 +29,19 @@ _FIRST_AUTOMATIC = (1, 11)
 
 @rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties, context: Context) -> Findings:
-    """Report moving links without inertial, without mass or without any moment of inertia."""
-    if masses.robot.is_static or masses.robot.format == "urdf":
+    """Report moving links without inertial, without mass or without any moment of inertia.
+
+    Of an object that is no robot, such as a barrel, it is information.
+    """
+    robot = masses.robot
+    if robot.format == "urdf":
         return
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
-    for link in masses.robot.links:
-        if link.scoped_name not in masses.robot.tree.held:
-            yield from _missing(link, automatic=automatic)
+    is_prop = robot.is_prop and not context.of_submissions
+    for link in robot.links:
+        if link.scoped_name not in robot.tree.held and not robot.is_still(link):
+            for found in _missing(link, automatic=automatic):
+                yield replace(found, severity=Severity.INFO) if is_prop else found
 
 
 def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:

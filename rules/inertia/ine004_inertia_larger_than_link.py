@@ -15,12 +15,13 @@ import math
 
 from checker.physics.mass.link_geometry import displacement, known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
 @rule("INE004", "inertia-larger-than-link", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
+    context: Context,
     *,
     error_above: float = 1.5,
     warning_above: float = 1.0,
@@ -28,6 +29,8 @@ def check(
     share: float = 0.02,
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
+
+    Of an object that is no robot, such as a barrel, it is information.
 
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the
@@ -40,6 +43,7 @@ def check(
     """
     if masses.robot.is_static:
         return
+    is_prop = masses.robot.is_prop and not context.of_submissions
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
     for name, inertia in masses.weighed.items():
@@ -55,7 +59,8 @@ def check(
         elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
             continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            heavy = masses.share(name) > share and name not in masses.robot.tree.held
+            fixed = is_prop or name in masses.robot.tree.held
+            heavy = masses.share(name) > share and not fixed
             grave = ratio > error_above and not masses.robot.is_mounted(name)
             severity = Severity.ERROR if grave else Severity.WARNING
             yield finding(

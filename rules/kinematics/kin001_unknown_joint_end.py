@@ -38,13 +38,36 @@ def _exists(robot: Robot, joint: Joint, role: str, end: Located[str]) -> bool:
     return joint.scope + end.value in robot.attachable_names
 
 
+_XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+_MAST = f"""<robot name="mast" {_XACRO}>
+<link name="mast"/>
+<joint name="mount" type="fixed"><parent link="upper_arm"/><child link="mast"/></joint>
+</robot>
+"""
 GOOD = [
+    {
+        # A part of a robot, which another file includes by a computed name.
+        "@urdf": True,
+        "urdf/sensor_mast.xacro": _MAST,
+        "urdf/whole.xacro": f"""<robot name="whole" {_XACRO}>
+<xacro:property name="kind" value="mast"/>
+<link name="upper_arm"/>
+<xacro:include filename="sensor_${{kind}}.xacro"/>
+</robot>
+""",
+    },
     """
 <link name="wheel"/>
 <joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
 """,
 ]
 BAD = [
+    {
+        "@urdf": True,
+        "urdf/sensor_mast.xacro": _MAST.replace(
+            'upper_arm"/>', 'upper_arm"/>  <!-- ^ KIN001 -->\n'
+        ),
+    },
     """
 <link name="front_wheel"/>
 <joint name="axle" type="revolute">

@@ -24,8 +24,9 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     # A model that stands still is placed as a whole: no link of it needs to exist.
     if not robot.is_static:
         yield from _canonical(robot)
-    # Of a file for no simulator, nobody knows that it is a robot.
-    if not context.release or not robot.links or base in robot.links_by_name:
+    # Of a file for no simulator, nobody knows that it is a robot; a barrel is none.
+    is_prop = robot.is_prop and not context.of_submissions
+    if not context.release or not robot.links or base in robot.links_by_name or is_prop:
         return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
@@ -61,6 +62,7 @@ def _model(link: str, attribute: str = "", mark: str = "") -> str:
 
 _MARK = "  <!-- ^ KIN011 -->"
 GOOD = [
+    {"@fragment": _model("barrel"), "@profile": "ros2"},
     _model("base_link"),
     _model("base_link", ' canonical_link="base_link"'),
     _model("base_link", ' canonical_link=""'),

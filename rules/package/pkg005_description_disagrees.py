@@ -30,6 +30,9 @@ _CLAUSE = re.compile(
 _POINT = re.compile(r"\b(?:ceiling|cliff|distance|floor|point|range) sensors?\b", re.IGNORECASE)
 _FISHEYE = re.compile(r"\bfish-?eye\b|\bpanoram", re.IGNORECASE)
 _LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IGNORECASE)
+_ONE_MORE = re.compile(
+    r"(?:an?|one)\s(?:front|rear|back|left|right|top|bottom|side|upper|lower)(?:[- ]facing)?", re.I
+)
 
 
 class _Told(Record):
@@ -99,19 +102,25 @@ def _compare(mentions: Sequence[_Told], present: Counter[str]) -> Iterator[Findi
 def _told(description: Located[str], devices: KnownDevices) -> Iterator[_Told]:
     """Yield the sensors that the clauses of a description name, the first of each clause."""
     text = description.span.text
+    further = 0
     for clause in _CLAUSE.finditer(text):
         mark = _LIST_MARK.match(clause.group())
         start = clause.start() + (mark.end() if mark else 0)
         words = " ".join(text[start : clause.end()].split())
         device = devices.named_in(words)
         kind = _kind(words, device)
-        if kind in TYPES:
+        if kind not in TYPES:
+            # "A front and a rear camera" are two.
+            further = further + 1 if _ONE_MORE.fullmatch(words) else 0
+        else:
             span = Span(
                 description.span.source,
                 description.span.start + start,
                 description.span.start + clause.end(),
             )
-            yield _Told(kind, None if _is_several(words, device) else stated_count(words), span)
+            count = None if _is_several(words, device) else stated_count(words)
+            yield _Told(kind, count + further if count else count, span)
+            further = 0
 
 
 def _is_several(words: str, device: Device | None) -> bool:
@@ -168,8 +177,13 @@ _SENSORS = """
 """
 
 _TWO_CAMERAS = "A rover with two cameras and an IMU"
+_FRONT_AND_REAR = "A rover with a front and a rear camera, and an IMU"
 
 GOOD = [
+    {
+        "@fragment": _SENSORS,
+        "model.config": f"<model><description>{_FRONT_AND_REAR}</description></model>",
+    },
     {
         "@fragment": _SENSORS,
         "model.config": f"<model><description>{_TWO_CAMERAS}</description></model>",

@@ -163,6 +163,11 @@ setup(name="acme_arm", data_files=[  # ^ PKG008
     ("share/acme_arm/files", glob("*/*.none")),
 ])
 """
+_PYTHON = """<package format="3">
+  <name>acme_arm</name>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
 GOOD = [
     {
         "CMakeLists.txt": None,
@@ -174,6 +179,12 @@ GOOD = [
         "worlds/example.sdf": None,
         "CMakeLists.txt": "install(DIRECTORY launch urdf thumbnails DESTINATION share)\n"
         "install(FILES model.sdf model.config DESTINATION share)\n",
+    },
+    {
+        # CMakeLists.txt is left from ROS 1: ament_python does not read it.
+        "package.xml": _PYTHON,
+        "CMakeLists.txt": "project(acme_arm)\ncatkin_package()\n",
+        "setup.py": _SETUP.replace("  # ^ PKG008", "").replace("*/*.none", "*/*"),
     },
 ]
 BAD = [

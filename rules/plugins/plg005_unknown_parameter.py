@@ -12,7 +12,7 @@ templates are information.
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.model.plugin_library import library_stem, plugin_libraries
+from checker.model.plugin_library import PluginLibrary, library_stem, plugin_libraries
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
@@ -20,7 +20,13 @@ from checker.source.xml import Element
 _FREE = ("include", "sdf")
 """Elements that contain SDF, not parameters."""
 
-_HARMLESS = ("start_on_motion", "tracks_height", "motorSpeedPubTopic", "motorControlPubTopic")
+_HARMLESS = (
+    "name",
+    "start_on_motion",
+    "tracks_height",
+    "motorSpeedPubTopic",
+    "motorControlPubTopic",
+)
 
 _MEANT = {
     "odometry_topic": "odom_topic",
@@ -46,7 +52,7 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         if library is None or library.parameters is None:
             continue
         suggestions = Suggestions(sorted(library.parameters))
-        for element in _unread(plugin.element, library.parameters):
+        for element in _unread(plugin.element, library):
             meant = _MEANT.get(element.tag) or suggestions.near(element.tag)
             hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
             yield finding(
@@ -56,14 +62,14 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
             )
 
 
-def _unread(plugin: Element, parameters: frozenset[str]) -> Iterator[Element]:
+def _unread(plugin: Element, library: PluginLibrary) -> Iterator[Element]:
     """Yield the elements of a plugin that are not parameters, without their content."""
     waiting = list(reversed(plugin.children))
     while waiting:
         element = waiting.pop()
         if element.tag in _FREE or ":" in element.tag:
             continue
-        if element.tag in parameters:
+        if library.reads(element.tag):
             waiting.extend(reversed(element.children))
         else:
             yield element
@@ -86,6 +92,14 @@ GOOD = [
   <breadcrumb><sdf version="1.6"><model name="crumb"/></sdf></breadcrumb>
 </plugin>
 """,
+    {
+        "@fragment": """
+<plugin filename="gz-sim-hydrodynamics-system" name="gz::sim::systems::Hydrodynamics">
+  <link_name>base_link</link_name><xDotU>-4.9</xDotU><yVabsV>-1100</yVabsV><zW>0</zW>
+</plugin>
+""",
+        "@profile": "gazebo-harmonic",
+    },
     '<plugin filename="libOfSomebody.so" name="somebody::Else"><any>1</any></plugin>',
 ]
 BAD = [

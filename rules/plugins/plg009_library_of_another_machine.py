@@ -1,7 +1,8 @@
 """A library in the package that Gazebo on the target machine cannot load.
 
 Gazebo refuses to load a plugin built for another processor, or for another major version of Gazebo,
-or the plugin crashes the server.
+or the plugin crashes the server. Outside of submissions, only libraries that a model or a world
+names are judged: others may be those of a driver, whose installer chooses the right one.
 
 Fix: build the library on the target system, against the libraries of the target release.
 Source: header and dynamic section of the ELF file. None of the accepted packages that we checked
@@ -14,7 +15,8 @@ from collections.abc import Iterator
 
 from checker.base.files import NotReadable
 from checker.finding import Place
-from checker.model.plugin_library import release_major
+from checker.model.plugin_host import PluginHost
+from checker.model.plugin_library import library_stem, release_major
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.binary_headers import SharedLibrary, read_shared_library
@@ -24,7 +26,12 @@ _SIMULATOR = re.compile(r"lib(?P<name>ignition-gazebo|gz-sim)(?P<major>\d{1,4})\
 
 @rule("PLG009", "library-of-another-machine", Severity.ERROR, Concern.INTERFACE)
 def check(
-    package: Package, context: Context, *, machine: str = "x64", largest: int = 100_000_000
+    package: Package,
+    host: PluginHost | None,
+    context: Context,
+    *,
+    machine: str = "x64",
+    largest: int = 100_000_000,
 ) -> Findings:
     """Report libraries for another machine or another major version of Gazebo.
 
@@ -33,7 +40,10 @@ def check(
             `x86` or `AArch64`.
         largest: Size in bytes above which a library is listed as not checked.
     """
+    loaded = {library_stem(each.filename.value) for each in host.plugins} if host else set()
     for file in package.index.with_suffix(".so"):
+        if not context.of_submissions and library_stem(file.path) not in loaded:
+            continue
         data = package.read_bytes(file.path, largest)
         if isinstance(data, NotReadable):
             yield unchecked(f"{file.path} {data.reason}")
@@ -73,11 +83,15 @@ def _library(machine: int, needed: bytes) -> str:
 _X64, _X86 = 62, 3
 _FILE = "plugins/libArm.so"
 
+_LOADED = {"@profile": "gazebo-harmonic", "@fragment": '<plugin filename="Arm" name="acme::Arm"/>'}
+_DRIVER = "sdk/lib/x86/libdriver.so"
 GOOD = [
+    {**_LOADED, _FILE: _library(_X64, b"libm.so.6"), _DRIVER: _library(_X86, b"libm.so.6")},
     {_FILE: _library(_X64, b"libignition-gazebo4.so.4")},
     {_FILE: _library(_X64, b"libstdc++.so.6")},
 ]
 BAD = [
+    {**_LOADED, _FILE: _library(_X86, b"libm.so.6"), "@reported": [f"{_FILE}:1"]},
     {_FILE: _library(_X86, b"libm.so.6"), "@reported": [f"{_FILE}:1"]},
     {_FILE: _library(_X64, b"libignition-gazebo2.so.2"), "@reported": [f"{_FILE}:1"]},
     {_FILE: "version https://git-lfs.github.com/spec/v1\n", "@reported": [f"{_FILE}:1"]},

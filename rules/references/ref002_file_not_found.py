@@ -43,6 +43,7 @@ def check(package: Package, robot: Robot) -> Findings:
             f"{uri.value} does not exist{where}{_hint(package, path)}",
             severity=None if uri in meshes else Severity.WARNING,
             key=path,
+            covered_by=("REF004",),
         )
 
 

@@ -1,12 +1,12 @@
 """A Fuel URI that leads nowhere.
 
-Gazebo downloads the file that such a URI names. It may not understand a URI with a space or of
-another form, and it cannot download a file that its package does not have. The models that
+Gazebo downloads the file that such a URI names. It does not understand a URI of another form, and
+it cannot download a file that its package does not have. Blanks are understood. The models that
 `<depend>` of model.config names are downloaded as well; a blank in such a name is reported if the
 package of that name, here or in package.xml, has an underscore in its place.
 
-Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`, with
-`%20` for each space; or better, write the relative path of a file in the package.
+Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`; or
+better, write the relative path of a file in the package.
 Source: general knowledge of the URIs that ign-fuel-tools reads.
 """
 
@@ -31,15 +31,6 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
         if not is_on_fuel(uri.value):
             continue
         is_file = uri in files
-        if is_file and any(letter.isspace() for letter in uri.value):
-            fixed = re.sub(r"\s", "%20", uri.value)
-            yield finding(
-                uri,
-                f"Fuel URI {uri.value} has a space: write %20",
-                key="space",
-                fix=replace_text(uri, fixed),
-            )
-            continue
         named = read_fuel_uri(uri.value)
         if named is None or bool(named.path) is not is_file:
             yield finding(uri, f"Fuel URI {uri.value} is not of the form {_MEANT[is_file]}")
@@ -102,11 +93,11 @@ _OWN = "ACME_ROVER_SENSOR_CONFIG_1/tip/files/meshes/wheel.dae"
 GOOD = [
     {"@fragment": _visual(f"{_OWN}</uri>"), "meshes/wheel.dae": "<COLLADA/>"},
     _visual("Rover/2/files/meshes/wheel%20rim.dae</uri>"),
+    _visual("Rover/tip/files/meshes/wheel rim.dae</uri>"),
     _needs("acme_arm"),
     _needs("Cave Bend 01"),
 ]
 BAD = [
-    _visual("Rover/tip/files/meshes/wheel rim.dae</uri>  <!-- ^ REF004 -->"),
     _visual("Rover/meshes/wheel.dae</uri>  <!-- ^ REF004 -->"),
     _visual(f"{_OWN}</uri>  <!-- ^ REF004 -->"),
     _needs("acme arm", _MARK),

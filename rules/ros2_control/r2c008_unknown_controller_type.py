@@ -64,7 +64,10 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
     suggestions = Suggestions(name for name in types if types[name].exists_in(distribution))
     for controller in control.controllers:
         name = controller.type.value
-        if name.partition("/")[0] not in packages:
+        owner = name.partition("/")[0]
+        if package.workspace.package(owner) is not None:
+            continue  # A package of that name is in the workspace, whatever it exports.
+        if owner not in packages:
             yield from _another_package(controller.type, types, package)
             continue
         known = types.get(name)
@@ -83,7 +86,7 @@ def _another_package(
     owner, _, name = kind.value.partition("/")
     meant = [known for known in types if known.endswith(f"/{name}")]
     declared = {reference.package_name for reference in package.references}
-    if meant and owner not in declared and package.workspace.package(owner) is None:
+    if meant and owner not in declared:
         yield finding(
             kind,
             f"controller type {kind.value} is of package {owner!r}, which package.xml does not "
@@ -93,7 +96,7 @@ def _another_package(
         )
 
 
-def _arm(kind: str) -> object:
+def _arm(kind: str) -> dict[str, str]:
     return {
         "@urdf": """
 <ros2_control name="arm" type="system">
@@ -116,6 +119,10 @@ GOOD = [
     _arm("joint_trajectory_controller/JointTrajectoryController"),
     _arm("position_controllers/GripperActionController"),
     _arm("acme_controllers/ArmController"),
+    {
+        **_arm("diff_drive_controller/ForkedController"),
+        "../diff_drive_controller/package.xml": "<package/>",
+    },
 ]
 BAD = [
     _arm("joint_trajectory_controller/JointTrajectoryControler  # ^ R2C008"),

@@ -1,7 +1,8 @@
 """A controller of a joint, or of an interface, that the robot's hardware does not offer.
 
 A controller claims the interfaces of its joints when it is activated: `wheel_joint/velocity`. If a
-`<ros2_control>` tag offers no such interface, activation fails and the joints do not move.
+`<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
+controller that no launch file names, this is a warning: as it stands nothing starts it.
 
 Fix: write the joint's name as in `<ros2_control>`, or add the `<command_interface>` or
 `<state_interface>` that the controller needs: drives need `velocity` of wheels and `position` of
@@ -12,64 +13,64 @@ Source: ros2_control, ResourceManager; ros2_controllers, `command_interface_conf
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from checker.base.words import Suggestions, listed
 from checker.model.ros2_control.claims import Claim, claims_of, sensors_of
 from checker.model.ros2_control.controllers import Controller
 from checker.model.ros2_control.hardware import HardwareJoint
 from checker.model.ros2_control.robot_control import RobotControl
+from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
 @rule("R2C009", "interface-not-offered", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl) -> Findings:
+def check(control: RobotControl, package: Package) -> Findings:
     """Report what controllers of ros2_controllers need and do not find.
 
-    Where no plugin of the robot names the file, it may be for another robot: a warning.
+    Where no plugin of the robot names the file, it may be for another robot: a warning. So is what
+    no launch file of any available package starts.
     """
-    severity = None if control.is_named else Severity.WARNING
-    suggestions = Suggestions(control.components)
     if control.has_variants or not control.hardware:
         return
+    suggestions = Suggestions(control.components)
     for controller in control.controllers:
-        for claim in claims_of(controller):
-            joint = control.joints.get(claim.joint.value)
-            if joint is not None:
-                yield from _missing(controller, claim, joint, severity)
-            elif claim.joint.value not in control.components:
-                yield _unknown(control, controller, claim, suggestions, severity)
-        for sensor in sensors_of(controller):
-            if sensor.value not in control.components:
-                hint = suggestions.hint(sensor.value)
-                yield finding(
-                    sensor,
-                    f"{controller.called} reads {sensor.value!r}, which is not a sensor or gpio of "
-                    f"<ros2_control>{hint}",
-                    severity=severity,
-                )
+        for fault in _faults(control, controller, suggestions):
+            if not control.is_named:
+                yield replace(fault, severity=Severity.WARNING)
+            elif controller.name not in package.workspace.launch_words:
+                message = f"{fault.message} (no launch file starts this controller)"
+                yield replace(fault, severity=Severity.WARNING, message=message)
+            else:
+                yield fault
 
 
-def _unknown(
-    control: RobotControl,
-    controller: Controller,
-    claim: Claim,
-    suggestions: Suggestions,
-    severity: Severity | None,
-) -> Finding:
-    name = claim.joint.value
-    exists = name in control.robot.joints_by_name
-    where = "is in no <ros2_control> tag" if exists else "the robot does not have"
-    hint = suggestions.hint(name)
-    return finding(
-        claim.joint,
-        f"{controller.called} names joint {name!r}, which {where}{hint}",
-        severity=severity,
-        key=f"{name} {controller.name}",
-    )
-
-
-def _missing(
-    controller: Controller, claim: Claim, joint: HardwareJoint, severity: Severity | None
+def _faults(
+    control: RobotControl, controller: Controller, suggestions: Suggestions
 ) -> Iterator[Finding]:
+    for claim in claims_of(controller):
+        name = claim.joint.value
+        joint = control.joints.get(name)
+        if joint is not None:
+            yield from _missing(controller, claim, joint)
+        elif name not in control.components:
+            exists = name in control.robot.joints_by_name
+            where = "is in no <ros2_control> tag" if exists else "the robot does not have"
+            yield finding(
+                claim.joint,
+                f"{controller.called} names joint {name!r}, which {where}{suggestions.hint(name)}",
+                key=f"{name} {controller.name}",
+            )
+    for sensor in sensors_of(controller):
+        if sensor.value not in control.components:
+            yield finding(
+                sensor,
+                f"{controller.called} reads {sensor.value!r}, which is not a sensor or gpio of "
+                f"<ros2_control>{suggestions.hint(sensor.value)}",
+            )
+
+
+def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iterator[Finding]:
     for kind, needed, offered in (
         ("command", claim.commands, joint.commands),
         ("state", claim.states, joint.states),
@@ -82,7 +83,6 @@ def _missing(
                     claim.joint,
                     f"{controller.called} needs the {kind} interface {name!r} of joint "
                     f"{claim.joint.value!r}, but {has}",
-                    severity=severity,
                     key=f"{controller.name} {kind} {name}",
                     related=[(joint, "the joint in <ros2_control>")],
                 )

@@ -6,8 +6,8 @@ models of a model have one set of names: in files before SDF 1.7 libsdformat ren
 (joint `arm` beside a link `arm` becomes `arm_joint`), so that nothing finds it by the name that is
 written; from 1.7 on it refuses the file. That other siblings share a name is against the
 specification since SDF 1.7, and works. Names of the form `__x__`, the name `world`, and names with
-`::` have a special meaning for the parser. Plugins may share a name, and what stands inside a
-plugin is its own.
+`::` have a special meaning for the parser; before SDF 1.8 `::` was part of a valid name, and is
+reported in submissions only. Plugins may share a name, and what stands inside a plugin is its own.
 
 None of the accepted packages that we checked shows this.
 
@@ -42,8 +42,8 @@ Version = tuple[int, int]
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report siblings with the same name, and reserved names."""
     version = sdf_version(sdf.document)
-    # Names of parts that nested models once had, flattened: SDFormat took them until 1.8.
-    divided = Severity.ERROR if context.release or version >= (1, 8) else Severity.WARNING
+    # Until 1.8 such a name was valid: newer parsers make nested models of it.
+    divides = version >= (1, 8) or context.of_submissions
     for element, kind in sdf.typed_as(context.reads):
         if kind is None or kind.free:
             continue
@@ -53,11 +53,11 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             continue
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
             yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")
-        elif "::" in name.value and (version >= (1, 8) or element.tag in _FRAMES):
-            message = (
-                f"name {name.value!r} contains '::', which separates the names of nested models"
+        elif "::" in name.value and divides and (version >= (1, 8) or element.tag in _FRAMES):
+            yield finding(
+                name,
+                f"name {name.value!r} contains '::', which separates the names of nested models",
             )
-            yield finding(name, message, severity=divided)
 
 
 def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Finding]:
@@ -105,7 +105,13 @@ def _name(element: Element) -> Located[str] | None:
     return written
 
 
+_DIVIDED = """
+<sdf version="@">
+  <model name="rover"><link name="base_link"/><link name="arm::wrist"/></model>
+</sdf>
+"""
 GOOD = [
+    {"@fragment": _DIVIDED.replace("@", "1.7"), "@profile": "gazebo-harmonic"},
     """
 <link name="left_wheel"/>
 <link name="right_wheel"/>
@@ -131,6 +137,10 @@ BAD = [
 """,  # noqa: E501
     '<link name="__model__"/>  <!-- ^ SDF009 -->',
     '<link name="arm::wrist"/>  <!-- ^ SDF009 -->',
+    {
+        "@fragment": _DIVIDED.replace("@", "1.8").replace("</model>", "</model> <!-- ^ SDF009 -->"),
+        "@profile": "gazebo-harmonic",
+    },
     """
 <sdf version="1.7">
   <model name="rover">

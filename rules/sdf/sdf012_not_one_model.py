@@ -13,12 +13,14 @@ libsdformat: "A model must have at least one link."
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument, sdf_version
+from checker.package.kind import PackageKind
+from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 
 @rule("SDF012", "not-one-model", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument, context: Context) -> Findings:
+def check(sdf: SdfDocument, package: Package, context: Context) -> Findings:
     """Report what prevents a model file from being one robot."""
     if sdf.root.tag != "sdf":
         return  # SDF005 says so.
@@ -26,7 +28,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     yield from _without_links(sdf)
     if context.release and not any(sdf.root.child(tag) for tag in _SPAWNED):
         yield finding(sdf.root, "the file contains no model")
-    if context.of_submissions:
+    if context.of_submissions and package.kind is not PackageKind.WORLD:
         yield from _no_robot(sdf)
 
 

@@ -29,9 +29,11 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 
     In a URDF package REF002 reports missing files. A model folder of Gazebo may have `model://` and
-    relative paths.
+    relative paths, and so may a folder that is no package of ROS: other readers take paths from the
+    file's own folder.
     """
-    in_model = package.is_urdf and package.exists("model.config")
+    outside = package.exists("model.config") or not package.exists("package.xml")
+    in_model = package.is_urdf and outside
     missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
         if uri.value.startswith(_FETCHED):

@@ -132,6 +132,13 @@ GOOD = [
     _robot(_joint(_ENDS + _LIMIT)),
     _robot(_joint(_ENDS, "continuous")),
     {"@urdf": True},
+    {
+        "@urdf": True,
+        "config/arm.srdf.xacro": (
+            '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+            '<group name="arm"><joint name="shoulder"/></group></robot>\n'
+        ),
+    },
 ]
 BAD = [
     _robot(_joint(_ENDS, mark=_MARK)),

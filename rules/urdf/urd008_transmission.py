@@ -12,10 +12,12 @@ actuator is skipped; gazebo_ros_control, DefaultRobotHWSim: uses the first inter
 from collections import Counter
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.urdf.description import Transmission, TransmissionEnd, UrdfDescription
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _MOVING = ("continuous", "prismatic", "revolute")
@@ -24,10 +26,17 @@ _OF_ROS_CONTROL = "transmission_interface/"
 
 
 @rule("URD008", "broken-transmission", Severity.ERROR, Concern.INTERFACE)
-def check(description: UrdfDescription) -> Findings:
-    """Report transmissions without effect, and joints without one unlike others of their type."""
-    if description.for_rviz:
-        return
+def check(description: UrdfDescription, context: Context) -> Findings:
+    """Report transmissions without effect, and joints without one unlike others of their type.
+
+    In ROS 2 nothing reads transmissions outside of `<ros2_control>`: there it is information.
+    """
+    if not description.for_rviz:
+        for found in _faults(description):
+            yield replace(found, severity=Severity.INFO) if context.distro else found
+
+
+def _faults(description: UrdfDescription) -> Iterator[Finding]:
     robot = description.robot
     names = Suggestions(robot.joints_by_name)
     for transmission in description.transmissions:

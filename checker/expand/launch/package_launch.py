@@ -230,6 +230,8 @@ def _launch_files(package: Package) -> list[XmlDocument]:
     for entry in package.index.with_suffix(".launch", ".xml"):
         if not entry.path.endswith(".launch") and not entry.path.startswith("launch/"):
             continue
+        if entry.is_of_tests:
+            continue
         document = package.xml(entry.path)
         if isinstance(document, XmlDocument) and document.root.tag == "launch":
             documents.append(document)

@@ -153,7 +153,9 @@ class Parameters:
 
     def _left_over(self) -> Iterator[str]:
         files = self.package.index.with_suffix(".yaml", ".yml")
-        yield from (file.path for file in files[:MAX_FILES] if file.path not in self._loaded)
+        for file in files[:MAX_FILES]:
+            if file.path not in self._loaded and not file.is_of_tests:
+                yield file.path
 
 
 _STATE_PLUGIN = "gazebo_ros_joint_state_publisher"

@@ -36,6 +36,11 @@ class Box(Record):
         """Length from corner to corner, metres."""
         return math.dist(self.low, self.high)
 
+    def grown(self, length: float) -> Box:
+        """Return the box that reaches so many metres farther in each direction."""
+        (a, b, c), (x, y, z) = self.low, self.high
+        return Box((a - length, b - length, c - length), (x + length, y + length, z + length))
+
     def gap(self, other: Box) -> float:
         """Return the distance to another box, metres; 0 where they touch."""
         along_x, along_y, along_z = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
 """How many of each unit make a metre."""
+_METRIC = {unit: UNITS[unit] for unit in ("centimetres", "millimetres")}
+"""What a mesh is scaled from twice; a small placeholder is often 40 times smaller than its link."""
+_PLACEHOLDER = 12
+"""Triangles of a box: a mesh of no more that nobody can see is put there to be none."""
 
 Shapes = Iterable[Collision | Visual]
 
@@ -78,7 +82,9 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
     small to see.
     """
     near, beyond = limits.near, limits.beyond
-    around = _size_without_meshes(robot) if robot.mesh_uses else 0.0
+    # Scenery may be one mesh of any size: nothing tells how large the rest of it is.
+    measured = robot.mesh_uses and not robot.is_static
+    around = _size_without_meshes(robot) if measured else 0.0
     for extent, use, size in _meshes(robot):
         if 0.0 < beyond * around < size and size > limits.huge:
             unit = next((u for u, f in UNITS.items() if size / f < near * around), "millimetres")
@@ -86,10 +92,10 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
         elif (unit := _unit(size, extent.simple, near)) and size > beyond / 3 * around:
             yield MisscaledMesh(use, size, extent.simple, "rest of its link", unit)
         elif 0.0 < extent.like(use) < limits.tiny and (
-            unit := _unit(extent.unlike(use), size, near)
+            unit := _unit(extent.unlike(use), size, near, _METRIC)
         ):
             yield MisscaledMesh(use, size, extent.unlike(use), "rest of its link", unit)
-        elif 0.0 < size < limits.speck < around:
+        elif 0.0 < size < limits.speck < around and not _is_placeholder(use):
             yield MisscaledMesh(use, size, around, "robot without its meshes", "millimetres")
 
 
@@ -131,11 +137,11 @@ class _Extent(Record):
         return self.visuals if use.is_collision else self.collisions
 
 
-def _unit(large: float, small: float, near: float) -> str:
+def _unit(large: float, small: float, near: float, units: Mapping[str, float] = UNITS) -> str:
     """Return the unit whose factor lies between two lengths; empty when none does."""
     if not 0.0 < small < large < math.inf:
         return ""
-    off = {unit: abs(math.log(large / small / factor)) for unit, factor in UNITS.items()}
+    off = {unit: abs(math.log(large / small / factor)) for unit, factor in units.items()}
     unit = min(off, key=lambda name: off[name])
     return unit if off[unit] < math.log(max(near, 1.0)) else ""
 
@@ -160,6 +166,10 @@ def _meshes(robot: Robot) -> Iterator[tuple[_Extent, MeshUse, float]]:
 
 def _shapes(link: Link) -> tuple[Collision | Visual, ...]:
     return (*link.collisions, *link.visuals)
+
+
+def _is_placeholder(use: MeshUse) -> bool:
+    return use.mesh is not None and use.mesh.triangles <= _PLACEHOLDER
 
 
 def _is_simple(shape: Collision | Visual) -> bool:

@@ -198,7 +198,8 @@ class ControlReader:
         """Return the files that launch files name, else those that lie in the package."""
         launched = tuple(self._mentioning(self.launched, names))
         index = self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]
-        return launched or tuple(self._mentioning([entry.path for entry in index], names))
+        paths = [entry.path for entry in index if not entry.is_of_tests]
+        return launched or tuple(self._mentioning(paths, names))
 
     def _mentioning(self, paths: Iterable[str], names: frozenset[str]) -> Iterator[ControllerFile]:
         """Yield those of the files that configure a controller of these joints."""

@@ -20,6 +20,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
 _SUFFIXES = (".urdf", ".xacro")
+_OF_MOVEIT = (".srdf", ".srdf.xacro")
 FOLDER_BESIDE_SDF = "urdf/"
 CANDIDATES_LIMIT = 50
 
@@ -103,7 +104,8 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
 def _files(package: Package) -> list[str]:
     if package.only:
         return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
-    paths = (file.path for file in package.index.with_suffix(*_SUFFIXES))
+    files = package.index.with_suffix(*_SUFFIXES)
+    paths = (file.path for file in files if not file.path.lower().endswith(_OF_MOVEIT))
     if package.kind is PackageKind.URDF_DESCRIPTION:
         return [*paths]
     return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
@@ -184,6 +186,15 @@ def _made_of(package: Package) -> Iterator[str]:
             root = document.root if isinstance(document, XmlDocument) else None
             if root is not None and root.tag == "robot" and root.get("name"):
                 yield f"../{other.name}/{path}"
+
+
+def is_included(package: Package, path: str) -> bool:
+    """Say whether a file of this or another package includes a file, by a computed name or not."""
+    name = posixpath.basename(path)
+    own = (_text(package, other) for other in _files(package) if other != path)
+    others = (_text(*other) for other in _xacro_elsewhere(package))
+    # Of a computed name, such as `${kind}_arm.xacro`, the end is what was found.
+    return any(name.endswith(end) for text in (*own, *others) for end in _INCLUDED.findall(text))
 
 
 def _holds_parts(package: Package, path: str) -> bool:

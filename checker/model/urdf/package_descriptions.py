@@ -17,6 +17,7 @@ from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.candidates import (
     Candidate,
     candidates,
+    is_included,
     may_hold_description,
     unread_models,
     unused_parts,
@@ -93,11 +94,13 @@ class PackageDescriptions:
         expanded = self._expanded
         unread, assumed = self._choose(expanded)
         old = self._expand_as_melodic(expanded)
-        descriptions, faults = [], []
+        descriptions, faults, fragments = [], [], []
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
-                if _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
+                if self._is_fragment(outcome, candidate):
+                    fragments.append(candidate.path)
+                elif _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
                     read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
@@ -114,6 +117,10 @@ class PackageDescriptions:
             descriptions += called
             made = (description.file for description in called)
             reasons += unread_models(self._package, self._seen.union(made))
+            if not descriptions:
+                reasons += (
+                    f"{path} is part of a robot that is not available" for path in fragments
+                )
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
@@ -145,6 +152,20 @@ class PackageDescriptions:
         """Files that were read, for themselves or as a part of another."""
         included = self._expansions.files if self._expansions is not None else ()
         return frozenset((*(candidate.path for candidate in self._candidates), *included))
+
+    def _is_fragment(self, document: XmlDocument, candidate: Candidate) -> bool:
+        """Say whether a file is a part of a robot: joints lead out of it, and others include it."""
+        root = document.root
+        if candidate.loaded or self._package.only or root.tag != "robot":
+            return False
+        links = {link.get("name") for link in root.all("link")}
+        ends = (
+            end
+            for joint in root.all("joint")
+            for end in (*joint.all("parent"), *joint.all("child"))
+        )
+        leads_out = any(end.get("link") not in links for end in ends)
+        return leads_out and is_included(self._package, candidate.path)
 
     def _may_be_given(self, candidate: Candidate) -> bool:
         """Say whether what starts a file may well give the argument that it lacks."""

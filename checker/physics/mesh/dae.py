@@ -189,7 +189,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
     """Return the root of a COLLADA document, and defects that were mended.
 
     Files whose ids hold `<` (`id="<STL_BINARY>"`, as a converter writes them) are no XML, but
-    widely copied, and Gazebo's parser takes them.
+    widely copied, and Gazebo's parser takes them; so it does blanks in front of `<?xml`.
 
     Raises:
         NoSurface: It is no XML, no COLLADA, or declares a document type.
@@ -199,6 +199,10 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
         reason = "declares a document type (<!DOCTYPE>), which is not read here"
         raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)
     defects = []
+    bare = data.lstrip(b" \t\r\n")
+    if bare.startswith(b"<?xml") and bare != data:
+        defects.append(f"{NOT_XML}: blanks in front of <?xml")
+        data = bare
     try:
         root = _parse(data)
     except etree.XMLSyntaxError as error:
