@@ -327,9 +327,10 @@ class Subject(Record, eq=False, dict=True):
         robot = description.robot
         if control is None:
             return robot
+        from checker.model.locomotion.controlled import without_idle
+
         words = self.package.workspace.launch_words
-        started = tuple(each for each in control.controllers if each.name in words)
-        return replace(robot, controllers=started or control.controllers)
+        return replace(robot, controllers=without_idle(control.controllers, words))
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.submission.spawned, NotAvailable):

@@ -101,3 +101,27 @@ def test_a_profile_without_distribution_judges_for_that_of_its_release() -> None
     }
     assert is_from("kilted", "jazzy")
     assert not is_from("humble", "jazzy")
+
+
+@pytest.mark.parametrize(("launch", "severity"), [("drive", "error"), ("nothing", "warning")])
+def test_an_interface_matters_once_its_controller_is_started(
+    tmp_path: Path, launch: str, severity: str
+) -> None:
+    plugin = """<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
+  </plugin>
+</gazebo>"""
+    example = {
+        "@urdf": ARM.replace("@", "gz_ros2_control/GazeboSimSystem") + plugin,
+        "config/arm.yaml": CONTROLLERS.replace("[shoulder]", "[elbow_wheel]"),
+        "launch/arm.launch.py": f"Node(package='controller_manager', arguments=['{launch}'])\n",
+    }
+    settings = Settings(profile="ros2", profile_chosen=True, distro="jazzy", trial=False)
+    (report,) = check_package(write_example(example, tmp_path), settings).packages
+    drives = {
+        found.severity.value
+        for found in report.findings
+        if found.rule == "R2C009" and "'drive'" in found.message
+    }
+    assert drives == {severity}

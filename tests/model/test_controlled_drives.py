@@ -191,3 +191,21 @@ def test_wheels_on_rollers(tmp_path: Path) -> None:
 
     assert moved.kind is DriveKind.MECANUM
     assert len(moved.wheels) == 4
+
+
+def test_a_drive_that_no_launch_file_starts_is_idle_beside_one_that_is(tmp_path: Path) -> None:
+    both = f"""{PAIR}    wheel_radius: 0.1
+    wheel_separation: 0.6
+other:
+  ros__parameters:
+    type: {DIFF}
+{PAIR}    wheel_radius: 0.7
+    wheel_separation: 0.6
+"""
+    two = robot(tmp_path / "two", DIFF, both).locomotion.wheel_drives
+    assert [drive.wheel_radius.value for drive in two] == [0.1, 0.7]
+    launch = tmp_path / "one" / "acme_arm_description" / "launch" / "base.launch.py"
+    launch.parent.mkdir(parents=True)
+    launch.write_text("Node(package='controller_manager', arguments=['base'])\n", "utf-8")
+    (one,) = robot(tmp_path / "one", DIFF, both).locomotion.wheel_drives
+    assert one.wheel_radius.value == 0.1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -47,6 +47,21 @@ def controlled_drives(robot: Robot, reader: WheelReader) -> Iterator[WheelDrive]
         drive = read(_Named(robot, reader, controller, followers)) if read is not None else None
         if drive is not None and drive.wheels and drive.wheel_radius.value > 0.0:
             yield drive
+
+
+def without_idle(
+    controllers: Sequence[Controller], started: Container[str]
+) -> tuple[Controller, ...]:
+    """Leave out the drives that nothing starts, if another one of the robot is started.
+
+    Args:
+        controllers: That are configured.
+        started: Names of controllers that launch files mention.
+    """
+    drives = [each for each in controllers if each.class_name in _DRIVES]
+    driving = [each for each in drives if each.name in started]
+    idle = [each for each in drives if each not in driving] if driving else []
+    return tuple(each for each in controllers if each not in idle)
 
 
 class _Named:
