@@ -140,6 +140,11 @@ class Context(Record):
         """Whether the target is a release of Gazebo later than the one of SubT."""
         return self.release in ("fortress", "harmonic", "ionic", "jetty")
 
+    @property
+    def of_classic(self) -> bool:
+        """Whether the target is Gazebo Classic with ROS 2."""
+        return self.release == "classic" and bool(self.distro)
+
 
 Check = Callable[..., Findings]
 

@@ -22,7 +22,8 @@ from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
 from checker.package.package import Package
-from checker.package.target import MODEL, ROS_2, usual_profile
+from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile
+from checker.package.told_target import told_target
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
@@ -36,6 +37,7 @@ _LARGEST = 10**300
 _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){20}""")
 """A key of many parts: reading one takes the square of their number."""
 DEFAULT_PROFILE = "subt"
+CLASSIC_ROS_2, CLASSIC_MODEL = "ros2-classic", "gazebo-classic"
 DEVICES_LIMIT = 100
 
 
@@ -63,6 +65,7 @@ class Settings(Record):
         suppress: Findings that shall not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
+        target_reason: What of the package's content chose profile or distribution.
     """
 
     profile: str = DEFAULT_PROFILE
@@ -84,6 +87,7 @@ class Settings(Record):
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
     distro: str = ""
+    target_reason: str = ""
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""
@@ -110,13 +114,30 @@ class Settings(Record):
     def suiting(self, package: Package) -> Settings:
         """Return the settings for what is checked: without a choice, its usual profile counts.
 
-        Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution.
+        Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
+        ROS 2 package is made for decides where the user names neither release nor distribution.
         """
         usual = usual_profile(package)
         is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
-        if is_chosen and not (self.profile == ROS_2 and usual == MODEL):
+        if is_chosen and self.profile != ROS_2:
             return self
-        return replace(self, profile=gazebo_profile(self.distro) if usual == MODEL else usual)
+        wanted = usual if usual == MODEL or not is_chosen else ROS_2
+        told = replace(self, profile=wanted)
+        whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
+        if whole is not None:
+            told = told._told_by(whole)
+        return replace(told, profile=told._of_model) if wanted == MODEL else told
+
+    def _told_by(self, package: Package) -> Settings:
+        """Return the settings with the target that the content of a ROS 2 package tells."""
+        target = told_target(package, self.distro)
+        profile = CLASSIC_ROS_2 if target.of_classic else self.profile
+        return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)
+
+    @property
+    def _of_model(self) -> str:
+        """The profile of a model in such a package."""
+        return CLASSIC_MODEL if self.profile == CLASSIC_ROS_2 else gazebo_profile(self.distro)
 
     @property
     def description(self) -> str:

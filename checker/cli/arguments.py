@@ -6,7 +6,7 @@ import argparse
 
 PROFILES = (
     *("subt", "sdf", "urdf", "gazebo-harmonic", "gazebo-fortress", "gazebo-ionic", "gazebo-jetty"),
-    "ros2",
+    *("ros2", "ros2-classic", "gazebo-classic"),
 )
 DISTROS = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 FORMAT_NAMES = ("text", "concise", "json", "sarif", "github", "junit", "markdown", "html")

@@ -5,14 +5,15 @@ from __future__ import annotations
 from checker.base.resources import table
 from checker.model.sdf.schema import VERSIONS
 from checker.package.package import Package
-from checker.package.target import usual_profile
 from checker.rule import Context
 from checker.rulebook.profiles import profile
+from checker.settings import Settings
 
 
 def usual_target(package: Package) -> Context:
     """Return the target of a package for which the user names none."""
-    return profile(usual_profile(package)).context
+    settings = Settings().suiting(package)
+    return profile(settings.profile, settings.distro).context
 
 
 def plugin_releases(target: Context) -> tuple[str, ...]:

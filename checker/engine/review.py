@@ -206,6 +206,7 @@ def _report(
         display=display,
         other_robots=robots[1:],
         other_trials=trials[1:],
+        target_reason=settings.target_reason,
     )
 
 

@@ -15,7 +15,8 @@ from checker.base.resources import table
 SUBT_RELEASE = "dome"
 """The release that SubT and the plugins of its robots were built for."""
 
-_CLASSIC = re.compile(r"(?:gazebo_ros2?|hector_gazebo)_.*")
+CLASSIC = "classic"
+_OF_CLASSIC = re.compile(r"(?:gazebo_ros2?|hector_gazebo)_.*")
 _OLDER_LIBRARY = re.compile(r"ignition-gazebo\d*-")
 _OF_GAZEBO = re.compile(r"(?:ignition-gazebo|gz-sim)\d*-.*-system")
 _INLINE_NAMESPACE = re.compile(r"::v\d+::")
@@ -26,7 +27,7 @@ class PluginLibrary(Record):
 
     Attributes:
         filename: As plugins usually name it: `libignition-gazebo-diff-drive-system.so`.
-        classes: Full names of its classes.
+        classes: Full names of its classes; none in Gazebo Classic, where `name` is any name.
         parameters: Tags that its source asks for; None where the source is not known.
         computed: Pattern of further tags, whose names its source computes; empty where it does not.
         rewrites: Words that the release replaces in a class before it looks for it.
@@ -73,7 +74,9 @@ def plugin_libraries(release: str) -> Mapping[str, PluginLibrary]:
 
 @cache
 def gazebo_libraries(release: str) -> Mapping[str, PluginLibrary]:
-    """Return those of them that Gazebo has itself."""
+    """Return those of them that Gazebo has itself; of Classic, with those for ROS 2."""
+    if release == CLASSIC:
+        return _classic_libraries()
     libraries: dict[str, PluginLibrary] = {}
     entry = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})
     rewrites = entry.get("rewrites", {})
@@ -87,6 +90,16 @@ def gazebo_libraries(release: str) -> Mapping[str, PluginLibrary]:
         stems = {library_stem(name) for name in system["filenames"]}
         stems |= {_rewritten(stem, back) for stem in stems}
         libraries.update(dict.fromkeys(sorted(stems), library))
+    return libraries
+
+
+def _classic_libraries() -> dict[str, PluginLibrary]:
+    entry = table("gazebo_classic_ros2")
+    libraries: dict[str, PluginLibrary] = {}
+    for stem, known in entry["plugins"].items():
+        own = known["params"]
+        parameters = None if own is None else frozenset({*own, *entry["every_plugin"]})
+        libraries[stem] = PluginLibrary(f"lib{stem}.so", (), parameters)
     return libraries
 
 
@@ -124,6 +137,8 @@ def releases_with(stem: str) -> list[str]:
 
 def release_label(release: str) -> str:
     """Return what a message calls a release, SubT's own plugins included: `… (Dome) and SubT`."""
+    if release == CLASSIC:
+        return "Gazebo Classic 11 with ROS 2"
     label = str(table("gazebo_plugins")["releases"][release]["label"])
     return f"{label} and SubT" if release == SUBT_RELEASE else label
 
@@ -141,4 +156,4 @@ def classic_plugin(filename: str) -> dict[str, Any] | None:
     for entry in table("gazebo_classic_plugins")["plugins"]:
         if re.fullmatch(entry["match"], stem):
             return dict(entry)
-    return {} if _CLASSIC.fullmatch(stem) else None
+    return {} if _OF_CLASSIC.fullmatch(stem) else None

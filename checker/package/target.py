@@ -37,12 +37,24 @@ def usual_profile(package: Package) -> str:
     return ANY_SDF if around == ROS_1 else MODEL
 
 
+def ros_2_package(package: Package) -> Package | None:
+    """Return the package of ROS 2 that a package is, or that a model or file lies in."""
+    manifest = None if package.only else package.xml("package.xml")
+    whole = package if isinstance(manifest, XmlDocument) else _around(package)
+    return whole if whole is not None and usual_profile(whole) == ROS_2 else None
+
+
 def _usual_around(package: Package) -> str:
     """Return the profile of the package that a model or file lies in; empty without one."""
+    whole = _around(package)
+    return usual_profile(whole) if whole is not None else ""
+
+
+def _around(package: Package) -> Package | None:
     folder = package.root if package.only else package.root.parent
     around = enclosing_package(folder, _LEVELS)
     whole = package.workspace.package(around.name) if around else None
-    return usual_profile(whole) if whole is not None and whole.root == around else ""
+    return whole if whole is not None and whole.root == around else None
 
 
 def _of_manifest(package: Package, manifest: XmlDocument) -> str:

@@ -214,6 +214,10 @@ class PackageJson(Record, kw_only=True):
     path: Annotated[str, Meta(description="As given to the checker.")]
     kind: Annotated[Word, Meta(extra_json_schema={"enum": list(map(str, PackageKind))})]
     profile: Annotated[Word, Meta(description="What judged it.")]
+    target_reason: Annotated[
+        str,
+        Meta(description="Simulator or ROS 2 distribution that its content tells, and by what."),
+    ] = ""
     settings: Annotated[
         str, Meta(description="What a settings file changed; empty without one.")
     ] = ""

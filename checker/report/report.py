@@ -220,6 +220,8 @@ class PackageReport(Record):
         other_trials: The trials of further robots that were driven.
         disturbed: Why something was not checked that may be the next time, such as a process that
             was killed from outside: the first of these reasons; empty without any.
+        target_reason: The simulator or ROS 2 distribution that the content of the package tells,
+            and by what; empty where the user or a default chose it.
     """
 
     name: str
@@ -241,6 +243,7 @@ class PackageReport(Record):
     other_robots: tuple[Mapping[str, Any], ...] = ()
     other_trials: tuple[Mapping[str, Any], ...] = ()
     disturbed: str = ""
+    target_reason: str = ""
 
     @property
     def verdict(self) -> VerdictKind:

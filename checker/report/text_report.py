@@ -223,6 +223,7 @@ def _package(
         f"{count(n, 'finding')} in {plain(name)}: listed there"
         for name, n in share.elsewhere.items()
     ]
+    lines += [f"judged for {plain(package.target_reason)}"] * bool(package.target_reason)
     lines += [f"settings: {plain(shortened(package.settings, MESSAGE_LIMIT))}"] * bool(
         package.settings
     )

@@ -18,7 +18,7 @@ class Profile(Record):
 
     Attributes:
         rules: Groups (`SDF`) or ids (`SEN001`) that belong to it.
-        without: Ids left out of them.
+        without: Ids, or groups, left out of them.
         severity: Where it differs from the rule's own.
     """
 
@@ -31,7 +31,7 @@ class Profile(Record):
 
     def includes(self, rule: Rule) -> bool:
         """Whether a rule belongs to this profile; other people's groups belong to all."""
-        if rule.id in self.without:
+        if rule.id in self.without or rule.group in self.without:
             return False
         return rule.group in self.rules or rule.id in self.rules or rule.group not in _groups()
 
@@ -60,14 +60,16 @@ def profile(name: str, distro: str = "") -> Profile:
     entry = table("profiles")[name]
     entry = {**table("profiles").get(entry.get("like", ""), {}), **entry}
     context = Context(name, entry["release"], entry["sdf_version"], entry["reads"])
-    if "distro" in entry:
+    if context.release == "classic":
+        context = replace(context, distro=distro or entry["distro"] if "distro" in entry else "")
+    elif "distro" in entry:
         context = _for_distro(context, distro or entry["distro"])
     return Profile(
         name,
         entry["title"],
         context,
         tuple(entry["rules"]),
-        tuple(entry["without"]),
+        (*entry["without"], *entry.get("also_without", ())),
         {rule: Severity(level) for rule, level in entry["severity"].items()},
     )
 

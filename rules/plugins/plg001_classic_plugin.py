@@ -31,6 +31,8 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
 
     One of a world that nothing takes the place of is a warning: the world works without it.
     """
+    if context.of_classic:
+        return
     if host.unread:
         yield unchecked(host.unread)
     if host.robot is not None and (reason := classic_by_default(host.robot, package)):
@@ -94,7 +96,9 @@ _WORLD = """
 </sdf>
 """
 _HARMONIC = {"@profile": "gazebo-harmonic"}
+_DRIVE = '<plugin filename="libgazebo_ros_diff_drive.so" name="drive"/>'
 GOOD = [
+    {"@profile": "gazebo-classic", "@fragment": _DRIVE},
     '<plugin filename="libignition-gazebo-diff-drive-system.so" name="drive"/>',
 ]
 BAD = [

@@ -4,7 +4,8 @@ Gazebo cannot load it: it prints one line and continues without the drive, the s
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
 package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
 libraries: there it is information, unless the name is one of Gazebo's own. It is a warning if the
-library is of a known package, on which package.xml does not depend.
+library is of a known package, on which package.xml does not depend. For Gazebo Classic, it is an
+error if the name is a slip of the pen for one of gazebo_ros_pkgs.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.
@@ -12,6 +13,7 @@ Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins f
 packages (`subt_plugins.json`). None of the accepted packages that we checked shows this.
 """
 
+from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
@@ -46,7 +48,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
     suggestions = Suggestions(sorted(known))
     for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
-        if stem in ("", _NONE) or stem in known or classic_plugin(stem) is not None:
+        if stem in ("", _NONE) or stem in known or _is_told_elsewhere(stem, context):
             continue
         if not context.of_submissions and newer_name(stem) in known:
             continue  # PLG010 says so.
@@ -64,7 +66,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
             "neither shipped nor built by "
             f"{' or '.join(package.name for package in lenders.at_hand)}"
             f"{_elsewhere(stem, context) or suggestions.hint(stem)}",
-            severity=_severity(stem, context),
+            severity=_severity(stem, context, suggestions),
             key=stem,
         )
 
@@ -78,20 +80,36 @@ def _elsewhere(stem: str, context: Context) -> str:
     return "".join(f"; {label} is the first that has it" for label in releases_with(stem)[:1])
 
 
-def _severity(stem: str, context: Context) -> Severity | None:
+def _is_told_elsewhere(stem: str, context: Context) -> bool:
+    """Whether PLG001 reports the library, or PLG012 as one of ROS 1."""
+    if context.of_classic:
+        return stem in table("gazebo_classic_ros2")["ros_1"]["libraries"]
+    return classic_plugin(stem) is not None
+
+
+def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity | None:
     """Say how grave it is that a library is not at hand.
 
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
-    simulator's paths; only those that bear Gazebo's own name are expected to be its own.
+    simulator's paths; only those that bear Gazebo's own name are expected to be its own. Those of
+    Gazebo Classic have no such name: one that is a slip of the pen for another is an error.
     """
     if context.of_submissions or is_of_gazebo(stem):
         return None
+    if context.of_classic and stem.startswith("gazebo_ros"):
+        return None if suggestions.sure(stem) else Severity.INFO
     return Severity.WARNING if lender_of(stem) else Severity.INFO
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)
 add_library(RoverArm SHARED src/arm.cc)
 """
+
+
+def _classic(library: str, mark: str = "") -> dict[str, str]:
+    plugin = f'<plugin filename="{library}" name="p"/>{mark}'
+    return {"@profile": "gazebo-classic", "@fragment": plugin}
+
 
 GOOD = [
     '<plugin filename="ignition-gazebo-diff-drive-system" name="drive"/>',
@@ -104,6 +122,8 @@ GOOD = [
         "@fragment": '<plugin filename="libRoverArm.so" name="rover::Arm"/>',
         "plugins/libRoverArm.so": "",
     },
+    _classic("libgazebo_ros_ray_sensor.so"),
+    _classic("libgazebo_ros2_control.so"),
 ]
 BAD = [
     '<plugin filename="libignition-gazebo-dif-drive-system.so" name="d"/>  <!-- ^ PLG002 -->',
@@ -111,4 +131,6 @@ BAD = [
         "@fragment": '<plugin filename="libRoverLeg.so" name="r::Leg"/>  <!-- ^ PLG002 -->',
         "CMakeLists.txt": _CMAKE,
     },
+    _classic("libgazebo_ros_dif_drive.so", "  <!-- ^ PLG002 -->"),
+    _classic("gz-sim-diff-drive-system", "  <!-- ^ PLG002 -->"),
 ]

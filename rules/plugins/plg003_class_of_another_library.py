@@ -41,6 +41,8 @@ def check(host: PluginHost, context: Context) -> Findings:
         library = libraries.get(library_stem(plugin.filename.value))
         if library is None or not plugin.name.stated or library.has_class(plugin.name.value):
             continue
+        if context.of_classic:
+            continue  # There, a name is free to choose.
         if not plugin.name.value and not context.of_submissions:
             continue  # Later releases take the first class of the library.
         if library.has_class(newer_name(plugin.name.value)):
@@ -74,6 +76,7 @@ _SYSTEMS = "ignition::gazebo::systems"
 _MARK = "  <!-- ^ PLG003 -->"
 
 GOOD = [
+    {"@profile": "gazebo-classic", "@fragment": _plugin("libgazebo_ros_p3d.so", "truth")},
     _plugin(_DRIVE, f"{_SYSTEMS}::DiffDrive"),
     _plugin("ignition-gazebo-diff-drive-system", f"{_SYSTEMS}::v4::DiffDrive"),
     _plugin("libGasEmitterDetectorPlugin.so", "subt::GasDetector"),

@@ -11,6 +11,7 @@ templates are information.
 
 from collections.abc import Iterator
 
+from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.plugin_library import PluginLibrary, library_stem, plugin_libraries
 from checker.model.robot import Robot
@@ -26,10 +27,14 @@ _HARMLESS = (
     "tracks_height",
     "motorSpeedPubTopic",
     "motorControlPubTopic",
+    *("start_on_motion", "tracks_height", "motorSpeedPubTopic", "motorControlPubTopic"),
+    "robot_sim_type",
 )
 
 _MEANT = {
+    "odometry_rate": "publish_rate",
     "odometry_topic": "odom_topic",
+    "remap": "remapping",
     "static_pose_publisher": "static_publisher",
     "static_pose_update_frequency": "static_update_frequency",
 }
@@ -48,21 +53,32 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         yield unchecked(robot.unread_plugins)
     libraries = plugin_libraries(context.release)
     for plugin in robot.all_plugins:
-        library = libraries.get(library_stem(plugin.filename.value))
+        stem = library_stem(plugin.filename.value)
+        library = libraries.get(stem)
         if library is None or library.parameters is None:
             continue
         suggestions = Suggestions(sorted(library.parameters))
         for element in _unread(plugin.element, library):
+        of_ros_1 = _of_ros_1(stem) if context.of_classic else frozenset()
+        for element in _unread(plugin.element, library.parameters):
+            if element.tag in of_ros_1:
+                continue  # PLG012 says so.
             meant = _MEANT.get(element.tag) or suggestions.near(element.tag)
             hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
             yield finding(
                 element,
-                f"{plugin.class_name} does not read <{element.tag}>{hint}",
+                f"{plugin.called} does not read <{element.tag}>{hint}",
                 severity=Severity.INFO if element.tag in harmless else None,
             )
 
 
 def _unread(plugin: Element, library: PluginLibrary) -> Iterator[Element]:
+def _of_ros_1(stem: str) -> frozenset[str]:
+    names = table("gazebo_classic_ros2")["ros_1"]
+    return frozenset({*names["common"], *names["libraries"].get(stem, {}).get("params", ())})
+
+
+def _unread(plugin: Element, parameters: frozenset[str]) -> Iterator[Element]:
     """Yield the elements of a plugin that are not parameters, without their content."""
     waiting = list(reversed(plugin.children))
     while waiting:
@@ -84,7 +100,13 @@ def _drive(parameter: str) -> str:
 """
 
 
+def _classic(parameters: str) -> dict[str, str]:
+    text = f'<plugin filename="libgazebo_ros_diff_drive.so" name="drive">{parameters}</plugin>'
+    return {"@profile": "gazebo-classic", "@fragment": text}
+
+
 GOOD = [
+    _classic("<ros><remapping>odom:=wheel/odom</remapping></ros><left_joint>l</left_joint>"),
     _drive("<odom_topic>odometry</odom_topic>"),
     """
 <plugin filename="libignition-gazebo-breadcrumbs-system.so"
@@ -114,4 +136,5 @@ BAD = [
   <tracks_height>0.2</tracks_height>  <!-- ^ PLG005 -->
 </plugin>
 """,
+    _classic("<wheel_radius>0.1</wheel_radius>  <!-- ^ PLG005 -->"),
 ]

@@ -9,10 +9,14 @@ Source: types that SDFormat reads, and systems that simulate them, per release
 (`gazebo_sensors.json`).
 """
 
+from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import sensor_types
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
+
+_IN_CLASSIC = table("gazebo_classic_ros2")["sensors_instead"]
+"""What Gazebo Classic has for types that only later releases simulate."""
 
 
 @rule("SEN001", "sensor-not-simulated", Severity.ERROR, Concern.INTERFACE)
@@ -32,8 +36,12 @@ def check(robot: Robot, context: Context) -> Findings:
                 sensor.type, f"{message}, which {target} does not know{hint}", key=f"unknown {type}"
             )
         elif type in types.lost:
+            instead = _IN_CLASSIC.get(type) if context.of_classic else None
+            hint = f": expected {instead!r}" if instead else ""
             yield finding(
-                sensor.type, f"{message}, which {target} does not simulate", key=f"lost {type}"
+                sensor.type,
+                f"{message}, which {target} does not simulate{hint}",
+                key=f"lost {type}",
             )
 
 
@@ -42,8 +50,13 @@ def _sensor(type: str) -> str:
 
 
 _MARK = "  <!-- ^ SEN001 -->"
+_CLASSIC = {"@profile": "gazebo-classic"}
 GOOD = [
     *map(_sensor, ("camera", "gpu_lidar", "imu", "thermal", "rgbd", "logical_camera", "contact")),
     _sensor("ray"),
+    *({**_CLASSIC, "@fragment": _sensor(type)} for type in ("ray", "gps", "sonar", "depth")),
 ]
-BAD = [_sensor(type) + _MARK for type in ("gps", "sonar", "wireless_receiver", "gpu_lida", "")]
+BAD = [
+    *(_sensor(type) + _MARK for type in ("gps", "sonar", "wireless_receiver", "gpu_lida", "")),
+    *({**_CLASSIC, "@fragment": _sensor(type) + _MARK} for type in ("gpu_lidar", "navsat")),
+]

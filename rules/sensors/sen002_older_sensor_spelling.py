@@ -83,7 +83,11 @@ def _sensor(type: str, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ SEN002 -->"
-GOOD = [_sensor("gpu_lidar"), '<sensor name="imu" type="imu"/>']
+GOOD = [
+    _sensor("gpu_lidar"),
+    '<sensor name="imu" type="imu"/>',
+    {"@profile": "gazebo-classic", "@fragment": _sensor("ray")},
+]
 BAD = [
     *(_sensor(type, _MARK) for type in ("gpu_ray", "ray", "lidar")),
     '<sensor name="front_laser" type="gpu_ray"><ray/></sensor>  <!-- ^ SEN002 -->',

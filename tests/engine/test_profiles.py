@@ -21,7 +21,7 @@ def test_a_distribution_brings_its_gazebo(distro: str, release: str, reads: str)
 
 
 def test_other_profiles_are_about_no_distribution() -> None:
-    names = [name for name in profile_names() if name != "ros2"]
+    names = [name for name in profile_names() if name != "ros2" and "classic" not in name]
     assert {profile(name, "humble").context.distro for name in names} == {""}
 
 
@@ -33,3 +33,9 @@ def test_profiles_of_releases_share_their_rules() -> None:
 
 def test_every_distribution_has_a_profile() -> None:
     assert [profile("ros2", name).context.distro for name in distro_names()] == [*distro_names()]
+
+
+def test_gazebo_classic_stays_whatever_the_distribution() -> None:
+    context = profile("ros2-classic", "iron").context
+    assert (context.release, context.distro, context.of_classic) == ("classic", "iron", True)
+    assert not profile("urdf").context.of_classic

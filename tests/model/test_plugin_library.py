@@ -65,7 +65,7 @@ def test_the_plugins_of_subt_were_built_for_dome() -> None:
 
 
 def test_an_unknown_release_has_no_libraries() -> None:
-    assert not plugin_libraries("classic")
+    assert not plugin_libraries("moonbase")
     assert release_major("classic") is None
 
 

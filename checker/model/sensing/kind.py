@@ -30,6 +30,10 @@ class SensorTypes(Record):
 @cache
 def sensor_types(release: str) -> SensorTypes:
     """Return the types of a release; for one without a table, whatever any release knows."""
+    if release == "classic":
+        classic = table("gazebo_classic_ros2")
+        made, lost_types = frozenset(classic["sensors"]), frozenset(classic["not_made"])
+        return SensorTypes(made | lost_types, lost_types)
     releases = table("gazebo_sensors")["releases"]
     listed = [releases[release]] if release in releases else list(releases.values())
     entries = [entry for row in listed for entry in row["types"]]

@@ -1,0 +1,123 @@
+"""What the content of a ROS 2 package tells: the distribution and the Gazebo it is made for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from checker.base.record import Record
+from checker.base.resources import table
+from checker.package.distribution_sign import distribution_sign
+from checker.source.text import SourceText, blank_markup
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+CLASSIC, IGNITION, GZ = "classic", "ignition", "gz"
+_OLDEST = "humble"
+"""The oldest distribution that is judged; it stands for those before it."""
+_SUPPORT = "whose support ended in January 2025"
+
+_LAUNCH = {
+    CLASSIC: re.compile(r"(?<![\w/])(?:gazebo_ros|gzserver|gzclient|spawn_entity\.py)(?!\w)"),
+    IGNITION: re.compile(r"\bros_ign_(?:gazebo|bridge)\b|\bign gazebo\b|\bIGN_GAZEBO_\w+"),
+    GZ: re.compile(r"\bros_gz_(?:sim|bridge)\b|\bgz sim\b|\bGZ_SIM_\w+"),
+}
+_DESCRIPTION = {
+    CLASSIC: re.compile(
+        r"\blibgazebo_ros(?:2_control|_\w+)\.so\b|\bgazebo_ros2_control/GazeboSystem\b"
+    ),
+    IGNITION: re.compile(r"\bignition-gazebo\d*-[\w-]+-system\b|\bign_ros2_control\b"),
+    GZ: re.compile(
+        r"\bgz-sim\d*-[\w-]+-system\b|(?<!\w)gz_ros2_control\b"
+        r"""|\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""
+    ),
+}
+_DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
+_MANIFEST = {
+    CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
+    IGNITION: re.compile(_DEPENDENCY.format(r"ros_ign\w*|ign_ros2_control|ignition-\w+")),
+    GZ: re.compile(_DEPENDENCY.format(r"ros_gz\w*|gz_ros2_control|gz[-_]\w+")),
+}
+_SIGNS = (
+    (re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), _LAUNCH),
+    (re.compile(r"\.(?:urdf|xacro|sdf|world|gazebo)\Z"), _DESCRIPTION),
+    (re.compile(r"\Apackage\.xml\Z"), _MANIFEST),
+)
+
+
+class ToldTarget(Record):
+    """What a package is made for, where its content says it.
+
+    Attributes:
+        of_classic: Whether that is Gazebo Classic.
+        distro: ROS 2 distribution; empty where nothing tells.
+        reason: What decided, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
+    """
+
+    of_classic: bool = False
+    distro: str = ""
+    reason: str = ""
+
+
+def told_target(package: Package, distro: str = "") -> ToldTarget:
+    """Read what a package is made for.
+
+    Gazebo Classic is told by a launch file, a plugin or a dependency that only Classic has, where
+    nothing is of later ones: a package for both is judged for the later one.
+
+    Args:
+        package: A package of ROS 2.
+        distro: That the user names; it counts instead of what the content names.
+    """
+    named = None if distro else distribution_sign(package)
+    distro = distro or (named.distro if named else "")
+    signs = _signs(package)
+    if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
+        reason = f"Gazebo Classic 11, {_SUPPORT}: {signs[CLASSIC]}"
+        return ToldTarget(True, _known(distro or _OLDEST), reason)
+    if named is not None:
+        return ToldTarget(False, _known(distro), f"ROS 2 {distro.capitalize()}: {named.words}")
+    if [*signs] == [IGNITION] and not distro:
+        reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
+        return ToldTarget(False, _OLDEST, reason)
+    return ToldTarget(False, distro)
+
+
+def _known(distro: str) -> str:
+    known = (entry["distro"] for entry in table("gazebo_releases")["ros"])
+    return distro if distro in known else _OLDEST
+
+
+def _signs(package: Package) -> dict[str, str]:
+    """Return which simulators the package names, each with the first place that does."""
+    found: dict[str, str] = {}
+    for names, patterns in _SIGNS:
+        paths = (file.path for file in package.index.files if names.search(file.path.lower()))
+        for target, words in _in_files(package, paths, patterns):
+            found.setdefault(target, words)
+    return found
+
+
+def _in_files(
+    package: Package, paths: Iterable[str], patterns: dict[str, re.Pattern[str]]
+) -> Iterator[tuple[str, str]]:
+    for path in paths:
+        source = package.read(path)
+        if not isinstance(source, SourceText):
+            continue
+        text = _without_comments(source)
+        for target, pattern in patterns.items():
+            if match := pattern.search(text):
+                line, _ = source.position(match.start())
+                yield target, f"{path}:{line} names {match.group().strip()}"
+
+
+_LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
+
+
+def _without_comments(source: SourceText) -> str:
+    if source.file.lower().endswith((".py", ".yaml", ".yml")):
+        return _LINE_COMMENT.sub(lambda match: " " * len(match.group()), source.text)
+    return blank_markup(source.text)

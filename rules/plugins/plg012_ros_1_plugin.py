@@ -1,0 +1,133 @@
+"""A plugin or a parameter of ROS 1 in a ROS 2 package.
+
+Gazebo Classic finds no library that only ROS 1 has: the drive or sensor is missing. A parameter of
+ROS 1 is ignored without a message, and the default counts: `<leftJoint>` leaves the drive without a
+wheel, `<robotNamespace>` leaves all topics in the root namespace.
+
+It is an error for a library, and where the joint, link, wheel, topic or namespace that a parameter
+names is named nowhere else in the plugin; else a warning.
+
+Fix: write the library and the parameters of ROS 2, as the message names them.
+Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from checker.base.resources import table
+from checker.model.components import Plugin
+from checker.model.plugin_host import PluginHost
+from checker.model.plugin_library import library_stem, plugin_libraries
+from checker.package.dependencies import lenders_of
+from checker.package.package import Package
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+
+_NAMES_PART = re.compile(r"\w*(?:joint|link_name|body_name|separation|diameter)\w*")
+_WORD = re.compile(r"\w+")
+_ROS = "<ros>"
+_RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
+
+
+@rule("PLG012", "ros-1-plugin", Severity.ERROR, Concern.INTERFACE)
+def check(host: PluginHost, package: Package, context: Context) -> Findings:
+    """Report libraries and parameters that only the plugins of ROS 1 have."""
+    if not context.of_classic:
+        return
+    if host.unread:
+        yield unchecked(host.unread)
+    here, renamed = plugin_libraries(context.release), table("gazebo_classic_ros2")["ros_1"]
+    built = lenders_of(package).libraries()
+    for plugin in host.plugins:
+        stem = library_stem(plugin.filename.value)
+        known: Mapping[str, Any] | None = renamed["libraries"].get(stem)
+        if stem in built:
+            continue
+        if stem not in here and known is not None:
+            yield _library(plugin, known)
+        elif stem in here and (read := here[stem].parameters) is not None:
+            names = {**renamed["common"], **(known or {}).get("params", {})}
+            if _RATE not in read:
+                names["updateRate"] = _RATE_OF_SENSOR
+            yield from _parameters(plugin, {n: names[n] for n in names if n not in read})
+
+
+def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
+    instead, how = known["instead"], known.get("how", "")
+    advice = f"use {instead}" if instead else "nothing takes its place"
+    return finding(
+        plugin.filename,
+        f"{plugin.filename.value} is a plugin of ROS 1, which Gazebo does not find with ROS 2: "
+        f"{advice}{f' ({how})' if how and instead else f': {how}' if how else ''}",
+        key=plugin.filename.value,
+        fix=replace_text(plugin.filename, instead, Safety.UNSAFE) if instead else None,
+    )
+
+
+def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Finding]:
+    library = library_stem(plugin.filename.value)
+    for element in plugin.element.children:
+        if element.tag not in names:
+            continue
+        instead = names[element.tag]
+        advice = f"ROS 2 reads {_shown(instead)}" if instead else "nothing in ROS 2 reads it"
+        yield finding(
+            element,
+            f"<{element.tag}> is a parameter of ROS 1 that {library} ignores: {advice}",
+            severity=None if _is_missed(plugin, instead, element.value) else Severity.WARNING,
+            key=f"{library} {element.tag}",
+        )
+
+
+def _shown(instead: str) -> str:
+    return f"<{instead}>" if _WORD.fullmatch(instead) else instead
+
+
+def _is_missed(plugin: Plugin, instead: str | None, value: str) -> bool:
+    """Whether the plugin acts on another thing: nothing in it says what the parameter says."""
+    if instead is None or value.strip() in ("", "/"):
+        return False
+    if instead.startswith(_ROS):
+        return plugin.element.child("ros") is None
+    return bool(_NAMES_PART.fullmatch(instead)) and plugin.element.child(instead) is None
+
+
+def _drive(parameters: str) -> dict[str, str]:
+    text = f'<plugin filename="libgazebo_ros_diff_drive.so" name="drive">{parameters}</plugin>'
+    return {"@profile": "gazebo-classic", "@fragment": text}
+
+
+_MARK = "  <!-- ^ PLG012 -->"
+GOOD = [
+    _drive("<ros><namespace>rover</namespace></ros><left_joint>left</left_joint>"),
+    {
+        "@profile": "gazebo-classic",
+        "@fragment": '<plugin filename="libgazebo_ros_laser.so" name="laser"/>',
+        "CMakeLists.txt": "project(rover)\nadd_library(gazebo_ros_laser SHARED laser.cpp)\n",
+    },
+]
+BAD = [
+    _drive(f"<leftJoint>left</leftJoint>{_MARK}"),
+    _drive(f"<robotNamespace>rover</robotNamespace>{_MARK}"),
+    _drive(f"<updateRate>50</updateRate>{_MARK}"),
+    _drive(f"\n<ros/><robotNamespace>rover</robotNamespace>{_MARK}\n"),
+    {
+        "@profile": "gazebo-classic",
+        "@fragment": f'<plugin filename="libgazebo_ros_laser.so" name="laser"/>{_MARK}',
+    },
+    {
+        "@profile": "gazebo-classic",
+        "@fragment": f'<plugin filename="libgazebo_ros_control.so" name="control"/>{_MARK}',
+    },
+]

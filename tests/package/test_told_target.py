@@ -1,0 +1,83 @@
+"""A package of ROS 2 is judged for the simulator and the distribution that its content tells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from checker.package.package import Package
+from checker.package.workspace import Workspace
+from checker.rule_testing import write_example
+from checker.settings import Settings
+
+SPAWN = "        Node(package='gazebo_ros', executable='spawn_entity.py'),"
+RAY = """<robot name="arm">
+  <gazebo><plugin filename="{}" name="p"/></gazebo>
+</robot>
+"""
+CLASSIC_PLUGIN = RAY.format("libgazebo_ros_ray_sensor.so")
+GZ_PLUGIN = RAY.format("gz-sim-diff-drive-system")
+IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
+URDF = "urdf/arm.urdf.xacro"
+
+
+def opened(folder: Path, files: Mapping[str, object]) -> Package:
+    package = write_example(files, folder)
+    return Workspace((folder,)).at(package)
+
+
+def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple[str, str]:
+    settings = Settings(distro=distro).suiting(opened(folder, files))
+    return settings.profile, settings.distro
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        ({"@ros2": True}, ("ros2", "")),
+        ({"@ros2": SPAWN}, ("ros2-classic", "humble")),
+        ({"@ros2": f"        # {SPAWN}"}, ("ros2", "")),
+        ({"@ros2": True, URDF: CLASSIC_PLUGIN}, ("ros2-classic", "humble")),
+        ({"@ros2": True, URDF: f"<!-- {CLASSIC_PLUGIN} --><robot/>"}, ("ros2", "")),
+        ({"@ros2": SPAWN, URDF: GZ_PLUGIN}, ("ros2", "")),
+        ({"@ros2": True, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
+        ({"@ros2": True, URDF: GZ_PLUGIN}, ("ros2", "")),
+        ({"@ros2": SPAWN, "Dockerfile": "FROM ros:jazzy\n"}, ("ros2", "jazzy")),
+        ({"@ros2": SPAWN, "Dockerfile": "FROM ros:foxy\n"}, ("ros2-classic", "humble")),
+        ({"@ros2": True, "README.md": "For ROS 2 Humble.\n"}, ("ros2", "humble")),
+        ({"@ros2": True, "README.md": "ROS 2 Humble or ROS 2 Jazzy\n"}, ("ros2", "")),
+        ({"@ros2": True, "README.md": "Keep rolling, an iron rule.\n"}, ("ros2", "")),
+    ],
+)
+def test_content_tells(
+    files: Mapping[str, object], expected: tuple[str, str], tmp_path: Path
+) -> None:
+    assert judged(tmp_path, files) == expected
+
+
+def test_the_user_counts_more(tmp_path: Path) -> None:
+    files = {"@ros2": SPAWN, "Dockerfile": "FROM ros:humble\n"}
+    assert judged(tmp_path, files, "jazzy") == ("ros2", "jazzy")
+    assert judged(tmp_path / "other", files, "humble") == ("ros2-classic", "humble")
+
+
+def test_the_repository_around_tells(tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_text("Tested with ROS 2 Humble.\n")
+    assert judged(tmp_path, {"@ros2": True}) == ("ros2", "humble")
+
+
+def test_a_model_is_judged_as_the_package_around_it(tmp_path: Path) -> None:
+    model = '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>'
+    folder = write_example({"@ros2": SPAWN, "models/rover/model.sdf": model}, tmp_path)
+    package = Package(folder / "models" / "rover", Workspace((tmp_path,)))
+    assert Settings().suiting(package).profile == "gazebo-classic"
+
+
+def test_the_report_says_by_what(tmp_path: Path) -> None:
+    settings = Settings().suiting(opened(tmp_path, {"@ros2": SPAWN}))
+    assert settings.target_reason == (
+        "Gazebo Classic 11, whose support ended in January 2025: "
+        "launch/arm.launch.py:20 names gazebo_ros"
+    )
