@@ -27,7 +27,6 @@ _HARMLESS = (
     "tracks_height",
     "motorSpeedPubTopic",
     "motorControlPubTopic",
-    *("start_on_motion", "tracks_height", "motorSpeedPubTopic", "motorControlPubTopic"),
     "robot_sim_type",
 )
 
@@ -58,9 +57,8 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         if library is None or library.parameters is None:
             continue
         suggestions = Suggestions(sorted(library.parameters))
-        for element in _unread(plugin.element, library):
         of_ros_1 = _of_ros_1(stem) if context.of_classic else frozenset()
-        for element in _unread(plugin.element, library.parameters):
+        for element in _unread(plugin.element, library):
             if element.tag in of_ros_1:
                 continue  # PLG012 says so.
             meant = _MEANT.get(element.tag) or suggestions.near(element.tag)
@@ -72,13 +70,12 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
             )
 
 
-def _unread(plugin: Element, library: PluginLibrary) -> Iterator[Element]:
 def _of_ros_1(stem: str) -> frozenset[str]:
     names = table("gazebo_classic_ros2")["ros_1"]
     return frozenset({*names["common"], *names["libraries"].get(stem, {}).get("params", ())})
 
 
-def _unread(plugin: Element, parameters: frozenset[str]) -> Iterator[Element]:
+def _unread(plugin: Element, library: PluginLibrary) -> Iterator[Element]:
     """Yield the elements of a plugin that are not parameters, without their content."""
     waiting = list(reversed(plugin.children))
     while waiting:
