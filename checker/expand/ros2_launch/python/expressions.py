@@ -428,6 +428,16 @@ def _named(run: Interpreter, node: ast.NamedExpr, scope: Scope) -> Value:
     return value
 
 
+def _yield(run: Interpreter, node: ast.Yield | ast.YieldFrom, scope: Scope) -> Value:
+    """Add to what the generator gives: all of it is worked out at once."""
+    if scope.yielded is None:
+        return run.unknown(node, "yield outside of a function is not evaluated")
+    value = evaluate(run, node.value, scope) if node.value is not None else None
+    items = each(run, value, node) if isinstance(node, ast.YieldFrom) else [value]
+    scope.yielded += run.guarded(items)
+    return None
+
+
 _HANDLERS: Mapping[type[ast.AST], Callable[[Interpreter, Any, Scope], Value]] = {
     ast.Constant: _constant,
     ast.Name: _name,
@@ -452,4 +462,6 @@ _HANDLERS: Mapping[type[ast.AST], Callable[[Interpreter, Any, Scope], Value]] = 
     ast.Call: _call,
     ast.Starred: _starred,
     ast.NamedExpr: _named,
+    ast.Yield: _yield,
+    ast.YieldFrom: _yield,
 }

@@ -31,6 +31,7 @@ from checker.expand.ros2_launch.values import (
     Unknown,
     Value,
     chosen,
+    placed,
     span_of,
 )
 from checker.source.text import Located, SourceText, Span
@@ -183,7 +184,8 @@ class Interpreter:
 
     def builtin(self, name: str) -> Value:
         """Return a function of Python's, or nothing."""
-        return Symbol(f"builtins.{name}") if f"builtins.{name}" in BUILTINS else None
+        path = f"builtins.{name}"
+        return Symbol(path) if path in BUILTINS or path in FUNCTIONS else None
 
     def imported(self, path: str, node: ast.AST) -> Value:
         """Return what an import names."""
@@ -207,7 +209,7 @@ class Interpreter:
         if isinstance(owner, Symbol):
             path = f"{owner.path}.{name}"
             if path in CONSTANTS:
-                return PlacedText(CONSTANTS[path], self.span(node))
+                return placed(CONSTANTS[path], self.span(node))
             return Symbol(path)
         return methods.attribute(self, owner, name, node)
 
@@ -332,6 +334,8 @@ class Interpreter:
         node: ast.AST,
     ) -> Value:
         scope = Scope(outer=function.scope, guards=len(self.guards))
+        if _is_generator(function.node):
+            scope.yielded = []
         problem = self._bind(function, positional, named, scope, node)
         if problem is not None:
             return problem
@@ -339,9 +343,9 @@ class Interpreter:
         try:
             if isinstance(function.node, ast.Lambda):
                 return evaluate(self, function.node.body, scope)
-            if any(isinstance(part, ast.Yield | ast.YieldFrom) for part in ast.walk(function.node)):
-                return self.unknown(function.node, "a generator is not evaluated")
             flow, value = run_block(self, function.node.body, scope)
+            if scope.yielded is not None:
+                return scope.yielded
         finally:
             self.source = before
         if flow is Flow.RAISE and not scope.returned:
@@ -387,6 +391,18 @@ class Interpreter:
     def text_at(self, value: Value, node: ast.AST) -> Span:
         """Return the place of a value, else that of a node."""
         return span_of(value, self.span(node))
+
+
+def _is_generator(function: ast.AST) -> bool:
+    """Whether a function yields; functions within it are not looked at."""
+    waiting = [*ast.iter_child_nodes(function)]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, ast.Yield | ast.YieldFrom):
+            return True
+        if not isinstance(part, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(part)
+    return False
 
 
 def _takes(owner: Value, key: Value) -> bool:

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from checker.expand.ros2_launch.graph import is_known
-from checker.expand.ros2_launch.python import moveit
+from checker.expand.ros2_launch.python import data_functions, moveit
 from checker.expand.ros2_launch.python.expressions import bounded, each, hashable, plain
 from checker.expand.ros2_launch.python.scope import LocalFunction, Partial
 from checker.expand.ros2_launch.values import (
@@ -35,8 +35,9 @@ if TYPE_CHECKING:
 
 Work = Callable[["Interpreter", ast.AST, list[Value], dict[str, Value]], Value]
 
-CONSTANTS: Mapping[str, str] = MappingProxyType(
+CONSTANTS: Mapping[str, str | float] = MappingProxyType(
     {"os.sep": "/", "os.path.sep": "/", "os.pathsep": ":", "os.linesep": "\n"}
+    | dict(data_functions.CONSTANTS)
 )
 PREFIX = f"{ROOT}-prefix"
 """Below it stand install prefixes of packages."""
@@ -366,10 +367,12 @@ def _is_instance(
     run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
 ) -> Value:
     names = {"str": str, "int": int, "float": float, "bool": bool, "list": list, "dict": dict}
-    if len(arguments) == 2 and isinstance(arguments[1], Symbol) and arguments[1].last in names:
+    wanted = arguments[1] if len(arguments) == 2 else ()
+    kinds = wanted if isinstance(wanted, tuple) else (wanted,)
+    if kinds and all(isinstance(kind, Symbol) and kind.last in names for kind in kinds):
         value = chosen(arguments[0])
         if not isinstance(value, Unknown):
-            return isinstance(value, names[arguments[1].last])
+            return isinstance(value, tuple(names[kind.last] for kind in kinds))
     return run.unknown(node, "isinstance() is not evaluated")
 
 
@@ -464,6 +467,7 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
         "moveit_configs_utils.MoveItConfigsBuilder": moveit.builder,
         "moveit_configs_utils.moveit_configs_builder.MoveItConfigsBuilder": moveit.builder,
     }
+    | dict(data_functions.FUNCTIONS)
     | {f"os.path.{name}": _path_work(name) for name in _PATH_WORKS}
     | {f"os.path.{name}": _exists for name in ("exists", "isfile", "isdir")}
     | {f"yaml.{name}": _load_yaml for name in ("safe_load", "load", "full_load")}

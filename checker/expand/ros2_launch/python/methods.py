@@ -163,9 +163,10 @@ def _of_dict(  # noqa: C901, PLR0911 - one per method
             return value
         case "update", others if not run.guards:
             for other in map(chosen, others):
-                if not isinstance(other, dict):
-                    return run.unknown(node, "update() is not evaluated")
-                owner |= other
+                pairs = library.BUILTINS["builtins.dict"](run, node, [other], {})
+                if not isinstance(pairs, dict):
+                    return pairs
+                owner |= pairs
             owner |= named
             return None
     return run.unknown(node, f"{name}() is not evaluated")

@@ -20,6 +20,7 @@ class Scope:
         shared: Names that `global` or `nonlocal` bind outside.
         returned: What has been returned under conditions, in a function.
         guards: How many conditions stand around the call of the function.
+        yielded: What a generator has yielded; None in other functions.
     """
 
     values: dict[str, Value] = field(default_factory=dict)
@@ -28,6 +29,7 @@ class Scope:
     shared: set[str] = field(default_factory=set)
     returned: list[Guarded] = field(default_factory=list)
     guards: int = 0
+    yielded: list[Value] | None = None
 
     def holder(self, name: str) -> Scope | None:
         """Return the scope that binds a name."""
