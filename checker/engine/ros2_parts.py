@@ -82,7 +82,7 @@ class Ros2Parts(Record, eq=False, dict=True):
         from checker.model.ros.simulation import simulations
 
         found = simulations(self.subject.package, known, self.subject.expander, self.control_reader)
-        if any(each.bridges.is_there or each.starts_gazebo for each in found.all):
+        if any(it.bridges.is_there or it.starts_gazebo or it.classic_robots for it in found.all):
             return found
         return self.subject.without_simulation
 

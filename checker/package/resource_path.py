@@ -1,7 +1,7 @@
 """What a package puts on the path that Gazebo searches for meshes and models.
 
 Environment hooks do so in whoever sources the workspace; `<gazebo_ros>` in package.xml, in what
-`gz_sim.launch.py` of ros_gz_sim starts.
+`gz_sim.launch.py` of ros_gz_sim and `gzserver.launch.py` of gazebo_ros start.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ _NAMED = re.compile(
     r"\b(?:GZ_SIM_RESOURCE_PATH|IGN_GAZEBO_RESOURCE_PATH|SDF_PATH|GZ_FILE_PATH|IGN_FILE_PATH)\b"
 )
 """The resource path, and what gz-sim copies it into when it starts."""
+_NAMED_IN_CLASSIC = re.compile(r"\bGAZEBO_(?:MODEL|RESOURCE)_PATH\b")
+"""The same of Gazebo Classic: the first for `model://`, the second for `file://`."""
 _TEXTS = (
     *(".md", ".rst", ".txt", ".sh", ".bash", ".zsh", ".env", ".dsv", ".in", ".py", ".xml"),
     *(".launch", ".yaml", ".yml", ".json", ".toml", ".cmake", "file"),
@@ -33,9 +35,18 @@ _IN_SHELL = re.compile(
 _EXPORTS = ("gazebo_model_path", "gazebo_media_path")
 
 
-def sets_path(variable: str) -> bool:
-    """Whether a variable is the resource path, or searched like it."""
-    return _NAMED.fullmatch(variable) is not None
+def _variables(classic: bool) -> re.Pattern[str]:
+    return _NAMED_IN_CLASSIC if classic else _NAMED
+
+
+def sets_path(variable: str, *, classic: bool = False) -> bool:
+    """Whether a variable is the resource path, or searched like it.
+
+    Args:
+        variable: Its name.
+        classic: Whether the path of Gazebo Classic is meant.
+    """
+    return _variables(classic).fullmatch(variable) is not None
 
 
 class SearchedFolder(Record, eq=False):
@@ -53,12 +64,13 @@ class SearchedFolder(Record, eq=False):
     span: Span
 
 
-def searched_folders(package: Package) -> Iterator[SearchedFolder]:
+def searched_folders(package: Package, *, classic: bool = False) -> Iterator[SearchedFolder]:
     """Yield what the hooks and the manifest of a package put on the path."""
+    variables = _variables(classic)
     for path in hooks(package):
         source = package.read(path)
         if isinstance(source, SourceText):
-            yield from _of_hook(source, package.declared_name)
+            yield from _of_hook(source, package.declared_name, variables)
     yield from _exported(package)
 
 
@@ -69,13 +81,13 @@ def hooks(package: Package) -> tuple[str, ...]:
     return tuple(path for path in named if package.exists(path))
 
 
-def _of_hook(source: SourceText, name: str) -> Iterator[SearchedFolder]:
+def _of_hook(source: SourceText, name: str, variables: re.Pattern[str]) -> Iterator[SearchedFolder]:
     """Yield what one hook adds: a list of operations (`.dsv`), or a script of the shell."""
     at = 0
     for line in source.text.splitlines(keepends=True):
         span = Span(source, at, at + len(line.rstrip()))
         at += len(line)
-        if line.lstrip().startswith("#") or not _NAMED.search(line):
+        if line.lstrip().startswith("#") or not variables.search(line):
             continue
         text = line.replace("@PROJECT_NAME@", name) if source.file.endswith(".in") else line
         if ".dsv" in posixpath.basename(source.file):
@@ -120,7 +132,7 @@ def _share_folders(attribute: Located[str], name: str) -> Iterator[SearchedFolde
             yield SearchedFolder(None, "$" not in path, attribute.span)
 
 
-def mentions(package: Package) -> Iterator[Span]:
+def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
     """Yield where the texts of a package name the path, but for its hooks.
 
     Launch files set it; documents, scripts and container files tell who launches to do so.
@@ -128,7 +140,7 @@ def mentions(package: Package) -> Iterator[Span]:
     known = frozenset(hooks(package))
     for file in package.index.with_suffix(*_TEXTS):
         if file.path not in known and isinstance(source := package.read(file.path), SourceText):
-            for match in _NAMED.finditer(source.text):
+            for match in _variables(classic).finditer(source.text):
                 yield Span(source, *match.span())
 
 

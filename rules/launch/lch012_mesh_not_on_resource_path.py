@@ -9,8 +9,12 @@ It is reported of a launch file that starts Gazebo itself and was read in full, 
 are available, when no environment hook, no package.xml and no launch file there puts that folder on
 the path, and no document or script names the path at all.
 
+In Gazebo Classic the path is `GAZEBO_MODEL_PATH`. There, package.xml of the package that puts its
+own share folder on it is an error.
+
 Fix: write `<gazebo_ros gazebo_model_path="${prefix}/.."/>` into `<export>` of the package.xml of
-the package that holds the meshes: `gz_sim.launch.py` reads it, and `${prefix}` is its share folder.
+the package that holds the meshes: `gz_sim.launch.py`, and `gzserver.launch.py` of Gazebo Classic,
+read it, and `${prefix}` is its share folder.
 A hook with the line `prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` as well.
 Source: libsdformat, parser_urdf.cc; gz-sim, resource paths; ros_gz_sim, gz_sim.launch.py; ros_gz
 issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one level too deep.
@@ -32,7 +36,8 @@ from checker.source.xml_insertion import append_to
 
 _LINE = '<gazebo_ros gazebo_model_path="${prefix}/.."/>'
 _EXPORT = f"{_LINE} in <export> of the package.xml of"
-_HOOK = "an environment hook with prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share in"
+_HOOK = "an environment hook with prepend-non-duplicate;{};share in"
+_PATH, _CLASSIC_PATH = "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"
 _NAMED = re.compile(r"(?:package|model)://([^/]+)/.")
 
 
@@ -40,23 +45,26 @@ _NAMED = re.compile(r"(?:package|model)://([^/]+)/.")
 def check(simulations: Simulations, package: Package) -> Findings:
     """Report each package once whose meshes a launch file has Gazebo look for in vain."""
     for simulation in simulations.launched:
-        if simulation.graph is None or not simulation.starts_gazebo:
+        classic = bool(simulation.classic_robots)
+        if simulation.graph is None or not (simulation.starts_gazebo or classic):
             continue
-        for spawned in simulation.robots:
+        path = resource_path(package, simulation.graph, classic=classic)
+        if path.holds_packages:
+            continue
+        for spawned in simulation.classic_robots or simulation.robots:
             for name, uri in _packages(package, spawned.robot).items():
-                path = resource_path(package, simulation.graph)
-                if path.holds_packages:
-                    continue
                 deep = path.inside(name)
                 reason = (
                     f"share/{name} is on the resource path, and not the folder above it"
                     if deep is not None
                     else f"nothing puts the folder above share/{name} on the resource path"
                 )
+                hook = _HOOK.format(_CLASSIC_PATH if classic else _PATH)
                 yield finding(
                     deep or spawned.node,
                     f"{uri} is visible in RViz and missing in Gazebo: {reason}; expected "
-                    f"{_EXPORT if simulation.reads_exports else _HOOK} {name}",
+                    f"{_EXPORT if simulation.reads_exports else hook} {name}",
+                    severity=Severity.ERROR if classic and deep is not None else None,
                     key=name,
                     fix=_fix(package, name) if simulation.reads_exports else None,
                 )
@@ -143,8 +151,21 @@ _APPEND = "AppendEnvironmentVariable('GZ_SIM_RESOURCE_PATH', os.path.join(HERE, 
 _PREPEND = "prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share"
 _MARKED = {_CREATE: f"{_CREATE}  # ^ LCH012"}
 
+
+def _classic(path: str, mark: str = "") -> dict[str, object]:
+    launch = {
+        'ros_gz_sim"), "launch", "gz_sim.launch.py': 'gazebo_ros"), "launch", "gazebo.launch.py',
+        'Node(package="ros_gz_sim", executable="create"': (
+            'Node(package="gazebo_ros", executable="spawn_entity.py"'
+        ),
+        '"-name", "rover"': '"-entity", "rover"',
+    }
+    return {**_exported(path, mark), "@launch": launch, "@profile": "ros2-classic"}
+
+
 GOOD = [
     {"@bridge": True},
+    _classic("${prefix}/.."),
     _exported("${prefix}/.."),
     _hooked(_PREPEND),
     _launched(_APPEND),
@@ -157,4 +178,5 @@ BAD = [
     _exported("${prefix}", "  <!-- ^ LCH012 -->"),
     {**_hooked(f"{_PREPEND}/@PROJECT_NAME@/models"), "@launch": _MARKED},
     _launched(_APPEND.replace("os.path.join(HERE, '..'))", "HERE)  # ^ LCH012\n        ")),
+    _classic("${prefix}", "  <!-- ^ LCH012 -->"),
 ]

@@ -18,13 +18,14 @@ from checker.expand.ros2_launch.graph import (
 from checker.expand.ros2_launch.package_launch import launch_files
 from checker.package.package import Package
 from checker.package.resource_path import SearchedFolder, mentions, searched_folders, sets_path
+from checker.source.text import Span
 
 _PREFIX = re.compile(
     r"(?:/subt-check-packages-prefix/|\$\(find-pkg-prefix )[\w.-]{1,200}\)?/share(?:/|\Z)"
 )
 """The folder of all share folders, below the prefix that a package is installed in."""
 
-_SETS_NOTHING = ("ros_gz_sim", "ros_gz_bridge", "ros_ign_gazebo", "ros_ign_bridge")
+_SETS_NOTHING = ("ros_gz_sim", "ros_gz_bridge", "ros_ign_gazebo", "ros_ign_bridge", "gazebo_ros")
 """Packages whose launch files set variables for Gazebo alone, from package.xml."""
 
 
@@ -49,19 +50,23 @@ class ResourcePath(Record, eq=False):
         return next((folder for folder in self.folders if folder.folder == name), None)
 
 
-def resource_path(package: Package, graph: LaunchGraph) -> ResourcePath:
+def resource_path(package: Package, graph: LaunchGraph, *, classic: bool = False) -> ResourcePath:
     """Read what is on the path.
 
     Args:
         package: That is checked.
         graph: Of the launch file that starts Gazebo.
+        classic: Whether that is Gazebo Classic.
     """
     packages = (package, *package.others)
-    folders = [folder for each in packages for folder in searched_folders(each)]
-    changes = [change for change in graph.environment if sets_path(change.name)]
+    folders = [folder for each in packages for folder in searched_folders(each, classic=classic)]
+    changes = [change for change in graph.environment if sets_path(change.name, classic=classic)]
     folders += (folder for change in changes for folder in _changed(change))
     complete = all(folder.known for folder in folders)
-    elsewhere = any(_others_name_it(package, each, graph, changes) for each in packages)
+    elsewhere = any(
+        _others_name_it(package, graph, changes, each, [*mentions(each, classic=classic)])
+        for each in packages
+    )
     return ResourcePath(tuple(folders), complete and not elsewhere and _is_read(graph))
 
 
@@ -94,7 +99,11 @@ def _changed(change: EnvironmentChange) -> Iterator[SearchedFolder]:
 
 
 def _others_name_it(
-    package: Package, holder: Package, graph: LaunchGraph, changes: list[EnvironmentChange]
+    package: Package,
+    graph: LaunchGraph,
+    changes: list[EnvironmentChange],
+    holder: Package,
+    mentioned: list[Span],
 ) -> bool:
     """Whether something else in a package names the path: who launches may set it.
 
@@ -104,7 +113,7 @@ def _others_name_it(
     own = holder is package
     launched = {graph.file, *(include.path for include in graph.includes)}
     others = frozenset(launch_files(holder) if own else ())
-    for mention in mentions(holder):
+    for mention in mentioned:
         file = mention.source.file if own else f"../{holder.name}/{mention.source.file}"
         if file in launched:
             told = (c.span for c in changes if c.span.source.file == file)

@@ -29,6 +29,8 @@ _SERVER = "gzserver"
 _SERVER_PLUGIN = "ros_gz_sim::GzServer"
 _WORLD_FILE = "world_sdf_file"
 _COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
+_CLASSIC_PACKAGE, _CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
+_STARTS_CLASSIC = ("gazebo.launch", "gzserver.launch")
 _WORLD_SUFFIXES = (".sdf", ".world")
 _EMPTY = "empty.sdf"
 """A world of Gazebo's own."""
@@ -84,6 +86,25 @@ def is_gazebo(process: Process) -> bool:
 def is_gazebo_include(include: Include) -> bool:
     """Whether an include is one of the launch files that start Gazebo."""
     return _file(include).startswith((*_STARTS_SERVER, _STARTS_WINDOW))
+
+
+def starts_classic(graph: LaunchGraph) -> bool:
+    """Whether a launch file starts Gazebo Classic for certain."""
+    commands = (each for each in graph.processes if each.words[:1] and each.starts is True)
+    return includes_classic(graph) or any(
+        process.words[0].value in _CLASSIC_COMMANDS for process in commands
+    )
+
+
+def includes_classic(graph: LaunchGraph) -> bool:
+    """Whether a launch file of gazebo_ros starts it, which reads `<gazebo_ros>` of manifests."""
+    started = (share_path(it.target.value) for it in graph.includes if it.starts is True)
+    return any(
+        found.package == _CLASSIC_PACKAGE
+        and found.path.rpartition("/")[2].startswith(_STARTS_CLASSIC)
+        for found in started
+        if found is not None
+    )
 
 
 def _file(include: Include) -> str:

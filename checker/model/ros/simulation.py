@@ -10,14 +10,21 @@ from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, re
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, shown
 from checker.expand.xacro.expansion import Expander
 from checker.model.robot import Robot
-from checker.model.ros.servers import GazeboServer, is_gazebo, is_gazebo_include, read_servers
+from checker.model.ros.servers import (
+    GazeboServer,
+    includes_classic,
+    is_gazebo,
+    is_gazebo_include,
+    read_servers,
+    starts_classic,
+)
 from checker.model.ros.simulated_topics import (
     SimulatedTopic,
     is_silent,
     simulated_topics,
     unknown_owner,
 )
-from checker.model.ros.spawned import SpawnedReader, SpawnedRobot
+from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
 from checker.model.ros.topics import comparable
 from checker.model.ros2_control.robot_control import ControlReader
 from checker.model.sdf.world import World, systems_of
@@ -33,6 +40,7 @@ class Simulation(Record, eq=False, dict=True):
         robots: That it spawns.
         unknown_robots: Why some that it spawns are not among them.
         servers: Gazebo, as often as it starts it.
+        classic_robots: That it spawns into Gazebo Classic, if it starts that.
     """
 
     graph: LaunchGraph | None
@@ -40,6 +48,7 @@ class Simulation(Record, eq=False, dict=True):
     robots: tuple[SpawnedRobot, ...] = ()
     unknown_robots: tuple[str, ...] = ()
     servers: tuple[GazeboServer, ...] = ()
+    classic_robots: tuple[SpawnedRobot, ...] = ()
 
     @property
     def entries(self) -> tuple[BridgeEntry, ...]:
@@ -63,9 +72,11 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def reads_exports(self) -> bool:
-        """Whether Gazebo is told of `<gazebo_ros>` in package.xml, as ros_gz_sim's files do."""
-        includes = self.graph.includes if self.graph is not None else ()
-        return any(is_gazebo_include(include) and include.starts for include in includes)
+        """Whether Gazebo is told of `<gazebo_ros>` in package.xml: its own launch files do."""
+        if self.graph is None:
+            return False
+        own = (include for include in self.graph.includes if is_gazebo_include(include))
+        return any(include.starts for include in own) or includes_classic(self.graph)
 
     @cached_property
     def models(self) -> tuple[Robot, ...]:
@@ -175,6 +186,9 @@ def simulations(
 def _simulation(package: Package, graph: LaunchGraph, reader: SpawnedReader) -> Simulation:
     bridges = read_bridges(package, graph)
     servers = tuple(read_servers(package, graph))
+    if not servers and starts_classic(graph):
+        classic, _ = reader.robots(graph, CLASSIC_SPAWNS)
+        return Simulation(graph, bridges, classic_robots=tuple(classic))
     if not bridges.entries and not servers:
         return Simulation(graph, bridges)
     robots, unknown = reader.robots(graph)

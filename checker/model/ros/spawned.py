@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 
 from checker.base.record import Record
@@ -34,6 +34,7 @@ from checker.package.package import Package
 from checker.source.xml import XmlDocument
 
 _SPAWNS = tuple((package, "create") for package in GAZEBO)
+CLASSIC_SPAWNS = (("gazebo_ros", "spawn_entity.py"),)
 
 
 class SpawnedRobot(Record, eq=False):
@@ -77,13 +78,20 @@ class SpawnedReader:
         self._known: dict[str, _Described | str] = {}
         self._control = control
 
-    def robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
-        """Return the robots that a launch file spawns, and why others are not among them."""
+    def robots(
+        self, graph: LaunchGraph, spawns: Collection[tuple[str, str]] = _SPAWNS
+    ) -> tuple[list[SpawnedRobot], list[str]]:
+        """Return the robots that a launch file spawns, and why others are not among them.
+
+        Args:
+            graph: Of the launch file.
+            spawns: Packages and programs that spawn; those of Gazebo Sim if none are given.
+        """
         loaded = [*loaded_descriptions(self._package, graph)]
         robots: list[SpawnedRobot] = []
         unknown: list[str] = [*_spawned_otherwise(graph)]
         for node in graph.nodes:
-            if node.package.value not in GAZEBO or node.executable.value != "create":
+            if (node.package.value, node.executable.value) not in spawns:
                 continue
             if node.starts is False:
                 continue
