@@ -57,7 +57,7 @@ def test_each_rule_that_needs_physics_says_so(without: Callable[[Extra], None]) 
     assert not package.blind_spots
     assert package.trial is None
     assert package.display is None
-    assert {"KIN001", "SDF001"} <= set(package.looked)
+    assert {"KIN001", "SDF001", "INE002"} <= set(package.looked)
     assert NO_PHYSICS.endswith(REMEDY)
 
 

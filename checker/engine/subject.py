@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from checker.model.ros2_control.launched import LaunchedControl
     from checker.model.ros2_control.robot_control import RobotControl
     from checker.model.urdf.description import UrdfDescription
+    from checker.physics.mass.link_inertias import LinkInertias
 
 T = TypeVar("T")
 
@@ -246,6 +247,15 @@ class Subject(Record, eq=False, dict=True):
         return document
 
     @cached_property
+    def link_inertias(self) -> tuple[LinkInertias, ...] | NotAvailable:
+        """The inertia of each link, as written."""
+        if isinstance(self.robots, NotAvailable):
+            return self.robots
+        from checker.physics.mass.link_inertias import link_inertias
+
+        return tuple(map(link_inertias, self.robots))
+
+    @cached_property
     def sdf(self) -> SdfDocument | NotAvailable:
         """The model file as SDF."""
         if isinstance(self.model, NotAvailable):
@@ -393,6 +403,7 @@ _PROVIDERS: dict[str, Callable[[Subject], object]] = {
     "PluginHost": lambda subject: subject.plugin_hosts,
     "Robot": lambda subject: subject.robots,
     "FirstConfiguration": lambda subject: subject.submission.first_configuration,
+    "LinkInertias": lambda subject: subject.link_inertias,
     "MassProperties": lambda subject: subject.physics.masses,
     "RobotTrial": lambda subject: subject.physics.driven,
     "SettledTrial": lambda subject: subject.physics.settled,

@@ -20,7 +20,8 @@ from checker.model.components import Inertial, Link
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
 from checker.model.sdf.auto_inertia import is_automatic
-from checker.physics.mass.mass_properties import LinkInertia, MassProperties
+from checker.physics.mass.link_inertias import LinkInertias
+from checker.physics.mass.mass_properties import LinkInertia
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 
@@ -30,7 +31,7 @@ _OF_A_BODY = 1e-4
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
 def check(
-    masses: MassProperties, context: Context, *, tolerance: float = 1e-13, rounding: float = 1e-3
+    inertias: LinkInertias, context: Context, *, tolerance: float = 1e-13, rounding: float = 1e-3
 ) -> Findings:
     """Report masses that are not positive and finite, and moments that no body can have.
 
@@ -43,10 +44,10 @@ def check(
             digits do no harm.
     """
     readable = Severity.ERROR if context.release else Severity.WARNING
-    robot = masses.robot
+    robot = inertias.robot
     misread = _misread(robot)
     share = rounding if robot.format == "urdf" else tolerance
-    for inertia in masses.links.values():
+    for inertia in inertias.links.values():
         inertial = inertia.link.inertial
         if inertial is None or _spans(inertial) & misread or _left_open(inertia.link, inertial):
             continue

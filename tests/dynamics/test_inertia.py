@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from checker.physics.mass.link_inertias import link_inertias
 from checker.physics.mass.mass_properties import LinkInertia
 from checker.physics.mass.robot_mass import weigh
 from tests.dynamics.bodies import (
@@ -132,3 +133,17 @@ def test_no_number_raises_and_none_is_hidden(numbers: tuple[str, ...]) -> None:
         assert all(map(math.isnan, inertia.principal))
         assert math.isnan(inertia.pseudo_eigenvalue)
     assert properties.centre is None or all(map(math.isfinite, properties.centre))
+
+
+@given(solids, rotations, poses, poses)
+def test_links_weigh_the_same_without_numpy(
+    solid: tuple[float, Matrix], rotation: Matrix, own: Pose, at: Pose
+) -> None:
+    mass, moments = solid
+    rows = turned(moments, rotation)
+    robot = sdf(link("body", inertial(mass, rows, own), at))
+    ours, theirs = link_inertias(robot).links["body"], weigh(robot).links["body"]
+    np.testing.assert_allclose(ours.principal, theirs.principal, rtol=1e-9, atol=1e-15 * mass)
+    assert ours.pseudo_eigenvalue == pytest.approx(theirs.pseudo_eigenvalue, abs=1e-13)
+    assert ours.piece_eigenvalue == pytest.approx(theirs.piece_eigenvalue, abs=1e-12)
+    assert ours.gyration_radius == pytest.approx(theirs.gyration_radius)
