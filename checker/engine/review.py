@@ -20,11 +20,13 @@ from checker.engine.facts import facts_of, trials_of
 from checker.engine.options import check_against_rules
 from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
 from checker.engine.subject import Subject
+from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
     NO_PHYSICS,
+    ROBOT,
     Cause,
     Display,
     InheritedPart,
@@ -183,6 +185,7 @@ def _report(
                 subject.start_display()
         outcome = run_and_set_aside(known, known, subject, judge, settings)
     blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
+    unread = _robots(subject)
     robots, trouble = _facts(subject)
     trials = trials_of(subject, outcome)
     display, undrawn = _display(subject) if settings.display else (None, ())
@@ -191,7 +194,7 @@ def _report(
         shown,
         str(package.kind),
         outcome.findings,
-        (*outcome.not_checked, *blind, *trouble, *undrawn),
+        (*outcome.not_checked, *blind, *unread, *trouble, *undrawn),
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
@@ -217,6 +220,15 @@ def _unread(package: Package) -> Iterator[str]:
     yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
     if len(large) > _SHOWN:
         yield f"{len(large) - _SHOWN} more XML files are too large to be checked"
+
+
+def _robots(subject: Subject) -> tuple[NotChecked, ...]:
+    """Return why no robot was read, if one is missing."""
+    try:
+        with subject.allowance.piece():
+            return tuple(unread_robots(subject))
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - a reader that fails takes no finding with it
+        return (unfinished(ROBOT, error),)
 
 
 def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:

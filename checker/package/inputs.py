@@ -195,7 +195,9 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
         elif not os.access(place, os.R_OK | os.X_OK):
             yield Skipped(place.name, "cannot be read: permission denied")
         elif not any(unit.folder.is_relative_to(place) for unit in found.units):
-            yield Skipped(place.name, "contains no package")
+            marks = [mark.name for mark in found.ignored if mark.is_relative_to(place)]
+            why = f"is left out by {marks[0]}" if marks else "contains no package"
+            yield Skipped(place.name, why)
 
 
 def _open_single(path: Path, file: Path) -> Opened:

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 MODEL_MARKERS = frozenset({"model.config", "model.sdf"})
 MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
+IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
+"""Files that keep the build tools out of a folder; colcon puts one into what it builds."""
 MODEL_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro")
 
 

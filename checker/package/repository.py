@@ -9,14 +9,12 @@ from pathlib import Path
 
 from checker.base.record import Record
 from checker.package.inheritance import SPAWNER
-from checker.package.kind import MODEL_MARKERS, MODEL_SUFFIXES, looks_like_package
+from checker.package.kind import IGNORED, MODEL_MARKERS, MODEL_SUFFIXES, looks_like_package
 
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
 _ITEMS = 5_000
 """Of one folder that are looked at."""
-IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
-"""Files that keep the build tools out of a folder; colcon puts one into what it builds."""
 _SDF_SUFFIXES = (".sdf", ".world", ".sdf.xacro", ".world.xacro")
 _URDF_FOLDER = "urdf"
 

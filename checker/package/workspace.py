@@ -13,7 +13,7 @@ from msgspec import field
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
-from checker.package.kind import looks_like_package
+from checker.package.kind import IGNORED, looks_like_package
 from checker.package.overlay import Overlay
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -61,8 +61,18 @@ class Workspace(Record, eq=False, dict=True):
             self._found[name] = self._look_for(name)
         return self._found[name]
 
+    def ignores(self, name: str) -> bool:
+        """Say whether a file such as COLCON_IGNORE keeps the build out of a package's folder."""
+        marks = (folder / name / mark for folder in self.directories for mark in IGNORED)
+        try:
+            return any(mark.exists() for mark in marks)
+        except OSError:  # a name that no folder can have
+            return False
+
     def _look_for(self, name: str) -> Package | None:
         if not name or name.startswith(".") or "/" in name or "\\" in name or "\0" in name:
+            return None
+        if self.ignores(name):
             return None
         for directory in self.directories:
             if found := self._at(directory / name):

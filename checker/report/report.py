@@ -16,6 +16,8 @@ SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
 NO_TRIAL = "trial not run (--no-trial)"
 """Why rules about the trial did not look when the user wants none."""
+ROBOT = "robot"
+"""What `NotChecked.rule` says where a robot could not be read."""
 NO_PHYSICS = PHYSICS.missing
 """Why rules that need it did not look; like what the user switched off, it hides no error."""
 

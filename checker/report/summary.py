@@ -14,6 +14,7 @@ from checker.report.render_settings import Palette
 from checker.report.report import (
     NO_PHYSICS,
     NO_TRIAL,
+    ROBOT,
     Cause,
     PackageReport,
     Report,
@@ -79,10 +80,13 @@ def _owner(found: ReportedFinding) -> str:
 
 def _unseen(package: PackageReport) -> str:
     unseen = [spot for spot in package.blind_spots if spot.may_hide_error]
-    blind = len({spot.rule for spot in unseen})
-    reasons = list(dict.fromkeys(spot.reason for spot in unseen))
+    robots = list(dict.fromkeys(spot.reason for spot in unseen if spot.rule == ROBOT))
+    others = [spot for spot in unseen if spot.rule != ROBOT]
+    reasons = robots or list(dict.fromkeys(spot.reason for spot in others))
     shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
-    return f"{count(blind, 'rule')} could not run: {shown}"
+    blind = len({spot.rule for spot in others})
+    what = "no robot was read" if robots else f"{count(blind, 'rule')} could not run"
+    return f"{what}: {shown}"
 
 
 def _aside(package: PackageReport) -> str:

@@ -16,6 +16,7 @@ from checker.report.ownership import Identity, foreign_findings, owned_by, share
 from checker.report.render_settings import Palette, RenderSettings, is_shown, shown_findings
 from checker.report.report import (
     IN_BASELINE,
+    ROBOT,
     USUAL_PROFILE,
     Cause,
     NotChecked,
@@ -218,6 +219,7 @@ def _package(
         return "".join(f"{line}\n" for line in lines)
     kind = package.kind.replace("_", " ") + _profile(package)
     lines[:0] = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
+    lines[1:1] = _unread_robots(package)
     lines += _infos(len(share.own) - len(own))
     lines += [
         f"{count(n, 'finding')} in {plain(name)}: listed there"
@@ -229,7 +231,8 @@ def _package(
     )
     lines += suppressed_text(package.suppressed)
     lines += _inherited(package)
-    lines += _not_checked(package.not_checked, settings)
+    others = [unseen for unseen in package.not_checked if unseen.rule != ROBOT]
+    lines += _not_checked(others, settings)
     lines += _robots(package, palette)
     lines.append(verdict_text(package, palette))
     return "\n".join(lines) + "\n"
@@ -260,6 +263,12 @@ def _inherited(package: PackageReport) -> Iterator[str]:
         by_source.setdefault(source, []).append(part.part)
     for source, parts in by_source.items():
         yield f"inherited from {plain(source)}: {plain(listed(parts))}"
+
+
+def _unread_robots(package: PackageReport) -> Iterator[str]:
+    for unseen in package.blind_spots:
+        if unseen.rule == ROBOT:
+            yield f"no robot was read: {plain(shortened(unseen.reason, MESSAGE_LIMIT))}"
 
 
 def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) -> Iterator[str]:

@@ -2,9 +2,9 @@
 
 What is included or read does not start; a node that is given the path ends, or runs without its
 parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
-Files of packages that are not available, and files that the build makes, are not judged. Where a
-condition leaves the action out, for what is only shown in RViz, and for what is handed to a launch
-file that is not available, unless it starts Gazebo, this is a warning.
+Worlds and parameters in packages that are not available are not checked; files that the build makes
+are not judged. Where a condition leaves the action out, for what is only shown in RViz, and for
+what is handed to a launch file that is not available, unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
@@ -12,9 +12,16 @@ ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 """
 
 from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.ros2_launch.named_paths import is_missing, lies_elsewhere, named_paths
+from checker.expand.ros2_launch.named_paths import (
+    is_missing,
+    lies_elsewhere,
+    named_paths,
+    unavailable,
+)
 from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+
+_DATA = (".yaml", ".yml", ".world", ".sdf")
 
 
 @rule("LCH001", "launch-names-missing-file", Severity.ERROR, Concern.INTERFACE)
@@ -22,7 +29,10 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report files in share folders of available packages that are not there."""
     for graph in launch.entries:
         for named in named_paths(graph):
-            if is_missing(package, named.path):
+            is_data = named.needed and named.path.path.endswith(_DATA)
+            if is_data and (why := unavailable(package, named.path.package)):
+                yield unchecked(f"{named.path} is not read: {why}")
+            elif is_missing(package, named.path):
                 what = "the included file" if named.include else "the file"
                 found = lies_elsewhere(package, named.path)
                 hint = f": {found} is not installed there" if found else ""

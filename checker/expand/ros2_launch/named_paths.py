@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from checker.base.record import Record
+from checker.base.resources import table
 from checker.expand.ros2_launch.graph import (
     GAZEBO,
     Include,
@@ -23,6 +24,7 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
+_OF_ROS = ("moveit_", "nav2_", "rviz")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
 
@@ -113,6 +115,23 @@ def is_missing(package: Package, path: SharePath) -> bool:
         return False
     there = holder.exists(path.path) or source_of(holder, path.path) is not None
     return not there and not may_be_made(holder, path.path)
+
+
+def unavailable(package: Package, name: str) -> str:
+    """Return why a package cannot be read, and what helps; empty where that does not matter.
+
+    Packages of ROS whose nodes are known hold no part of the robot.
+
+    Args:
+        package: That is checked.
+        name: Of the other package.
+    """
+    known = {node.partition("/")[0] for node in table("ros_nodes")["nodes"]}
+    if name.startswith(_OF_ROS) or name in (*known, *GAZEBO) or holder_of(package, name):
+        return ""
+    if package.workspace.ignores(name):
+        return f"a file such as COLCON_IGNORE keeps package {name} from being built"
+    return f"package {name} is not available; --package-path DIR names the folder that holds it"
 
 
 def lies_elsewhere(package: Package, path: SharePath) -> str:

@@ -1,0 +1,68 @@
+"""Why a package's robot was not read: a verdict needs a robot."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from checker.base.parts import NotAvailable
+from checker.engine.subject import Subject
+from checker.expand.ros2_launch.graph import LaunchGraph
+from checker.expand.ros2_launch.named_paths import named_paths, unavailable
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.report.report import ROBOT, Cause, NotChecked
+
+_NO_ROBOT = "no URDF, xacro or SDF file of it is a robot, and no launch file starts one"
+_MODELS = (".urdf", ".xacro", ".sdf")
+_TEMPLATE = re.compile(r"\.(?:sdf|urdf|xacro)\.(?:jinja2?|j2|em|erb)$")
+_WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.WORLD)
+
+
+def unread_robots(subject: Subject) -> Iterator[NotChecked]:
+    """Say why no robot of a package was read; nothing where one was, or where none is expected."""
+    package = subject.package
+    if package.only or package.kind in _WITHOUT_ROBOT or _was_read(subject):
+        return
+    reasons = list(dict.fromkeys((*_of_launch_files(subject), *_of_templates(package))))
+    for reason in reasons:
+        yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
+    if not reasons and package.kind is PackageKind.UNKNOWN:
+        # Beside packages with robots, one without may hold messages, maps or code.
+        beside = any(other.kind is not PackageKind.UNKNOWN for other in package.others)
+        cause = Cause.NOT_APPLICABLE if beside else Cause.NOT_AT_HAND
+        yield NotChecked(ROBOT, _NO_ROBOT, cause)
+
+
+def _was_read(subject: Subject) -> bool:
+    if not isinstance(subject.robots, NotAvailable):
+        return True
+    simulations = subject.simulations
+    launched = () if isinstance(simulations, NotAvailable) else simulations.launched
+    return any(simulation.robots for simulation in launched)
+
+
+def _of_launch_files(subject: Subject) -> Iterator[str]:
+    launch, simulations = subject.ros2_launch, subject.simulations
+    graphs = () if isinstance(launch, NotAvailable) else launch.entries
+    elsewhere = [reason for graph in graphs for reason in _elsewhere(subject.package, graph)]
+    yield from elsewhere
+    if not elsewhere and not isinstance(simulations, NotAvailable):
+        for simulation in simulations.launched:
+            file = simulation.graph.file if simulation.graph is not None else ""
+            yield from (f"{file}: {reason}" for reason in simulation.unknown_robots)
+
+
+def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
+    """Yield what a launch file takes from packages that are not available."""
+    for named in named_paths(graph):
+        concerns = named.needed and (named.include or named.path.path.endswith(_MODELS))
+        if concerns and (why := unavailable(package, named.path.package)):
+            what = "includes" if named.include else "takes the robot from"
+            yield f"{graph.file} {what} {named.path}: {why}"
+
+
+def _of_templates(package: Package) -> Iterator[str]:
+    for file in package.index.files:
+        if _TEMPLATE.search(file.path):
+            yield f"{file.path} is a template, which is not read: check the model that it makes"

@@ -1,0 +1,74 @@
+"""A package is ready only where a robot was read, or where another package has one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.pipeline import check_package
+from checker.report.report import ROBOT, PackageReport, VerdictKind
+from checker.report.summary import sentence
+from checker.rule_testing import write_example
+from checker.settings import Settings
+
+BRINGUP = "acme_arm_bringup"
+ARM = "urdf/arm.urdf.xacro"
+OF_ANOTHER = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+            parameters=[{'robot_description': Command(['xacro ', os.path.join(
+                get_package_share_directory('acme_hand'), 'urdf', 'hand.urdf.xacro')])}]),"""
+WITHOUT_ROBOT = {"@ros2": True, ARM: None, "launch/arm.launch.py": None}
+HAND = {
+    "../acme_hand/package.xml": "<package format='3'><name>acme_hand</name></package>",
+    "../acme_hand/urdf/hand.urdf.xacro": "<robot name='hand'><link name='base_link'/></robot>",
+}
+
+
+def checked(example: dict[str, object], folder: Path) -> PackageReport:
+    settings = Settings(profile="ros2", profile_chosen=True, trial=False)
+    (report,) = check_package(write_example(example, folder), settings).packages
+    return report
+
+
+def reasons(report: PackageReport) -> list[str]:
+    return [spot.reason for spot in report.blind_spots if spot.rule == ROBOT]
+
+
+def test_a_robot_that_was_read_is_missed_by_nobody(tmp_path: Path) -> None:
+    assert reasons(checked({"@ros2": True}, tmp_path)) == []
+
+
+def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
+    report = checked(WITHOUT_ROBOT, tmp_path)
+    assert report.verdict is VerdictKind.INCOMPLETE
+    assert "no robot was read: no URDF, xacro or SDF file" in str(sentence(report))
+
+
+def test_beside_a_package_with_a_robot_it_is(tmp_path: Path) -> None:
+    report = checked({**WITHOUT_ROBOT, **HAND}, tmp_path)
+    assert reasons(report) == []
+
+
+@pytest.mark.parametrize("ignored", [False, True])
+def test_a_launch_file_names_the_package_that_is_missing(tmp_path: Path, ignored: bool) -> None:
+    example: dict[str, object] = {"@ros2": OF_ANOTHER, ARM: None}
+    if ignored:
+        example |= {**HAND, "../acme_hand/COLCON_IGNORE": ""}
+    (reason,) = reasons(checked(example, tmp_path))
+    assert "acme_hand)/urdf/hand.urdf.xacro" in reason
+    assert ("COLCON_IGNORE" if ignored else "--package-path DIR") in reason
+
+
+def test_a_template_is_no_robot(tmp_path: Path) -> None:
+    example = {**WITHOUT_ROBOT, "urdf/arm.urdf.jinja": "<robot name='{{ name }}'/>"}
+    (reason,) = reasons(checked(example, tmp_path))
+    assert reason.startswith("urdf/arm.urdf.jinja is a template")
+
+
+def test_a_world_in_a_missing_package_is_not_checked(tmp_path: Path) -> None:
+    world = """        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
+                'gz_args': [FindPackageShare('acme_worlds'), '/worlds/hall.sdf']}.items()),"""
+    report = checked({"@ros2": world}, tmp_path)
+    assert report.verdict is VerdictKind.INCOMPLETE
+    assert any("acme_worlds is not available" in spot.reason for spot in report.blind_spots)
