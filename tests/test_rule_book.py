@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 21,
+    "URD": 22,
     "CTL": 8,
     "BRG": 11,
     "WIR": 5,

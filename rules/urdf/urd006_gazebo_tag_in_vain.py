@@ -13,22 +13,9 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.urdf.description import GazeboTag, UrdfDescription
+from checker.model.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
-OF_LINKS = frozenset(
-    {
-        *("dampingFactor", "fdir1", "gravity", "kd", "kp", "laserRetro", "material", "maxContacts"),
-        *("maxVel", "minDepth", "mu1", "mu2", "selfCollide", "self_collide", "sensor"),
-        *("turnGravityOff", "visual", "collision"),
-    }
-)
-OF_JOINTS = frozenset(
-    {
-        *("cfmDamping", "disableFixedJointLumping", "fudgeFactor", "implicitSpringDamper"),
-        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "springReference"),
-        *("springStiffness", "stopCfm", "stopErp"),
-    }
-)
 _WITHOUT_EFFECT = frozenset(
     {
         *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),

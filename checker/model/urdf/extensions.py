@@ -6,6 +6,22 @@ from checker.model.values import parse_number
 from checker.source.text import Located
 from checker.source.xml import Element
 
+OF_LINKS = frozenset(
+    {
+        *("dampingFactor", "fdir1", "gravity", "kd", "kp", "laserRetro", "material", "maxContacts"),
+        *("maxVel", "minDepth", "mu1", "mu2", "selfCollide", "self_collide", "sensor"),
+        *("turnGravityOff", "visual", "collision"),
+    }
+)
+"""What a `<gazebo>` tag with the name of a link may say."""
+OF_JOINTS = frozenset(
+    {
+        *("cfmDamping", "disableFixedJointLumping", "fudgeFactor", "implicitSpringDamper"),
+        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "springReference"),
+        *("springStiffness", "stopCfm", "stopErp"),
+    }
+)
+"""What a `<gazebo>` tag with the name of a joint may say."""
 _TRUE = ("1", "true")
 
 

@@ -11,6 +11,8 @@ import msgspec
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.base.words import Suggestions
+from checker.model.urdf.extensions import OF_JOINTS, OF_LINKS
+from checker.model.values import parse_number
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
@@ -40,6 +42,22 @@ class NewerPart(Record):
     name: str
     since: str
     span: Span
+
+
+class StrayPart(Record):
+    """An element below a link or joint, where no reader looks for it.
+
+    Attributes:
+        element: The element.
+        path: Of the tag around it.
+        owner: The link or joint.
+        advice: What to write instead.
+    """
+
+    element: Element
+    path: str
+    owner: Element
+    advice: str
 
 
 class MisspeltPart(Record):
@@ -131,6 +149,42 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
             meant = _meant(name, lost) if name not in spec else None
             if text is not None and meant is not None:
                 yield MisspeltPart(name, element.tag, meant, text.span, path)
+
+
+def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
+    """Yield elements of `<robot>`, `<gazebo>` and SDF that are written in links and joints."""
+    for element, path in _below(document):
+        if "/" not in path:
+            owner = element
+        known = _children().get(path)
+        for child in element.children if known is not None else ():
+            advice = None if child.tag in known else _advice(child, path, owner)
+            if advice is not None and not _changes_nothing(child):
+                yield StrayPart(child, path, owner, advice)
+
+
+def _changes_nothing(part: Element) -> bool:
+    """Whether an element says what holds without it."""
+    if part.tag == "origin":
+        numbers = f"{part.get('xyz') or ''} {part.get('rpy') or ''}".split()
+        return all(parse_number(number) == 0 for number in numbers)
+    return part.text.value.strip() in table("urdf_spec")["elsewhere"]["defaults"].get(part.tag, ())
+
+
+def _advice(part: Element, path: str, owner: Element) -> str | None:
+    """Return what to write instead of an element that readers pass over; None if it is unknown."""
+    elsewhere = table("urdf_spec")["elsewhere"]
+    other: Mapping[str, str] = elsewhere["other"]
+    if text := other.get(f"{path}/{part.tag}") or other.get(part.tag):
+        return text
+    name = owner.get("name") or "…"
+    if part.tag in elsewhere["robot"]:
+        lacks = part.tag == "gazebo" and part.get("reference") is None
+        return "move it into <robot>" + (f' and add reference="{name}"' if lacks else "")
+    if part.tag == "material" or (part.tag == "sensor" and part.get("type") is None):
+        return None  # a colour of a collision; a sensor of another program
+    known = OF_JOINTS if path == "joint" else OF_LINKS.union(elsewhere["sdf"])
+    return f'move it into <gazebo reference="{name}"> in <robot>' if part.tag in known else None
 
 
 def _meant(name: str, known: list[str]) -> str | None:

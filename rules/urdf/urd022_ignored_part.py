@@ -1,0 +1,56 @@
+"""An element in a link or joint of a URDF, where no reader looks for it.
+
+URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
+it no friction, a `<gazebo>` tag inside a link loads no plugin, and `<joint_properties>` adds no
+damping. Elements that only other programs read, such as `<contact>` of Bullet, are not reported.
+
+Fix: write the element where the message says.
+Source: urdfdom, link.cpp and joint.cpp; sdformat's parser_urdf.cc, which takes `<gazebo>` tags of
+`<robot>` alone (`urdf_spec.json`).
+"""
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.specification import stray_parts
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("URD022", "ignored-urdf-part", Severity.WARNING, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report elements of SDF, of Gazebo and of the robot that are written in links and joints."""
+    for part in stray_parts(description.document) if not description.for_rviz else ():
+        tag, around = part.element.tag, part.path.rpartition("/")[2]
+        owner = part.owner.get("name")
+        yield finding(
+            part.element,
+            f"URDF readers ignore <{tag}> in <{around}> of {owner!r}: {part.advice}",
+            key=f"{around}/{tag}",
+        )
+
+
+def _lamp(link: str, joint: str = "") -> dict[str, str]:
+    return {
+        "@urdf": f"""<link name="lamp">
+{link}
+</link>
+<joint name="j" type="continuous">
+<parent link="upper_arm"/><child link="lamp"/>
+{joint}
+</joint>"""
+    }
+
+
+_MARK = "  <!-- ^ URD022 -->"
+_BOX = "<collision><geometry><box size='1 1 1'/></geometry>\n@</collision>"
+GOOD = [
+    _lamp(_BOX.replace("@", '<material name="red"/>') + "<contact><lateral_friction/></contact>"),
+    _lamp('<origin xyz="0 0 0"/><gravity>true</gravity>'),
+    _lamp("<sensor/>", '<dynamics damping="1"/>'),
+    {"@urdf": '<gazebo reference="upper_arm"><mu1>1</mu1></gazebo>'},
+]
+BAD = [
+    _lamp(_BOX.replace("@", f"<surface><friction/></surface>{_MARK}\n")),
+    _lamp(f"<mu1>1</mu1>{_MARK}\n<pose>0 0 1 0 0 0</pose>{_MARK}"),
+    _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
+    _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
+    _lamp("", f'<joint_properties damping="1"/>{_MARK}\n<stopErp>0.2</stopErp>{_MARK}'),
+]
