@@ -156,8 +156,8 @@ def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
     for element, path in _below(document):
         if "/" not in path:
             owner = element
-        known = _children().get(path)
-        for child in element.children if known is not None else ():
+        known = _children().get(path, frozenset())
+        for child in element.children if known else ():
             advice = None if child.tag in known else _advice(child, path, owner)
             if advice is not None and not _changes_nothing(child):
                 yield StrayPart(child, path, owner, advice)
