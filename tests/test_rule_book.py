@@ -9,7 +9,7 @@ from checker.rulebook.discovery import all_rules
 
 BOOK = {
     "CFG": 4,
-    "PKG": 19,
+    "PKG": 20,
     "SDF": 18,
     "REF": 6,
     "KIN": 17,

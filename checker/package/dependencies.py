@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -12,7 +12,7 @@ from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
 from checker.package.submissions import is_same_robot
 from checker.source.cmake import CMakeFile, read_cmake
-from checker.source.text import SourceText
+from checker.source.text import SourceText, Span
 from checker.source.xml import Element, XmlDocument
 
 if TYPE_CHECKING:
@@ -153,13 +153,42 @@ def _in_model(element: Element) -> Iterator[Use]:
         yield Use(match[2], element.text.span.place(), match[1])
 
 
-def former_names(package: Package) -> frozenset[str]:
+_SHARED = re.compile(
+    r"(?:\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)|package://([\w-]{1,200}))" + _PATH
+)
+_MESSAGES = re.compile(r"^[ \t]{0,40}from[ \t]{1,8}([a-z]\w{0,199})\.(?:msg|srv|action)[ \t]", re.M)
+
+
+def uses_in_ros2(package: Package) -> Iterator[Use]:
+    """Yield the packages that descriptions of robots and nodes in Python name.
+
+    Launch files are evaluated, see `used_packages`.
+    """
+    for file in package.index.with_suffix(".urdf", ".xacro"):
+        document = package.xml(file.path)
+        for element in document.elements if isinstance(document, XmlDocument) else ():
+            for name, value in element.attributes.items():
+                for match in _SHARED.finditer(value):
+                    yield Use(match[1] or match[2], _place(element, name), match[0], match[3] or "")
+    for file in package.index.with_suffix(".py"):
+        source = package.read(file.path)
+        if isinstance(source, SourceText):
+            for match in _MESSAGES.finditer(source.text):
+                if not package.exists(match[1]):
+                    yield Use(match[1], Span(source, *match.span(1)).place(), match[0].strip())
+
+
+def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
     """Return names of packages that are not at hand and whose files this package has, all of them.
 
     It was renamed, and still uses its own files by the name that it had.
+
+    Args:
+        package: That uses them.
+        uses: What it uses.
     """
     own: dict[str, bool] = {}
-    for use in uses_of(package):
+    for use in uses:
         name = use.package_name
         if use.path and package.workspace.package(name) is None:
             own[name] = own.get(name, True) and package.exists(use.path)

@@ -24,11 +24,12 @@ MANIFEST = "package.xml"
 _SHARE = "share/"
 _PATTERN_LIMIT = 200
 _WORD = re.compile(r"[\w-]+")
-_GENERATES = re.compile(
+GENERATES = re.compile(
     r"\b(?:add_custom_command|configure_file|xacro_\w{1,40}|file\s{0,8}\(\s{0,8}(?:GENERATE|DOWNLOAD)"
     r"|ExternalProject_Add|FetchContent_\w{1,40}|execute_process)\b",
     re.IGNORECASE,
 )
+"""Commands of CMake that make files while it builds."""
 _MAY_INSTALL = re.compile(r"install|add_subdirectory|\binclude\b", re.IGNORECASE)
 _PYTHON_MODULES = "ament_python_install_package"
 
@@ -147,7 +148,7 @@ def may_be_made(package: Package, path: str) -> bool:
         source = package.read(file)
         if not isinstance(source, SourceText):
             continue
-        if _GENERATES.search(source.text) or stem in _WORD.findall(source.text):
+        if GENERATES.search(source.text) or stem in _WORD.findall(source.text):
             return True
     return False
 
@@ -176,9 +177,9 @@ def data_file_items(setup: SetupFile, index: FileIndex) -> Iterator[tuple[str, s
         if not entry.destination.startswith(_SHARE):
             continue
         below = entry.destination.removeprefix(_SHARE).partition("/")[2]
-        for item in entry.items:
-            for origin in _matching(item, index) if isinstance(item, Pattern) else (item,):
-                yield posixpath.normpath(posixpath.join(below, posixpath.basename(origin))), origin
+        matching = (path for pattern in entry.patterns for path in _matching(pattern, index))
+        for origin in (*(file.value for file in entry.files), *matching):
+            yield posixpath.normpath(posixpath.join(below, posixpath.basename(origin))), origin
 
 
 def _matching(pattern: Pattern, index: FileIndex) -> Iterator[str]:

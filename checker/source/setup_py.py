@@ -1,4 +1,4 @@
-"""What a setup.py installs: its `data_files`, as far as they are written out.
+"""What a setup.py installs: `data_files` and executables, as far as they are written out.
 
 The file is read as a syntax tree and never run. Texts, lists, names that are set once, f-strings,
 `os.path.join` and `glob` are followed; anything else makes the answer incomplete.
@@ -8,15 +8,21 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
+
+from msgspec.structs import replace
 
 from checker.base.record import Record
-from checker.source.text import SourceText, Span
+from checker.source.text import Located, SourceText, Span
 
 LIMIT = 200_000
 """Characters of a file that is read."""
 _DEEPEST = 50
+_SCRIPTS = ("console_scripts", "gui_scripts")
+_EXECUTABLE = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?")
 _JOINS = ("os.path.join", "path.join", "join")
 _GLOBS = ("glob", "glob.glob")
 
@@ -33,12 +39,30 @@ class DataFiles(Record, eq=False):
 
     Attributes:
         destination: Below the prefix, such as `share/arm/launch`.
-        items: Paths and patterns, from the folder of setup.py.
+        files: Paths from the folder of setup.py.
+        patterns: Patterns for such paths.
         span: The entry.
     """
 
     destination: str
-    items: tuple[str | Pattern, ...]
+    files: tuple[Located[str], ...]
+    patterns: tuple[Pattern, ...]
+    span: Span
+
+
+class Executable(Record, eq=False):
+    """An entry of `console_scripts`: `talker = arm.nodes:main`.
+
+    Attributes:
+        name: Of the program.
+        module: Dotted.
+        function: In the module; empty when none is named.
+        span: The entry.
+    """
+
+    name: str
+    module: str
+    function: str
     span: Span
 
 
@@ -49,11 +73,15 @@ class SetupFile(Record, eq=False):
         data_files: Entries that can be read.
         complete: Whether these are all.
         span: `data_files`, or the call of `setup`.
+        executables: Entries of `console_scripts` that can be read.
+        plain: Whether modules lie where their names say, and no option is set in the file.
     """
 
     data_files: tuple[DataFiles, ...]
     complete: bool
     span: Span
+    executables: tuple[Executable, ...] = ()
+    plain: bool = True
 
 
 class _Unknown(Exception):
@@ -72,11 +100,12 @@ def read_setup(source: SourceText) -> SetupFile | None:
     if call is None:
         return None
     reader = _Reader(source, _constants(tree))
-    given = next((word.value for word in call.keywords if word.arg == "data_files"), None)
-    if given is None:
-        spread = any(word.arg is None for word in call.keywords)
-        return SetupFile((), not spread, reader.span(call))
-    return reader.setup_file(given)
+    given = {word.arg: word.value for word in call.keywords}
+    scripts = tuple(reader.executables(given["entry_points"])) if "entry_points" in given else ()
+    plain = {"package_dir", "options", None}.isdisjoint(given)
+    if "data_files" not in given:
+        return SetupFile((), None not in given, reader.span(call), scripts, plain)
+    return replace(reader.setup_file(given["data_files"]), executables=scripts, plain=plain)
 
 
 def _calls(tree: ast.Module) -> Iterator[ast.Call]:
@@ -180,16 +209,35 @@ class _Reader:
             items = tuple(self._items(node.elts[1], 0))
         except _Unknown:
             return None
-        return DataFiles(destination, items, self.span(node))
+        return DataFiles(
+            destination,
+            tuple(item for item in items if isinstance(item, Located)),
+            tuple(item for item in items if isinstance(item, Pattern)),
+            self.span(node),
+        )
 
-    def _items(self, node: ast.expr, depth: int) -> Iterator[str | Pattern]:
+    def executables(self, node: ast.expr) -> Iterator[Executable]:
+        """Yield the programs among what is given as `entry_points`."""
+        if isinstance(node, ast.Name):
+            node = self.names.get(node.id, node)
+        if not isinstance(node, ast.Dict):
+            return
+        for key, group in zip(node.keys, node.values, strict=True):
+            if not isinstance(key, ast.Constant) or key.value not in _SCRIPTS:
+                continue
+            for entry in group.elts if isinstance(group, ast.List | ast.Tuple) else ():
+                with suppress(_Unknown):
+                    if match := _EXECUTABLE.fullmatch(self._text(entry, 0)):
+                        yield Executable(match[1], match[2], match[3] or "", self.span(entry))
+
+    def _items(self, node: ast.expr, depth: int) -> Iterator[Located[str] | Pattern]:
         if depth > _DEEPEST:
             raise _Unknown
         if isinstance(node, ast.Name) and node.id in self.names:
             yield from self._items(self.names[node.id], depth + 1)
         elif isinstance(node, ast.List | ast.Tuple):
             for item in node.elts:
-                yield self._text(item, 0)
+                yield Located(self._text(item, 0), self.span(item))
         elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
             yield from self._items(node.left, depth + 1)
             yield from self._items(node.right, depth + 1)

@@ -1,21 +1,31 @@
 """A package that is used, but not declared as a dependency.
 
 A package that package.xml does not name is not installed with the robot: launch files of another
-submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count. The
+submission, the bridge to ROS, or the package of a node are then missing where the robot runs.
+Comments do not count. In ROS 2 this holds for the packages of nodes, components, included launch
+files, parameter files, `xacro` commands, `$(find …)` and `package://` in robot descriptions, and
+messages that nodes in Python import; what a declared package of packages such as ros_gz brings is
+declared. The
 same happens if package.xml misspells the package of a team or plugin: it is reported if a package
 of a similar name is available, and that one is not. A package that is not at hand and of which this
 package has every file that it uses is this package itself, under the name that it had before.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
 package's own name instead of its former one.
-Source: REP 149, exec_depend; in model reviews, authors added the dependency on configuration 1.
+Source: REP 149, exec_depend; rosdep installs what package.xml names; package.xml of ros_gz,
+navigation2, nav2_bringup, ros2_control, ros2_controllers, gazebo_ros_pkgs and moveit; in model
+reviews, authors added the dependency on configuration 1.
 """
 
+import re
 from collections.abc import Iterator
 
 from checker.base.resources import table
-from checker.finding import Fix
-from checker.package.dependencies import Use, former_names, taken_in_vain, uses_of
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.ros2_launch.package_launch import built_by_ament
+from checker.expand.ros2_launch.used_packages import used_packages
+from checker.finding import Fix, Place
+from checker.package.dependencies import Use, former_names, taken_in_vain, uses_in_ros2, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
@@ -38,19 +48,40 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
+_PACKAGES_OF_PACKAGES = {
+    "ros_gz": "ros_gz_.*",
+    "ros_ign": "ros_ign_.*",
+    "gazebo_ros_pkgs": "gazebo_.*",
+    "navigation2": "nav2_.*",
+    "nav2_bringup": "nav2_.*|slam_toolbox",
+    "ros2_control": "controller_manager|hardware_interface|joint_limits|ros2controlcli",
+    "ros2_controllers": ".*_controllers?|.*_broadcaster",
+    "moveit": "moveit_.*",
+    "joint_state_publisher_gui": "joint_state_publisher",
+}
+"""Packages of packages, and the names of what each depends on."""
+
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
-    """Compare used packages with package.xml; packages of the ROS distribution are information."""
+def check(
+    package: Package, paperwork: Paperwork, context: Context, launch: Ros2Launch | None
+) -> Findings:
+    """Compare used packages with package.xml.
+
+    Packages of the ROS distribution are information, in ROS 2 a warning.
+    """
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)
     manifest = paperwork.manifest
     if manifest is None:
         return
     others: dict[str, Use] = {}
-    former = former_names(package)
+    ament = built_by_ament(package)
+    uses = [*uses_of(package), *(used_packages(launch) if launch is not None else ())]
+    uses += uses_in_ros2(package) if ament else ()
+    former = former_names(package, uses)
     copied = {use.place for use in taken_in_vain(package)}  # PKG012: to be replaced, not declared
-    for use in uses_of(package):
+    for use in uses:
         name = use.package_name
         if name in (package.name, manifest.name.value) or use.place in copied:
             continue
@@ -61,15 +92,15 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         beside = name not in PROVIDED and package.workspace.package(name) is not None
         if SUBMISSION_NAME.search(name) or beside:
             if not _needed_at_run_time(manifest, name):
-                message = f"{use.how}: {name} is missing from the dependencies in package.xml"
-                yield finding(use.place, message, key=name, fix=_declared(package, manifest, name))
-        elif not manifest.depends_on(name):
+                yield _at_hand(package, manifest, use)
+        elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
     # What the target calls otherwise is to be renamed first: ROS011.
     renamed = table("renamed_packages")["releases"].get(context.release, {})
     lacking = [name for name in sorted(others) if name not in renamed]
     fix = _declared(package, manifest, *lacking) if lacking else None
-    yield from _distribution(package, others, fix)
+    place = manifest if ament else package.folder_place()
+    yield from _distribution(place, others, fix, None if ament else Severity.INFO)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
 
@@ -88,13 +119,35 @@ def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
     )
 
 
-def _distribution(package: Package, uses: dict[str, Use], fix: Fix | None) -> Iterator[Finding]:
+def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
+    """Report one use; what depends on this package cannot be declared: nothing builds a circle."""
+    name = use.package_name
+    message = f"{use.how}: {name} is missing from the dependencies in package.xml"
+    other = package.workspace.package(name)
+    others = Paperwork(other).manifest if other is not None else None
+    if others is not None and others.depends_on(manifest.name.value):
+        message = f"{message}, and depends on {manifest.name.value} itself"
+        return finding(use.place, message, severity=Severity.INFO, key=name)
+    return finding(use.place, message, key=name, fix=_declared(package, manifest, name))
+
+
+def _brought(manifest: PackageManifest, name: str) -> bool:
+    """Whether a package of packages that is declared brings it."""
+    return any(
+        re.fullmatch(pattern, name) and manifest.depends_on(whole)
+        for whole, pattern in _PACKAGES_OF_PACKAGES.items()
+    )
+
+
+def _distribution(
+    place: PackageManifest | Place, uses: dict[str, Use], fix: Fix | None, severity: Severity | None
+) -> Iterator[Finding]:
     if uses:
         names = ", ".join(sorted(uses))
         yield finding(
-            package.folder_place(),
+            place,
             f"{names}: used, but missing from the dependencies in package.xml",
-            severity=Severity.INFO,
+            severity=severity,
             related=[(use.place, f"{name} is used here") for name, use in sorted(uses.items())],
             fix=fix,
         )
@@ -169,7 +222,28 @@ def _depends_on_plugin(mark: str = "") -> dict[str, str]:
 
 _PLUGIN = "<package><name>p</name></package>"
 
+
+def _arm(*names: str, mark: str = "") -> str:
+    depends = "".join(f"<exec_depend>{name}</exec_depend>" for name in names)
+    return f"""<package format="3">{mark}
+  <name>acme_arm_bringup</name>
+  {depends}
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+
+_BRIDGE = """        Node(package='ros_gz_bridge', executable='parameter_bridge'),
+        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py'])),"""
+_HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find acme_hand)/hand.xacro"/>@
+</robot>
+"""
+
 GOOD = [
+    {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
+    {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
         "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
@@ -184,6 +258,18 @@ GOOD = [
     {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
 ]
 BAD = [
+    {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", mark="  <!-- ^ PKG007 -->")},
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
+        "acme_arm_bringup/stop.py": "from geometry_msgs.msg import Twist\n",
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "../acme_hand/package.xml": "<package><name>acme_hand</name></package>",
+        "urdf/arm.urdf.xacro": _HAND.replace("@", "  <!-- ^ PKG007 -->"),
+    },
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6", "  <!-- ^ PKG007 -->"),
         "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),

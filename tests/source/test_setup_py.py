@@ -38,13 +38,32 @@ def test_the_usual_forms_are_read() -> None:
     setup = read_setup(SourceText("setup.py", SETUP))
     assert setup is not None
     assert setup.complete
-    assert [(entry.destination, entry.items) for entry in setup.data_files] == [
-        ("share/ament_index/resource_index/packages", ("resource/arm",)),
-        ("share/arm", ("package.xml",)),
-        ("share/arm/launch", (Pattern("launch/*.launch.py"),)),
-        ("share/arm/meshes", (Pattern("meshes/**/*.stl", recursive=True),)),
+    assert [
+        (entry.destination, *(file.value for file in entry.files), *entry.patterns)
+        for entry in setup.data_files
+    ] == [
+        ("share/ament_index/resource_index/packages", "resource/arm"),
+        ("share/arm", "package.xml"),
+        ("share/arm/launch", Pattern("launch/*.launch.py")),
+        ("share/arm/meshes", Pattern("meshes/**/*.stl", recursive=True)),
     ]
+    assert setup.data_files[0].files[0].span.text == "'resource/' + package_name"
     assert setup.data_files[1].span.text == "('share/' + package_name, ['package.xml'])"
+
+
+def test_executables_are_read() -> None:
+    text = """setup(entry_points={
+    'console_scripts': ['talker = arm.nodes.talker:main', computed(), 'tool=arm.tool'],
+    'pytest11': ['plugin = arm.plugin'],
+})"""
+    setup = read_setup(SourceText("setup.py", text))
+    assert setup is not None
+    assert setup.plain
+    assert [(it.name, it.module, it.function) for it in setup.executables] == [
+        ("talker", "arm.nodes.talker", "main"),
+        ("tool", "arm.tool", ""),
+    ]
+    assert setup.executables[1].span.text == "'tool=arm.tool'"
 
 
 @pytest.mark.parametrize(
