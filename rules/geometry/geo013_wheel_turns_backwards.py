@@ -5,6 +5,9 @@ to the left, to +y. With one axis reversed, the wheels work against each other. 
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
 way. None of the accepted packages that we checked shows this.
 
+Wheels that are called left and right and that no plugin drives are compared with their places: the
+controller that drives them relies on their names.
+
 In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel, unless it has
 `<legacyMode>false</legacyMode>`.
 
@@ -13,6 +16,7 @@ Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with posit
 sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 """
 
+import re
 from collections.abc import Iterator, Sequence
 
 from checker.model.components import Joint
@@ -23,6 +27,9 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule, un
 
 _LEFT: Vector = (0.0, 1.0, 0.0)
 _UP: Vector = (0.0, 0.0, 1.0)
+_OPPOSITE = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
+_LEFT_WORD = re.compile(r"(?<![A-Za-z])left(?![a-z])|(?<![A-Z])L(?:eft(?![a-z])|EFT(?![A-Z]))")
+_ENDS = ("front", "rear")
 
 
 @rule("GEO013", "wheel-turns-backwards", Severity.ERROR, Concern.ROBOT)
@@ -30,7 +37,8 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
     """Report axes that point the wrong way, and wheels that are not on the side of their entry.
 
     If no plugin drives the robot, links that are called wheels and turn without end are checked
-    against the others of their side: a warning where one turns against them.
+    against the others of their side: a warning where one turns against them, or where a wheel that
+    is called left is right of its counterpart.
 
     Options:
         least_cosine: Cosine of the angle to the wrong direction from which a wheel's axis is an
@@ -47,6 +55,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield from _on_both_sides(drive)
         yield from _steering(robot, drive, least_cosine)
     yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
+    yield from _misnamed(robot.locomotion.undriven)
 
 
 def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
@@ -133,6 +142,33 @@ def _against_its_side(
                 "direction for all",
                 severity=Severity.WARNING,
                 related=[(more[0].joint, "the other joint")],
+            )
+
+
+def _misnamed(wheels: Sequence[Wheel]) -> Iterator[Finding]:
+    """Report wheels called left and right that are on the other sides.
+
+    Where those called front are behind those called rear, the robot faces the other way.
+    """
+    places = {wheel.link.scoped_name: wheel.centre for wheel in wheels if wheel.centre is not None}
+    front, rear = ([at[0] for name, at in places.items() if end in name] for end in _ENDS)
+    if front and rear and min(front) < max(rear):
+        return
+    for wheel in wheels:
+        name = wheel.link.scoped_name
+        other = _LEFT_WORD.sub(lambda word: _OPPOSITE[word.group()], name)
+        if other == name or name not in places or other not in places:
+            continue
+        here, there = places[name], places[other]
+        if there[1] - here[1] > abs(there[0] - here[0]):
+            yield finding(
+                wheel.joint,
+                f"wheel {name!r} is at y = {here[1]:.3g} m, right of {other!r} at "
+                f"{there[1]:.3g} m: expected +y for the left side",
+                severity=Severity.WARNING,
+                related=[
+                    (it.joint, "the other wheel") for it in wheels if it.link.scoped_name == other
+                ],
             )
 
 
@@ -227,6 +263,13 @@ def _urdf(front: str, rear: str, drive: str = "", right: str = '0 1 0"/>') -> di
     return {"@urdf": f"{''.join(wheels)}<gazebo>{drive}</gazebo>"}
 
 
+def _pair(left: str, right: str, mark: str = "") -> dict[str, str]:
+    """Return a robot whose two wheels no plugin drives."""
+    wheels = (("left", left), ("right", right))
+    text = "".join(_urdf_wheel(name, f"0 {y} 0", _Y) for name, y in wheels)
+    return {"@urdf": text.replace('"continuous">', f'"continuous">{mark}', 1)}
+
+
 def _urdf_wheel(name: str, at: str, axis: str) -> str:
     return f"""
 <link name="{name}_wheel"/>
@@ -277,6 +320,7 @@ GOOD = [
     # Without a plugin, the two sides may turn against each other.
     _urdf(_Y, _Y),
     _urdf(_Y, _Y, right=_BACK),
+    _pair("0.2", "-0.2"),
 ]
 BAD = [
     _rover(_LEFTWARD, f"{_RIGHTWARD}{_MARK}"),
@@ -300,4 +344,5 @@ BAD = [
     _urdf(_BACK + _MARK, _Y, _classic(_DIFF, _ROS_2)),
     _urdf(_Y, _BACK + _MARK, _classic(_SKID, _FOUR)),
     _urdf(_Y, _BACK + _MARK),
+    _pair("-0.2", "0.2", _MARK),
 ]
