@@ -90,3 +90,67 @@ def test_names_that_a_command_line_gives_are_not_known(tmp_path: Path) -> None:
 
     assert launched.nodes[0].full_name == ""
     assert not launched.nodes[0].knows_parameters
+
+
+CONTROL = """controller_manager:
+  ros__parameters:
+    base: {type: diff_drive_controller/DiffDriveController}
+    lidar: {type: acme_controllers/Lidar}
+base:
+  ros__parameters: {}
+"""
+MANAGER = 'Node(package="controller_manager", executable="ros2_control_node", {})'
+SPAWNER = 'Node(package="controller_manager", executable="spawner", arguments=["base"{}])'
+
+
+@pytest.mark.parametrize(
+    ("manager", "spawner", "topic"),
+    [
+        (f"parameters=[{FILE}]", "", "/base/odom"),
+        (f'parameters=[{FILE}], remappings=[("~/odom", "/odom")]', "", "/odom"),
+        (f'parameters=[{FILE}], remappings=[("/base/odom", "/odom")]', "", "/odom"),
+        (f'parameters=[{FILE}], namespace="r1"', "", "/r1/base/odom"),
+        (
+            f"parameters=[{FILE}]",
+            ', "--controller-ros-args", "-r ~/odom:=/wheels/odom"',
+            "/wheels/odom",
+        ),
+    ],
+)
+def test_where_a_controller_publishes(
+    manager: str, spawner: str, topic: str, tmp_path: Path
+) -> None:
+    nodes = f"{MANAGER.format(manager)}, {SPAWNER.format(spawner)}"
+    launched = wiring(nodes, tmp_path, CONTROL)
+
+    assert list(launched.publishers("nav_msgs/msg/Odometry")) == [topic]
+
+
+def test_topics_of_costmaps_that_are_relative_are_not_known(tmp_path: Path) -> None:
+    yaml = """local_costmap:
+  local_costmap:
+    ros__parameters:
+      plugins: [a, b]
+      a: {observation_sources: x y, x: {topic: /x}, y: {topic: y}}
+      b: {observation_sources: z, z: {topic: /z, data_type: PointCloud2}, enabled: true}
+      c: {observation_sources: w, w: {topic: /w}}
+"""
+    node = f'Node(package="nav2_controller", executable="controller_server", parameters=[{FILE}])'
+    launched = wiring(node, tmp_path, yaml)
+
+    told = [it for it in launched.endpoints if it.parameter]
+    assert [(it.topic, *it.types) for it in told] == [
+        ("/x", "sensor_msgs/msg/LaserScan"),
+        ("/z", "sensor_msgs/msg/PointCloud2"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "why"),
+    [
+        (SPAWNER.format(""), "what controller 'base' publishes is not known"),
+        ('Node(package="joy", executable="joy_node")', ""),
+    ],
+)
+def test_what_parts_may_publish_unseen(nodes: str, why: str, tmp_path: Path) -> None:
+    assert wiring(nodes, tmp_path).unknown_parts == why

@@ -21,13 +21,15 @@ class NodeFacts(Record):
         name: Of its node where the launch file sets none; empty when none is fixed.
         publishes: Topics that it may publish, each with its types.
         publishes_more: Types of topics that are only known when it runs; `*` for any.
+        subscribes: Topics that it may read, each with its types.
         transforms: That it publishes, of those whose frames parameters decide.
-        defaults: Of the parameters in them.
+        defaults: Of the parameters that decide topics and transforms.
     """
 
     name: str = ""
     publishes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     publishes_more: tuple[str, ...] = ()
+    subscribes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     transforms: tuple[TransformFact, ...] = ()
     defaults: Mapping[str, str] = field(default_factory=dict)
 

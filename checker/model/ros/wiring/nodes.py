@@ -10,6 +10,7 @@ from checker.base.record import Record
 from checker.expand.launch.graph import resolve_name
 from checker.expand.ros2_launch.graph import Node, ParameterFile, is_known
 from checker.model.ros.wiring.facts import NodeFacts, node_facts
+from checker.model.ros.wiring.inputs import Input, inputs
 from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
 from checker.model.ros2_control.parameters import NodeBlock
 from checker.model.ros2_control.robot_control import ControlReader
@@ -51,6 +52,11 @@ class WiredNode(Record, eq=False, dict=True):
     def called(self) -> str:
         """What a message calls it."""
         return f"node {self.full_name or self.node.executable.value!r}"
+
+    @property
+    def program(self) -> str:
+        """Its package and executable: `nav2_amcl/amcl`."""
+        return f"{self.node.package.value}/{self.node.executable.value}"
 
     @property
     def _rules(self) -> bool:
@@ -102,15 +108,19 @@ class WiredNode(Record, eq=False, dict=True):
         resolved = ((self.resolve(topic), types) for topic, types in filled if topic)
         return tuple((topic, types) for topic, types in resolved if topic)
 
+    @cached_property
+    def read(self) -> tuple[Input, ...]:
+        """The topics that it reads, as it asks for them; those that are known."""
+        return tuple(inputs(self)) if self.knows_parameters else ()
+
     def publishes_more(self, message: str) -> str:
         """Say why it may publish a type on a topic that `published` lacks; else nothing."""
-        program = f"{self.node.package.value}/{self.node.executable.value}"
         if self.facts is None or self.node.components:
-            return f"what {program} publishes is not known"
+            return f"what {self.program} publishes is not known"
         own = [types for types in self.facts.publishes.values() if message in types]
         known = sum(message in types for _, types in self.published)
         if len(own) > known or {message, "*"} & set(self.facts.publishes_more):
-            return f"some of the topics that {program} publishes are not known"
+            return f"some of the topics that {self.program} publishes are not known"
         return ""
 
 

@@ -9,12 +9,9 @@ from msgspec import convert, field
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.expand.launch.bridge import Direction
-from checker.expand.launch.graph import resolve_name
+from checker.model.ros.wiring.controllers import RunController
 from checker.model.ros.wiring.nodes import WiredNode
 from checker.model.ros.wiring.wiring import Wiring
-from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.launched import spawner_of
-from checker.model.ros2_control.robot_control import GazeboManager
 from checker.source.text import Span
 
 _MESSAGES = "geometry_msgs/msg/"
@@ -82,13 +79,12 @@ def velocities(wiring: Wiring, distribution: str) -> Iterator[Velocity]:
     ]
     for entry, choice in entries:
         for node in wiring.nodes:
-            program = f"{node.node.package.value}/{node.node.executable.value}"
-            if program == entry.program and node.knows_parameters:
+            if node.program == entry.program and node.knows_parameters:
                 yield from _of_node(node, choice, entry.publishes)
-    for controller, manager in _controllers(wiring):
+    for run in wiring.controllers:
         for entry, choice in entries:
-            if controller.type.value == entry.program:
-                yield from _of_controller(controller, manager, choice)
+            if run.started and run.simulated and run.controller.type.value == entry.program:
+                yield from _of_controller(run, choice)
     yield from _bridged(wiring)
 
 
@@ -103,38 +99,13 @@ def _of_node(node: WiredNode, choice: _Choice, publishes: bool) -> Iterator[Velo
         yield Velocity(topic, side.type, publishes, node.called, span, choice.param)
 
 
-def _controllers(wiring: Wiring) -> Iterator[tuple[Controller, GazeboManager]]:
-    """Yield the controllers that are spawned in Gazebo, each with its manager."""
-    started = {
-        name.value
-        for node in wiring.nodes
-        if (spawner := spawner_of(node.node)) is not None
-        and "--controller-ros-args" not in spawner.options
-        for name in spawner.names
-    }
-    for spawned in wiring.simulation.robots if wiring.simulation is not None else ():
-        control = spawned.control
-        if control is not None and len(control.managers) == 1 and spawned.node.starts:
-            for controller in control.controllers:
-                if controller.name in started:
-                    yield controller, control.managers[0]
-
-
-def _of_controller(
-    controller: Controller, manager: GazeboManager, choice: _Choice
-) -> Iterator[Velocity]:
-    value = str(controller.flag(choice.param, default=choice.default)).lower()
+def _of_controller(run: RunController, choice: _Choice) -> Iterator[Velocity]:
+    value = str(run.controller.flag(choice.param, default=choice.default)).lower()
     side = choice.side(lambda _: value)
-    if side is None:
-        return
-    space, name = manager.namespace.value, controller.name
-    topic = resolve_name(side.topic.replace("~/", "~", 1), space, name)
-    for text in manager.plugin.at("ros/remapping"):
-        source, _, target = text.value.strip().partition(":=")
-        if resolve_name(source.replace("~/", "~", 1), space, name) == topic:
-            topic = resolve_name(target, space, name)
-            break
-    yield Velocity(topic, side.type, False, controller.called, controller.span, choice.param)
+    topic = run.resolve(side.topic) if side is not None else ""
+    if side is not None and topic:
+        by, span = run.controller.called, run.controller.span
+        yield Velocity(topic, side.type, False, by, span, choice.param)
 
 
 def _bridged(wiring: Wiring) -> Iterator[Velocity]:

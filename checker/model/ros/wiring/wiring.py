@@ -6,22 +6,27 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.graph import (
     Include,
     LaunchGraph,
     Node,
     Process,
     Ros2Launch,
+    is_known,
     share_path,
     shown,
 )
 from checker.model.robot import Robot
 from checker.model.ros.servers import is_gazebo, is_gazebo_include
+from checker.model.ros.simulated_topics import unknown_owner
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.model.ros.spawned import SpawnedReader
+from checker.model.ros.wiring.classic import of_classic, unknown_plugin
+from checker.model.ros.wiring.controllers import RunController, run_controllers
+from checker.model.ros.wiring.endpoints import Endpoint, of_bridges, of_node
 from checker.model.ros.wiring.nodes import WiredNode, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
+from checker.model.ros2_control.launched import spawner_of
 from checker.model.ros2_control.robot_control import ControlReader
 
 _CLASSIC = "gazebo_ros"
@@ -52,6 +57,23 @@ class Wiring(Record, eq=False, dict=True):
         return tuple(node for node in self.every_node if node.node.starts)
 
     @cached_property
+    def controllers(self) -> tuple[RunController, ...]:
+        """Controllers of ros2_control that its controller managers may run."""
+        simulation = self.simulation
+        spawned = (*simulation.robots, *simulation.classic_robots) if simulation is not None else ()
+        return tuple(run_controllers(self.nodes, spawned))
+
+    @cached_property
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """Publishers and subscriptions that it may have, those that are known."""
+        found = [each for node in self.every_node for each in of_node(node)]
+        found += [each for run in self.controllers for each in run.endpoints]
+        for robot in self.in_classic if not self._renamed_in_classic else ():
+            found += of_classic(robot)
+        found += of_bridges(self.simulation) if self.simulation is not None else ()
+        return tuple(found)
+
+    @cached_property
     def transforms(self) -> tuple[Transform, ...]:
         """Transforms of odometry and localisation that it publishes for certain."""
         return tuple(transforms(self.nodes, self.simulation, self.in_classic))
@@ -62,25 +84,47 @@ class Wiring(Record, eq=False, dict=True):
         Args:
             message: The type: `std_msgs/msg/String`.
         """
-        found = {
-            topic: node.called
-            for node in self.every_node
-            for topic, types in node.published
-            if message in types
+        return {
+            each.topic: each.by
+            for each in self.endpoints
+            if each.publishes and message in each.types
         }
-        entries = self.simulation.entries if self.simulation is not None else ()
-        for entry in entries:
-            if entry.passed.ros_type.value == message and entry.direction is not Direction.TO_IGN:
-                found[entry.ros_topic] = "a bridge"
-        return found
 
     def more_publishers(self, message: str) -> str:
         """Say why there may be more topics of a type than `publishers` names; else nothing."""
         for node in self.every_node:
             if reason := node.publishes_more(message):
                 return reason
-        unread = self.simulation.bridges.unread if self.simulation is not None else ()
+        simulation = self.simulation
+        unread = simulation.bridges.unread if simulation is not None else ()
         return next(iter((*self.unread, *unread)), "")
+
+    @cached_property
+    def unknown_parts(self) -> str:
+        """Say which part of a robot in Gazebo may publish what is not known; else nothing."""
+        simulation = self.simulation
+        known = {run.controller.name for run in self.controllers if run.is_known}
+        reasons = [
+            f"what controller {name.value!r} publishes is not known"
+            for node in self.nodes
+            if (spawner := spawner_of(node.node)) is not None
+            for name in spawner.names
+            if name.value not in known
+        ]
+        if simulation is not None:
+            reasons += [*simulation.unknown_robots]
+            reasons += filter(None, (unknown_owner(it.robot) for it in simulation.robots))
+        reasons += filter(None, map(unknown_plugin, self.in_classic))
+        if self._renamed_in_classic:
+            reasons.append("spawn_entity.py gives the robot a namespace")
+        return next(iter(reasons), "")
+
+    @property
+    def _renamed_in_classic(self) -> bool:
+        """Whether the plugins of a robot in Gazebo Classic may get another namespace."""
+        spawners = (it.node for it in self.nodes if _spawns_in_classic(it.node))
+        words = (word.value for node in spawners for word in node.arguments)
+        return any(word == "-robot_namespace" or not is_known(word) for word in words)
 
     @cached_property
     def unread(self) -> tuple[str, ...]:

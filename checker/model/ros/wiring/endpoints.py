@@ -1,0 +1,59 @@
+"""Publishers and subscriptions of a launch: whose they are, their topics and types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.base.record import Record
+from checker.expand.launch.bridge import Direction
+from checker.model.ros.simulation import Simulation
+from checker.model.ros.wiring.nodes import WiredNode
+from checker.source.text import Span
+
+
+class Endpoint(Record, eq=False):
+    """A publisher or a subscription.
+
+    Attributes:
+        topic: Absolute, after remaps.
+        types: Of its messages; several where a parameter or the distribution decides.
+        publishes: Whether it publishes; else it reads.
+        by: Whose it is, for a message.
+        span: What decides its topic, else the start of its owner.
+        owner: The node, controller, plugin or entry of a bridge.
+        certain: Whether its owner is started with the defaults of all arguments.
+        parameter: That gives it its topic, where the user states it.
+    """
+
+    topic: str
+    types: tuple[str, ...]
+    publishes: bool
+    by: str
+    span: Span
+    owner: object
+    certain: bool
+    parameter: str = ""
+
+
+def of_node(node: WiredNode) -> Iterator[Endpoint]:
+    """Yield what is known of the topics of a node."""
+    by, certain = node.called, node.node.starts is True
+    for topic, types in node.published:
+        yield Endpoint(topic, types, True, by, node.node.span, node, certain)
+    for each in node.read:
+        topic = node.resolve(each.topic)
+        if topic:
+            span = each.setting.span if each.setting is not None else node.node.span
+            yield Endpoint(topic, each.types, False, by, span, node, certain, each.parameter)
+
+
+def of_bridges(simulation: Simulation) -> Iterator[Endpoint]:
+    """Yield what bridges of Gazebo pass in either direction."""
+    for entry in simulation.entries:
+        types = (entry.passed.ros_type.value,)
+        owners = {topic.owner_name for topic in simulation.topics_of(entry)}
+        by = f"{owners.pop()} by a bridge" if len(owners) == 1 else "a bridge"
+        for publishes, other in ((True, Direction.TO_IGN), (False, Direction.TO_ROS)):
+            if entry.ros_topic and entry.direction is not other:
+                span = entry.passed.ros_topic.span
+                yield Endpoint(entry.ros_topic, types, publishes, by, span, entry, entry.counts)

@@ -1,0 +1,96 @@
+"""What a node reads: topics of its own, and those that parameters tell it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from checker.base.record import Record
+from checker.model.ros.wiring.parameters import Setting, settings_of
+
+if TYPE_CHECKING:
+    from checker.model.ros.wiring.nodes import WiredNode
+
+_WHOLE = re.compile(r"\{([\w.]+)(#?)\}")
+_COSTMAPS = {
+    "nav2_controller/controller_server": "local_costmap",
+    "nav2_planner/planner_server": "global_costmap",
+}
+"""Programs of Nav2 that make a node of their own for a costmap, in a namespace of its name."""
+_MONITORS = (
+    "nav2_collision_monitor/collision_monitor",
+    "nav2_collision_monitor/collision_detector",
+)
+_SENSOR = "sensor_msgs/msg/"
+_DATA_TYPES = {
+    "LaserScan": "LaserScan",
+    "PointCloud2": "PointCloud2",
+    "scan": "LaserScan",
+    "pointcloud": "PointCloud2",
+    "range": "Range",
+}
+"""What `data_type` of a costmap and `type` of the collision monitor say."""
+
+
+class Input(Record, eq=False):
+    """A topic that a node reads.
+
+    Attributes:
+        topic: As the node asks for it.
+        types: Of the messages.
+        parameter: That says so; empty for a topic of its own, or the default of a parameter.
+        setting: Of that parameter.
+    """
+
+    topic: str
+    types: tuple[str, ...]
+    parameter: str = ""
+    setting: Setting | None = None
+
+
+def inputs(node: WiredNode) -> Iterator[Input]:
+    """Yield the topics that a node reads, those that are known."""
+    for topic, types in node.facts.subscribes.items() if node.facts is not None else ():
+        whole = _WHOLE.fullmatch(topic)
+        if whole is None or (not whole[2] and whole[1] not in node.settings):
+            name = node.filled(topic) if whole is None or not whole[2] else None
+            yield from (Input(name, types),) if name else ()
+            continue
+        wanted = re.compile(re.escape(whole[1]) + (r"\d+" if whole[2] else ""))
+        for name, setting in node.settings.items():
+            if wanted.fullmatch(name) and setting.text:
+                yield Input(setting.text, types, name, setting)
+    if node.program in _MONITORS:
+        yield from _sources("", node.settings, "type")
+    if node.program in _COSTMAPS and node.full_name:
+        yield from _of_costmap(node, _COSTMAPS[node.program])
+
+
+def _of_costmap(node: WiredNode, name: str) -> Iterator[Input]:
+    """Yield absolute topics alone: what others are relative to, distributions differ in."""
+    above = node.node.namespace.rstrip("/")
+    settings = settings_of(node.node, node.files, name, f"{above}/{name}")
+    layers = settings.get("plugins")
+    for layer in layers.value if layers is not None and isinstance(layers.value, list) else ():
+        enabled = settings.get(f"{layer}.enabled")
+        if enabled is None or enabled.text != "false":
+            for each in _sources(f"{layer}.", settings, "data_type"):
+                if each.topic.startswith("/"):
+                    yield each
+
+
+def _sources(above: str, settings: Mapping[str, Setting], kind: str) -> Iterator[Input]:
+    """Yield the topics of observation sources, whose names another parameter lists."""
+    listed = settings.get(f"{above}observation_sources")
+    value = listed.value if listed is not None else ""
+    for source in value.split() if isinstance(value, str) else _texts(value):
+        name = f"{above}{source}.topic"
+        stated = settings.get(f"{above}{source}.{kind}")
+        message = _DATA_TYPES.get(str(stated.value) if stated is not None else "LaserScan")
+        if name in settings and message and (topic := settings[name].text):
+            yield Input(topic, (_SENSOR + message,), name, settings[name])
+
+
+def _texts(value: object) -> Iterator[str]:
+    yield from (str(each) for each in value) if isinstance(value, list) else ()
