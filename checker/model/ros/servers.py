@@ -5,6 +5,8 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
     GAZEBO,
@@ -34,6 +36,7 @@ _STARTS_CLASSIC = ("gazebo.launch", "gzserver.launch")
 _WORLD_SUFFIXES = (".sdf", ".world")
 _EMPTY = "empty.sdf"
 """A world of Gazebo's own."""
+_ENGINE = "--physics-engine"
 _UNKNOWN = "the world is not known"
 
 
@@ -46,6 +49,7 @@ class GazeboServer(Record, eq=False):
         worlds: That it loads.
         own_world: The file of Gazebo's own that it loads; else empty.
         unknown: Why its world is not known; else empty.
+        engine: The physics engine that its command line names; else empty.
     """
 
     span: Span
@@ -53,6 +57,7 @@ class GazeboServer(Record, eq=False):
     worlds: tuple[World, ...] = ()
     own_world: str = ""
     unknown: str = ""
+    engine: str = ""
 
 
 def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]:
@@ -145,7 +150,10 @@ def _commanded(
     if any(word.value == "-g" for word in words):
         return
     named = [word for word in words if _is_world(word)]
-    yield _loading(package, named[0].value if named else "", span, starts)
+    texts = [word.value for word in words]
+    engine = texts[texts.index(_ENGINE) + 1] if _ENGINE in texts[:-1] else ""
+    server = _loading(package, named[0].value if named else "", span, starts)
+    yield replace(server, engine=engine)
 
 
 def _given(
