@@ -1,40 +1,56 @@
-"""A frame gets its transform from two nodes of a launch.
+"""A frame gets its transform from two publishers of a launch.
 
 TF keeps what came last. With two publishers of one transform the robot jumps between two places,
 many times a second; with two parents for one frame the tree is a different one each time, and
 whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive plugin of
 Gazebo Classic, a drive controller of ros2_control) and a filter that takes its odometry
-(`ekf_node`) both publish `odom` to the base unless one of them is told not to.
+(`ekf_node`) both publish `odom` to the base unless one of them is told not to. The joints of the
+robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
+at `base_link` where that hangs on `base_footprint`, makes two of one.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.
 
 Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's transforms, or state
 `enable_odom_tf: false` for the controller, or `<publish_odom_tf>false</publish_odom_tf>` for the
-plugin of Gazebo Classic. Without: `publish_tf: false` for the filter.
+plugin of Gazebo Classic. Without: `publish_tf: false` for the filter. Odometry ends at the root of
+the robot.
 Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
 `publish_tf`; ros2_controllers, `enable_odom_tf`.
 """
 
 from itertools import combinations
 
+from checker.model.components import Joint
 from checker.model.ros.wiring.transforms import Transform
 from checker.model.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
+
+_MOST = 8
+"""Publishers of one frame that are compared."""
 
 
 @rule("WIR001", "transform-from-two-nodes", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report each two publishers of a transform, or of two parents of one frame."""
-    for first, second in combinations(wiring.transforms, 2):
-        same_frame = (first.child, first.topic) == (second.child, second.topic)
-        if same_frame and first.source is not second.source:
-            yield finding(
-                first.span,
-                f"{_fault(first, second)}: {first.cure}, or {second.cure}",
-                key=f"{first.child} {first.by} {second.by}",
-                related=[(second.span, f"{second.by} publishes {second}")],
-            )
+    by_frame: dict[tuple[str, str], list[Transform]] = {}
+    for transform in wiring.transforms:
+        by_frame.setdefault((transform.child, transform.topic), []).append(transform)
+    for same in by_frame.values():
+        for first, second in combinations(same[:_MOST], 2):
+            if first.source is not second.source and not isinstance(first.source, Joint):
+                yield finding(
+                    first.span,
+                    f"{_fault(first, second)}: {_cure(first, second)}",
+                    key=f"{first.child} {first.by} {second.by}",
+                    related=[(second.span, f"{second.by} publishes {second}")],
+                )
+
+
+def _cure(first: Transform, second: Transform) -> str:
+    """Return what to do; a joint itself is no fault, and its robot hangs on its root."""
+    repeats = isinstance(second.source, Joint) and first.parent == second.parent
+    return first.cure if repeats or not second.cure else f"{first.cure}, or {second.cure}"
 
 
 def _fault(first: Transform, second: Transform) -> str:
@@ -139,8 +155,44 @@ def _classic(plugin: str) -> dict[str, object]:
 _TF = "<publish_odom_tf>{}</publish_odom_tf>"
 _XML_MARK = "  <!-- ^ WIR001 -->"
 
+_STATIC = """LaunchDescription([
+        Node(package="tf2_ros", executable="static_transform_publisher", arguments=[@]),%
+"""
+
+
+def _static(words: str, mark: str = "") -> dict[str, object]:
+    """Return a rover, whose lidar has a joint, with a static transform."""
+    return {"@bridge": True, "@launch": {_LAUNCHED: _STATIC.replace("@", words).replace("%", mark)}}
+
+
+def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
+    """Return a rover whose base hangs on its footprint, with a filter."""
+    urdf = """<robot name="rover">
+  <link name="base_footprint"/>
+  <link name="base_link"/>
+  <joint name="base_joint" type="fixed">
+    <parent link="base_footprint"/>
+    <child link="base_link"/>
+  </joint>
+</robot>
+"""
+    return {
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _EKF.format("", "")},
+        "urdf/rover.urdf": urdf,
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}{mark}\n",
+    }
+
+
 GOOD = [
     {"@bridge": True},
+    _static('"--frame-id", "lidar_link", "--child-frame-id", "lidar_optical"'),
+    _static('"0", "0", "0", "0", "0", "0", "map", "base_link"'),
+    _static(
+        '"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"], namespace="r1", '
+        'remappings=[("/tf_static", "tf_static")'
+    ),
+    _on_footprint("base_link_frame: base_footprint"),
     _filter("publish_tf: false"),
     _filter("world_frame: map"),
     _filter("base_link_frame: base_footprint"),
@@ -157,6 +209,10 @@ GOOD = [
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
+    _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
+    _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
+    _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),
+    _on_footprint("publish_tf: true", _MARK),
     _filter("publish_tf: true", _MARK),
     _filter("odom_frame: map, world_frame: map", _MARK),
     _filter("publish_tf: false", _MARK, name=' name="ekf",'),

@@ -108,12 +108,12 @@ class SpawnedReader:
                     robots.append(spawned)
         return robots, unknown
 
-    def published(self, graph: LaunchGraph) -> Iterator[Robot]:
-        """Yield the robots that a robot_state_publisher gets for certain, those that are known."""
+    def published(self, graph: LaunchGraph) -> Iterator[tuple[Node, Robot]]:
+        """Yield the robot_state_publishers that start for certain, each with its robot if known."""
         for description in loaded_descriptions(self._package, graph):
             read = self._robot(description) if _publishes(description) else ""
             if description.node.starts and not isinstance(read, str):
-                yield read.robot
+                yield description.node, read.robot
 
     def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:

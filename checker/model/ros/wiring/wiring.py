@@ -24,6 +24,7 @@ from checker.model.ros.spawned import SpawnedReader
 from checker.model.ros.wiring.classic import of_classic, unknown_plugin
 from checker.model.ros.wiring.controllers import RunController, run_controllers
 from checker.model.ros.wiring.endpoints import Endpoint, of_bridges, of_node
+from checker.model.ros.wiring.frames import of_joints, of_static
 from checker.model.ros.wiring.nodes import WiredNode, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
 from checker.model.ros2_control.launched import spawner_of
@@ -43,12 +44,14 @@ class Wiring(Record, eq=False, dict=True):
         graph: Of the launch file.
         every_node: Its nodes, those that conditions leave out among them.
         simulation: What it simulates and bridges; None when it has nothing to do with Gazebo.
+        described: The nodes that publish the joints of a robot, each with the robot.
         in_classic: Robots that it puts into Gazebo Classic.
     """
 
     graph: LaunchGraph
     every_node: tuple[WiredNode, ...]
     simulation: Simulation | None
+    described: tuple[tuple[WiredNode, Robot], ...] = ()
     in_classic: tuple[Robot, ...] = ()
 
     @cached_property
@@ -75,8 +78,11 @@ class Wiring(Record, eq=False, dict=True):
 
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
-        """Transforms of odometry and localisation that it publishes for certain."""
-        return tuple(transforms(self.nodes, self.simulation, self.in_classic))
+        """Transforms that it publishes for certain, those of the robot's joints last."""
+        found = [*transforms(self.nodes, self.simulation, self.in_classic)]
+        found += [each for node in self.nodes for each in of_static(node)]
+        found += [each for node, robot in self.described for each in of_joints(node, robot)]
+        return tuple(found)
 
     def publishers(self, message: str) -> dict[str, str]:
         """Return the topics on which a type may be published, each with who does it.
@@ -177,9 +183,17 @@ def wirings(
     for graph in launch.entries:
         nodes = tuple(wired_node(node, reader) for node in graph.nodes)
         if nodes:
+            described = tuple(_described(graph, nodes, robots))
             spawns = any(_spawns_in_classic(node) for node in graph.nodes)
-            in_classic = tuple(robots.published(graph)) if spawns else ()
-            yield Wiring(graph, nodes, by_graph.get(id(graph)), in_classic)
+            in_classic = tuple(robot for _, robot in described) if spawns else ()
+            yield Wiring(graph, nodes, by_graph.get(id(graph)), described, in_classic)
+
+
+def _described(
+    graph: LaunchGraph, nodes: tuple[WiredNode, ...], robots: SpawnedReader
+) -> Iterator[tuple[WiredNode, Robot]]:
+    published = {id(node): robot for node, robot in robots.published(graph)}
+    yield from ((node, published[id(node.node)]) for node in nodes if id(node.node) in published)
 
 
 def _spawns_in_classic(node: Node) -> bool:

@@ -1,0 +1,64 @@
+"""Transforms of the robot's joints, and those that static_transform_publisher is given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import is_known
+from checker.model.robot import Robot
+from checker.model.ros.wiring.nodes import WiredNode
+from checker.model.ros.wiring.transforms import Transform
+
+_STATIC_PUBLISHER = "tf2_ros/static_transform_publisher"
+_STATIC, _SUFFIX = "/tf_static", "_static"
+_PREFIX = "frame_prefix"
+_OPTIONS = ("--frame-id", "--child-frame-id")
+_POSITIONAL = (8, 9)
+"""Words of the form without options: a place, an attitude of three or four numbers, two frames."""
+
+
+def of_joints(node: WiredNode, robot: Robot) -> Iterator[Transform]:
+    """Yield the transforms of a robot's joints.
+
+    Args:
+        node: The robot_state_publisher.
+        robot: That it is given.
+    """
+    prefix = node.filled(f"{{{_PREFIX}}}") if _PREFIX in node.settings else ""
+    topics = {True: _tree(node, _STATIC), False: node.resolve("/tf")}
+    if prefix is None or not node.knows_parameters or robot.format != "urdf":
+        return
+    children = {joint.child.value for joint in robot.joints}
+    roots = [link.name.value for link in robot.links if link.name.value not in children]
+    cure = f"name {prefix}{roots[0]}, the root of the robot, there" if len(roots) == 1 else ""
+    for joint in robot.joints:
+        parent, child = (_frame(prefix + end.value) for end in (joint.parent, joint.child))
+        if topic := topics[joint.type.value == "fixed"]:
+            by = f"joint {joint.name.value!r}"
+            yield Transform(parent, child, topic, joint.span, by, cure, joint)
+
+
+def of_static(node: WiredNode) -> Iterator[Transform]:
+    """Yield the transform that a static_transform_publisher is given."""
+    topic = _tree(node, _STATIC) if node.program == _STATIC_PUBLISHER else ""
+    words = [word.value for word in node.node.arguments]
+    words = words[: words.index("--ros-args")] if "--ros-args" in words else words
+    if not topic or not all(map(is_known, words)):
+        return
+    frames = [words[words.index(option) + 1] for option in _OPTIONS if option in words[:-1]]
+    if len(words) in _POSITIONAL and not any(word.startswith("--") for word in words):
+        frames = words[-2:]
+    if len(frames) == len(_OPTIONS):
+        parent, child = map(_frame, frames)
+        span, program = node.node.span, node.node.executable.value
+        cure = f"remove this {program}"
+        yield Transform(parent, child, topic, span, node.called, cure, node)
+
+
+def _tree(node: WiredNode, topic: str) -> str:
+    """Return the topic of the moving transforms that go with a topic of static ones."""
+    return node.resolve(topic).removesuffix(_SUFFIX)
+
+
+def _frame(name: str) -> str:
+    return name.removeprefix("/")
