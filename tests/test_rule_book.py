@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 22,
+    "URD": 23,
     "CTL": 8,
     "BRG": 11,
     "WIR": 6,
