@@ -40,7 +40,7 @@ def check(
 
     A missing limit of a driven joint is information, one of zero is an error; of a joint of
     ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any joint of a URDF
-    that may use an effort.
+    that may use an effort. One whose position limits are equal has no motor: it is KIN009's.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
@@ -62,7 +62,7 @@ def check(
             elif (hardware := commanded.get(joint.scoped_name)) is not None:
                 yield from _missing(joint, axis)
                 yield from _held(joint, axis, hardware, limited=limited)
-            elif driver is None and robot.format == "urdf":
+            elif driver is None and robot.format == "urdf" and not joint.immovable:
                 yield from _strong_but_still(joint, axis)
 
 
@@ -185,6 +185,7 @@ def _controlled(
 _STEADY = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
 _HELD = '<limit lower="-1" upper="1" effort="5" velocity="0"/>'
 GOOD = [
+    _controlled('<limit lower="0" upper="0" effort="5" velocity="0"/>', joint="shoulder"),
     _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
     _driven("", "JointStatePublisher"),
     _driven("<limit><effort>0</effort><velocity>0</velocity></limit>", "JointStatePublisher"),

@@ -1,14 +1,17 @@
 """A joint that cannot move: its two limits are equal, or it is fixed while a plugin drives it.
 
+The physics engine holds the joint by force in every step, which costs time and yields under load; a
+fixed joint costs nothing. Where the joint carries a sensor that nothing turns, this is a warning:
+the frame of what it measures is not quite still. If a plugin drives the joint, this is an error: a
+wheel that does not turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo
+merges its links, and the plugin finds no joint.
+
 A driven wheel whose limits end after a few turns cannot move on either: the robot stops there.
 
-The physics engine holds the joint by force in every step, which costs time and yields under load; a
-fixed joint costs nothing. If a plugin drives the joint, this is an error: a wheel that does not
-turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo merges its links, and
-the plugin finds no joint.
-
-Fix: write `type="fixed"` and remove the axis; Ignition keeps the link, its sensors and its frame. A
-joint that a plugin moves is `revolute`, with different limits or none.
+Fix: write `type="fixed"` and remove the axis with its limits; Gazebo keeps the sensors of the link
+and its frame, and the link itself if `<gazebo reference="…">` of the joint says
+`<preserveFixedJoint>true`. A joint that a plugin moves is `revolute`, with different limits or
+none.
 Source: SDFormat specification, joint/type.
 """
 
@@ -23,6 +26,8 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 def check(robot: Robot, *, range_of_a_wheel: float = 1000.0) -> Findings:
     """Report joints that cannot move, and driven wheels that stop: errors if a plugin drives them.
 
+    A joint that carries a sensor, and that ros2_control does not know, is a warning.
+
     Options:
         range_of_a_wheel: Radians; a driven wheel between limits that are closer is reported.
     """
@@ -33,7 +38,7 @@ def check(robot: Robot, *, range_of_a_wheel: float = 1000.0) -> Findings:
             continue
         message = f"{joint.type.value} joint {joint.name.value!r} cannot move: {why}"
         if plugin is None:
-            yield finding(joint, message, key="equal limits")
+            yield _undriven(robot, joint, message)
             continue
         yield finding(
             joint,
@@ -43,6 +48,24 @@ def check(robot: Robot, *, range_of_a_wheel: float = 1000.0) -> Findings:
             key="driven",
         )
     yield from _stopped(robot, range_of_a_wheel)
+
+
+def _undriven(robot: Robot, joint: Joint, message: str) -> Finding:
+    bodies = robot.tree.rigid_bodies
+    body = bodies.of_link.get(joint.scope + joint.child.value, "")
+    carried = (robot.links_by_name[name] for name in bodies.links.get(body, ()))
+    sensor = next((sensor for link in carried for sensor in link.sensors), None)
+    controls = robot.element.all("ros2_control")
+    names = {it.get("name") for control in controls for it in control.all("joint")}
+    if sensor is None or joint.name.value in names:
+        return finding(joint, message, key="equal limits")
+    return finding(
+        joint,
+        f'{message}, and carries sensor {sensor.name.value!r}: expected type="fixed"',
+        severity=Severity.WARNING,
+        related=[(sensor, "this sensor")],
+        key="equal limits of a sensor",
+    )
 
 
 def _stopped(robot: Robot, least: float) -> Iterator[Finding]:
@@ -95,6 +118,21 @@ GOOD = [
     _hinge(""),
 ]
 BAD = [
+    {
+        "@urdf": """
+<link name="gps"/>
+<link name="antenna"/>
+<joint name="gps_joint" type="revolute">  <!-- ^ KIN009 -->
+  <parent link="upper_arm"/><child link="gps"/>
+  <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0" effort="1000" velocity="0"/>
+</joint>
+<joint name="antenna_joint" type="fixed">
+  <parent link="gps"/><child link="antenna"/>
+</joint>
+<gazebo reference="antenna"><sensor name="gps" type="navsat"/></gazebo>
+"""
+    },
     _hinge("<lower>0</lower><upper>0</upper>", _MARK),
     _hinge("<lower>0.2</lower><upper>0.2</upper>", _MARK, "prismatic"),
     _hinge("<lower>0</lower><upper>0</upper>", _MARK) + _DRIVE,
