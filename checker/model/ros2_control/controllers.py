@@ -76,12 +76,14 @@ class ControllerFile(Record, eq=False):
         loaded_by: What names it: the `<parameters>` of a Gazebo plugin, or a launch file; None when
             it is only found in the package.
         bare: Keys of controller managers below which `ros__parameters` is missing.
+        refused: The key for whose value rcl refuses the file, if there is one.
     """
 
     path: str
     blocks: tuple[NodeBlock, ...]
     loaded_by: Span | None = None
     bare: tuple[Span, ...] = ()
+    refused: Span | None = None
 
     @property
     def managers(self) -> tuple[NodeBlock, ...]:

@@ -157,6 +157,20 @@ def bare_managers(root: YamlNode) -> Iterator[Span]:
                 yield key.span
 
 
+def refused_value(root: YamlNode) -> Span | None:
+    """Return the first place for which rcl refuses a whole file: a value of no node; else None."""
+    if root.kind != "mapping":
+        return root.span
+    waiting = [(key, value, False) for key, value in reversed(root.entries)]
+    while waiting:
+        key, value, below = waiting.pop()
+        if value.kind != "mapping" or (key_name(key) == PARAMETERS and not below):
+            return key.span
+        inner = [it for it in value.entries if key_name(it[0]) != PARAMETERS]
+        waiting += [(key, value, True) for key, value in reversed(inner)]
+    return None
+
+
 def key_name(key: YamlNode) -> str:
     """Return the text of a key; empty for one that is none."""
     return str(key.scalar)[:300] if key.kind == "scalar" and key.scalar is not None else ""

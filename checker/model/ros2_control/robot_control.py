@@ -16,7 +16,12 @@ from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
-from checker.model.ros2_control.parameters import MANAGER, bare_managers, read_blocks
+from checker.model.ros2_control.parameters import (
+    MANAGER,
+    bare_managers,
+    read_blocks,
+    refused_value,
+)
 from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
 from checker.source.text import Located, Span
@@ -215,11 +220,9 @@ class ControlReader:
         """Return the file at a path as xacro and launch see it; None when it cannot be had."""
         local = local_file(self.package, path)
         root = self._yaml(local)[0] if local is not None else None
-        return (
-            None
-            if local is None or root is None
-            else ControllerFile(local, tuple(read_blocks(root)))
-        )
+        if local is None or root is None:
+            return None
+        return ControllerFile(local, tuple(read_blocks(root)), refused=refused_value(root))
 
     def _yaml(self, path: str) -> tuple[YamlNode | None, tuple[YamlFault, ...], str]:
         if path not in self._read:

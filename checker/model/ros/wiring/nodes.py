@@ -138,4 +138,6 @@ def wired_node(node: Node, reader: ControlReader) -> WiredNode:
 
 def _loaded(given: ParameterFile, reader: ControlReader) -> LoadedFile:
     file = reader.file(given.path)
-    return LoadedFile(given) if file is None else LoadedFile(given, file.path, file.blocks, True)
+    if file is None:
+        return LoadedFile(given)
+    return LoadedFile(given, file.path, file.blocks, True, file.refused)

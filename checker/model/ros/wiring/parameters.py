@@ -40,12 +40,14 @@ class LoadedFile(Record, eq=False):
         path: As the package lists it; empty when it is not at hand.
         blocks: What it gives to which nodes; none when it cannot be read.
         is_read: Whether it could be read.
+        refused: The key for whose value rcl refuses the file, if there is one.
     """
 
     given: ParameterFile
     path: str = ""
     blocks: tuple[NodeBlock, ...] = ()
     is_read: bool = False
+    refused: Span | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
