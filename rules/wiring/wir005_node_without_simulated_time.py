@@ -5,13 +5,17 @@ too old, lookups of transforms fail ("extrapolation into the past"), and navigat
 `use_sim_time` a node takes its time from /clock. A block of a parameter file that gives it to one
 node gives it to no other.
 
-It is reported of localisation, mapping and navigation, where the launch file starts Gazebo, /clock
-comes from it, and all parameters of the node were read.
+It is reported of localisation, mapping and navigation, where all parameters of the node were read,
+and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another such node or
+a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away from the
+other's.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
 
+from checker.model.ros.transforms import STATE_PUBLISHER
+from checker.model.ros.wiring.nodes import WiredNode
 from checker.model.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -27,20 +31,33 @@ _PACKAGES = (
 @rule("WIR005", "node-without-simulated-time", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report nodes that do not take their time from Gazebo, though it is there."""
+    timed = [it for it in wiring.nodes if it.knows_parameters and _compares_time(it)]
+    simulated = [node for node in timed if _text(node) == "true"]
+    reason = "this launch starts Gazebo, and what it sends has the time of /clock"
     if not _has_clock(wiring):
-        return
-    for node in wiring.nodes:
-        if node.node.package.value not in _PACKAGES or not node.knows_parameters:
-            continue
+        elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
+        reason = f"{simulated[0].called} of this launch has the time of /clock" if elsewhere else ""
+    for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
-        if setting is None or setting.text == "false":
+        is_affected = node.node.executable.value != STATE_PUBLISHER
+        if is_affected and _text(node) == "false":
             stated = "no use_sim_time" if setting is None else "use_sim_time: false"
             yield finding(
                 node.node.span if setting is None else setting.span,
-                f"{node.called} has {stated}, expected true: this launch starts Gazebo, and what "
-                "it sends has the time of /clock",
+                f"{node.called} has {stated}, expected true: {reason}",
                 key=node.full_name,
+                related=[(it.settings[_PARAMETER].span, it.called) for it in simulated[:1]],
             )
+
+
+def _compares_time(node: WiredNode) -> bool:
+    """Whether a node compares its own time with that of messages, or stamps transforms with it."""
+    return node.node.package.value in (*_PACKAGES, STATE_PUBLISHER)
+
+
+def _text(node: WiredNode) -> str | None:
+    setting = node.settings.get(_PARAMETER)
+    return "false" if setting is None else setting.text
 
 
 def _has_clock(wiring: Wiring) -> bool:
@@ -77,21 +94,39 @@ def _filter(
     }
 
 
+_PAIR = """<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" value="" type="str"/>
+    <param name="use_sim_time" value="@"/>
+  </node>
+  <node pkg="robot_localization" exec="ekf_node"/>%
+</launch>
+"""
+
+
+def _pair(simulated: str, mark: str = "") -> dict[str, object]:
+    """Return a launch file without Gazebo: of the state and a filter."""
+    launch = _PAIR.replace("@", simulated).replace("%", mark)
+    return {"@bridge": True, "launch/rover.launch.py": None, "launch/state.launch.xml": launch}
+
+
 GOOD = [
+    _pair("false"),
     _filter("ekf_filter_node"),
     _filter("/**"),
     _filter("other", ', {"use_sim_time": True}'),
     _filter("other", package="acme_filter"),
     {**_filter("other"), "@bridge": "[]\n"},
+]
+BAD = [
     {
         **_filter("other"),
         "@launch": {
-            _HEAD: _EKF.format("robot_localization", "", ""),
+            _HEAD: _EKF.format("robot_localization", _MARK, ""),
             '[("gz_args", "-r empty.sdf")]),': '[("gz_args", "-g")]),',
         },
     },
-]
-BAD = [
+    _pair("true", "  <!-- ^ WIR005 -->"),
     _filter("other", mark=_MARK),
     _filter("ekf_filter_node", ', {"use_sim_time": False}]),  # ^ WIR005\n#'),
 ]
