@@ -1,14 +1,17 @@
 """An effort or velocity limit that no motor has, or a driven joint without limits.
 
 A limit of zero holds a driven joint: the plugin may use no force, or reach no speed. The limiter of
-ros2_control, which is on from Kilted, does the same to joints with a command interface.
+ros2_control, which is on from Kilted, does the same to joints with a command interface. DART, the
+physics engine of Gazebo Sim, holds a joint whose velocity limit is zero, a passive wheel as well:
+SolidWorks' exporter writes `effort="0" velocity="0"` unless it is told otherwise.
 
 With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
 limit nobody can check whether the motor is strong enough. The thrust of rotors has its own limits
 in their plugin.
 
 Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, after the gear.
-Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited.
+Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited; gz-physics 9,
+dartsim/src/SDFFeatures.cc: zero is a limit.
 """
 
 import math
@@ -39,8 +42,9 @@ def check(
     """Report finite limits of effort and velocity that no motor has.
 
     A missing limit of a driven joint is information, one of zero is an error; of a joint of
-    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any joint of a URDF
-    that may use an effort. One whose position limits are equal has no motor: it is KIN009's.
+    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any other
+    joint of a URDF that may use an effort, or that Gazebo holds. One whose position limits are
+    equal has no motor: it is KIN009's.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
@@ -63,7 +67,8 @@ def check(
                 yield from _missing(joint, axis)
                 yield from _held(joint, axis, hardware, limited=limited)
             elif driver is None and robot.format == "urdf" and not joint.immovable:
-                yield from _strong_but_still(joint, axis)
+                held = context.of_gazebo_sim and robot.is_for_gazebo
+                yield from _still(joint, axis, held=held)
 
 
 def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[Finding]:
@@ -115,16 +120,20 @@ def _held(joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool) -> Ite
             )
 
 
-def _strong_but_still(joint: Joint, axis: Axis) -> Iterator[Finding]:
-    """Report a joint that has a motor by its effort limit, and may not turn."""
-    if axis.velocity.stated and axis.velocity.value == 0.0 < axis.effort.value < math.inf:
-        yield finding(
-            axis.velocity,
-            f"joint {joint.name.value!r} has the effort limit {axis.effort.value:g} "
-            f"{_unit(joint)['effort']}, but the velocity limit 0: whatever keeps to it does not "
-            "move the joint",
-            key="zero",
-        )
+def _still(joint: Joint, axis: Axis, *, held: bool) -> Iterator[Finding]:
+    """Report a joint that nothing commands and that may not turn, as exporters of CAD write it."""
+    if not axis.velocity.stated or axis.velocity.value != 0.0 or axis.effort.value == math.inf:
+        return
+    moves = (
+        "Gazebo does not let it move" if held else "whatever keeps to it does not move the joint"
+    )
+    yield finding(
+        axis.velocity,
+        f"joint {joint.name.value!r} has the effort limit {axis.effort.value:g} "
+        f"{_unit(joint)['effort']} and the velocity limit 0: {moves}",
+        severity=None if held or axis.effort.value > 0.0 else Severity.INFO,
+        key="zero",
+    )
 
 
 def _missing(joint: Joint, axis: Axis) -> Iterator[Finding]:
@@ -184,7 +193,22 @@ def _controlled(
 
 _STEADY = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
 _HELD = '<limit lower="-1" upper="1" effort="5" velocity="0"/>'
+
+
+def _passive(velocity: str, mark: str = "") -> dict[str, str]:
+    roller = f"""
+<link name="roller"/>
+<joint name="roll" type="continuous">
+  <parent link="upper_arm"/><child link="roller"/>
+  <limit effort="0" velocity="{velocity}"/>{mark}
+</joint>
+<gazebo/>
+"""
+    return {"@urdf": roller, "@profile": "ros2"}
+
+
 GOOD = [
+    _passive("10"),
     _controlled('<limit lower="0" upper="0" effort="5" velocity="0"/>', joint="shoulder"),
     _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
     _driven("", "JointStatePublisher"),
@@ -193,6 +217,7 @@ GOOD = [
     _controlled('<limit lower="-1" upper="1" effort="0" velocity="1"/>'),
 ]
 BAD = [
+    _passive("0", "  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>20</effort><velocity>50000</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>-1</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
