@@ -67,6 +67,19 @@ _YAML = re.compile(r"""load_yaml\(\s{0,8}(?:'([^'"]{1,500})'|"([^'"]{1,500})"|([
 _COMPUTED = re.compile(r"\$[{(]|[*?\[]")
 
 
+def named_path(folder: str, name: str) -> str | None:
+    """Return how xacro sees a file that another one names; None where its name is computed.
+
+    Args:
+        folder: Of the other file, as xacro sees it.
+        name: As it is written.
+    """
+    spelled = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", name)
+    if _COMPUTED.search(spelled) or "." not in spelled:
+        return None
+    return posixpath.normpath(posixpath.join(folder, spelled))
+
+
 @dataclass(eq=False)
 class Gathered:
     """Texts by the paths under which xacro sees them; it grows while they are followed.
@@ -145,11 +158,8 @@ class Gathered:
             if element.tag == "xacro:include"
         )
         for name in (*yaml, *included):
-            spelled = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", name)
-            if _COMPUTED.search(spelled) or not spelled or "." not in spelled:
-                yield from self._all_candidates()
-            else:
-                yield posixpath.normpath(posixpath.join(folder, spelled))
+            named = named_path(folder, name)
+            yield from self._all_candidates() if named is None else (named,)
 
     def _all_candidates(self) -> Iterator[str]:
         """Yield every file of the package that could be meant."""
