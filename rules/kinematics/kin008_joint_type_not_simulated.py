@@ -1,8 +1,9 @@
 """A joint of a type that does not exist or that the target does not simulate.
 
-Gazebo with DART turns a gearbox, a revolute2 and, up to Fortress, a continuous joint into a fixed
-joint: a wheel on it does not turn. Gazebo Classic drops planar and floating joints of URDF. None of
-the accepted packages that we checked shows this.
+Gazebo with DART turns a gearbox, a revolute2 and a continuous joint of SDF into a fixed joint: a
+wheel on it does not turn. A continuous joint of URDF becomes a revolute one, and turns. Gazebo
+Classic drops planar and floating joints of URDF. None of the accepted packages that we checked
+shows this.
 
 Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
 `revolute2` and `gearbox`.
@@ -52,5 +53,21 @@ def _marked(type: str) -> str:
     return _joint(type).replace("</joint>", "</joint>  <!-- ^ KIN008 -->")
 
 
-GOOD = [_joint("revolute"), _joint("fixed"), _joint("ball"), _joint("Prismatic")]
-BAD = [_marked("continuous"), _marked("revolute2"), _marked("hinge"), _marked("")]
+_URDF = """
+<link name="wheel"/>
+<joint name="axle" type="continuous"><parent link="upper_arm"/><child link="wheel"/></joint>
+"""
+GOOD = [
+    {"@urdf": _URDF, "@profile": "ros2"},
+    _joint("revolute"),
+    _joint("fixed"),
+    _joint("ball"),
+    _joint("Prismatic"),
+]
+BAD = [
+    {"@fragment": _marked("continuous"), "@profile": "gazebo-harmonic"},
+    _marked("continuous"),
+    _marked("revolute2"),
+    _marked("hinge"),
+    _marked(""),
+]
