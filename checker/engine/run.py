@@ -17,11 +17,9 @@ from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.engine.covered import Cover, Parted, Said, SeverityOf, parted_by_cover
+from checker.engine.grouping import TEXT_LIMIT, bounded_places, grouped, joined_fix, joined_places
 from checker.engine.options import options_of
 from checker.finding import (
-    Fix,
-    Place,
-    Safety,
     Severity,
     fingerprint,
     numbered,
@@ -34,10 +32,6 @@ from checker.rulebook.profiles import Profile
 from checker.rulebook.suppression.finding_places import Spot, spot
 from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
 from checker.settings import Settings
-
-TEXT_LIMIT = 1000
-"""Characters of a message, note or reason; names in a package may be longer than any of them."""
-
 
 TRIALS = frozenset(("RobotTrial", "SettledTrial", "RepeatedTrial"))
 """Parts for which the robot is driven."""
@@ -151,7 +145,9 @@ def _repeats(shares: Sequence[Parted], severity_of: SeverityOf) -> dict[Cover, l
                 told = covers[told]
             message = shortened(found.message, TEXT_LIMIT)
             severity = severity_of(each.rule, found)
-            repeat = Repeat(each.rule.id, each.rule.name, severity, message, _bounded(found.places))
+            repeat = Repeat(
+                each.rule.id, each.rule.name, severity, message, bounded_places(found.places)
+            )
             repeats.setdefault(told, []).append(repeat)
     return repeats
 
@@ -291,13 +287,10 @@ def _report(
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
-    groups: dict[tuple[Severity, str], list[Finding]] = {}
-    for finding in findings:
-        severity = _severity(rule, finding.severity, profile, settings)
-        groups.setdefault((severity, finding.key or finding.message), []).append(finding)
-    for (severity, _), group in groups.items():
+    judged = ((_severity(rule, it.severity, profile, settings), it) for it in findings)
+    for severity, group in grouped(judged):
         first = group[0]
-        places = _joined_places(group)
+        places = joined_places(group)
         fixes = tuple(finding.fix for finding in group if finding.fix)
         yield ReportedFinding(
             rule.id,
@@ -307,7 +300,7 @@ def _report(
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
-            _joined_fix(fixes),
+            joined_fix(fixes),
             page.reason,
             " ".join(page.fix.split()),
             first.key,
@@ -316,29 +309,6 @@ def _report(
             fixes if len(group) > 1 else (),
             tuple(dict.fromkeys(each for own in group for each in repeats.get((rule.id, own), ()))),
         )
-
-
-def _joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
-    """Return the places of findings that are one, each once, with what differs from the first."""
-    places: dict[Place, Place] = {}
-    said = group[0].message
-    for finding in group:
-        own = "" if finding.message == said else shortened(finding.message, TEXT_LIMIT)
-        for number, bounded in enumerate(_bounded(finding.places)):
-            places.setdefault(bounded, replace(bounded, message="" if number else own))
-    return tuple(places.values())
-
-
-def _bounded(places: Sequence[Place]) -> tuple[Place, ...]:
-    return tuple(replace(place, note=shortened(place.note, TEXT_LIMIT)) for place in places)
-
-
-def _joined_fix(fixes: Sequence[Fix]) -> Fix | None:
-    """Return one fix that makes all edits; it is as safe as the least safe of them."""
-    if not fixes:
-        return None
-    edits = dict.fromkeys(edit for fix in fixes for edit in fix.edits)
-    return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
 
 
 def _spot(rule: Rule, profile: Profile, settings: Settings, finding: Finding) -> Spot:

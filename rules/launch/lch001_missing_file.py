@@ -49,8 +49,21 @@ _WORLD = """        IncludeLaunchDescription(PathJoinSubstitution([
             FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
                 'gz_args': ['-r ', in_package('worlds', 'hall.sdf')]}.items()),"""
 
+_MOVEIT = """from launch import LaunchDescription
+from launch_ros.actions import Node
+from moveit_configs_utils import MoveItConfigsBuilder
+
+
+def generate_launch_description():
+    configs = MoveItConfigsBuilder('arm', package_name='acme_arm_bringup').to_moveit_configs()
+    return LaunchDescription([Node(package='moveit_ros_move_group', executable='move_group',
+                                   parameters=[configs.to_dict()])])
+"""
+
 GOOD = [
     {"@ros2": True},
+    # MoveIt takes the robot from a topic where its usual file is missing.
+    {"@ros2": True, "launch/move_group.launch.py": _MOVEIT},
     {"@ros2": _STATE},
     {
         "@ros2": _WORLD,

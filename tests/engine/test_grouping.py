@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from checker.finding import Edit, Fix, Safety
-from checker.rule import Severity, finding
+from checker.rule import Finding, Severity, finding
 from tests.engine.stage import at, fingerprints, rule_saying, run
 
 
@@ -102,3 +103,26 @@ def test_each_place_of_a_group_says_what_is_wrong_there() -> None:
     )
     (found,) = run(rule_saying(first, again, other)).findings
     assert [place.message for place in found.places] == ["", "", "is 7"]
+
+
+def missing(*names: str, line: int = 0) -> list[Finding]:
+    places = (at(line or number) for number, _ in enumerate(names, 1))
+    said = (f"{name!r} weighs {number} kg" for number, name in enumerate(names))
+    return [finding(place, message) for place, message in zip(places, said, strict=True)]
+
+
+def test_many_that_say_the_same_of_different_parts_are_one() -> None:
+    (found,) = run(rule_saying(*missing("a", "b", "c", "d", "e"))).findings
+    assert [place.message for place in found.places[1:3]] == ["'b' weighs 1 kg", "'c' weighs 2 kg"]
+    assert len(found.places) == 5
+    assert len(run(rule_saying(*missing("a", "b", "c"))).findings) == 3
+
+
+def test_what_one_line_of_a_macro_makes_is_one_and_each_copy_is_named() -> None:
+    copies = missing("left_wheel", "right_wheel", line=7)
+    elements = [
+        replace(copy, places=(replace(copy.places[0], element=f"link[{number}]"),))
+        for number, copy in enumerate(copies)
+    ]
+    (found,) = run(rule_saying(*elements)).findings
+    assert [place.message for place in found.places] == ["", "'right_wheel' weighs 1 kg"]

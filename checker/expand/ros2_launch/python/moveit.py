@@ -65,6 +65,8 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
         path, mappings = _description(run, package, robot, node)
         if file is not None:
             path = posixpath.join(f"{ROOT}/{package}", str(file))
+        elif run.world.exists(path) is False:
+            return _rest(configs)  # MoveIt warns, and waits for the topic robot_description.
         mappings = chosen(given.get("mappings")) or mappings
         return {name: _command(path, mappings, configs)}
     if name == "robot_description_semantic" and file is not None:

@@ -1,0 +1,77 @@
+"""Joins findings of a rule that are one fault, or faults alike, in many places."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from msgspec.structs import replace
+
+from checker.base.words import shortened
+from checker.finding import Fix, Place, Safety, Severity
+from checker.rule import Finding
+
+TEXT_LIMIT = 1000
+"""Characters of a message, note or reason; names in a package may be longer than any of them."""
+ALIKE = 5
+"""So many findings whose messages differ in names and numbers alone are one in many places."""
+_NAME = re.compile(r"'[^']*'|\S*[\d_/<>]\S*")
+"""What a message says of one case: quoted, or with a letter that plain words do not have."""
+
+Judged = tuple[Severity, Finding]
+
+
+def grouped(findings: Iterable[Judged]) -> list[tuple[Severity, list[Finding]]]:
+    """Return the findings of one rule that are told as one, in order, each with its severity.
+
+    Those with one key, or one message, are one fault. Many that say the same of different parts
+    have one cause, as have those that the copies of one line of a macro show.
+    """
+    faults: dict[tuple[Severity, str], list[Finding]] = {}
+    for severity, finding in findings:
+        faults.setdefault((severity, finding.key or finding.message), []).append(finding)
+    alike: dict[tuple[Severity, str], list[list[Finding]]] = {}
+    for (severity, _), group in faults.items():
+        alike.setdefault(_said(severity, group), []).append(group)
+    together = {said for said, groups in alike.items() if _have_one_cause(groups)}
+    told: dict[tuple[Severity, str], list[Finding]] = {}
+    for fault, group in faults.items():
+        said = _said(fault[0], group)
+        told.setdefault(said if said in together else fault, []).extend(group)
+    return [(severity, group) for (severity, _), group in told.items()]
+
+
+def _said(severity: Severity, group: Sequence[Finding]) -> tuple[Severity, str]:
+    return severity, _NAME.sub("", group[0].message)
+
+
+def _have_one_cause(groups: Sequence[Sequence[Finding]]) -> bool:
+    places = [group[0].places[0] for group in groups]
+    spots = {(place.file, place.line, place.column) for place in places}
+    elements = {place.element for place in places if place.element}
+    are_copies = len(spots) == 1 and len(elements) == len(groups)
+    return len(groups) >= ALIKE or are_copies
+
+
+def joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
+    """Return the places of findings that are one, each once, with what differs from the first."""
+    places: dict[Place, Place] = {}
+    said = group[0].message
+    for finding in group:
+        own = "" if finding.message == said else shortened(finding.message, TEXT_LIMIT)
+        for number, bounded in enumerate(bounded_places(finding.places)):
+            places.setdefault(bounded, replace(bounded, message="" if number else own))
+    return tuple(places.values())
+
+
+def bounded_places(places: Sequence[Place]) -> tuple[Place, ...]:
+    """Return places with notes of bounded length."""
+    return tuple(replace(place, note=shortened(place.note, TEXT_LIMIT)) for place in places)
+
+
+def joined_fix(fixes: Sequence[Fix]) -> Fix | None:
+    """Return one fix that makes all edits; it is as safe as the least safe of them."""
+    if not fixes:
+        return None
+    edits = dict.fromkeys(edit for fix in fixes for edit in fix.edits)
+    return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
