@@ -7,6 +7,9 @@ type of each: by `<name>: {type: …}` in its own parameters, or by the file tha
 Without a controller manager, spawners wait forever: either `ros2_control_node` runs it, or a plugin
 in Gazebo. Both together fight for the robot: the node cannot load the hardware of Gazebo.
 
+A joint state broadcaster that is configured, and that no launch file starts beside the others, is a
+warning: nothing publishes /joint_states, and no moving link has a transform.
+
 Fix: write the same name in the launch file, below `controller_manager` and as the key of the
 controller's block, state its `type`, and start one controller manager.
 Source: ros2_control, controller_manager/spawner.py and `ControllerManager::load_controller`.
@@ -17,17 +20,21 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.ros2_control.distributions import is_of_gazebo
 from checker.model.ros2_control.launched import LaunchedControl
+from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
 
 @rule("R2C013", "spawned-controller", Severity.ERROR, Concern.INTERFACE)
-def check(launched: LaunchedControl) -> Findings:
+def check(launched: LaunchedControl, package: Package) -> Findings:
     """Report controllers without a type, and launch files without a manager or with two.
 
     Files that could not be read may say more: then nothing is reported of what they could hold. A
     launch file without a manager is a warning.
     """
     yield from _two_managers(launched)
+    yield from _no_states(launched, package)
     in_gazebo = [control for control in launched.controls if control.managers]
     if not launched.managers and not in_gazebo:
         yield from _no_manager(launched)
@@ -62,6 +69,22 @@ def _two_managers(launched: LaunchedControl) -> Iterator[Finding]:
                 "the node cannot load",
                 related=[(simulated[0].plugin, "the hardware")],
             )
+
+
+def _no_states(launched: LaunchedControl, package: Package) -> Iterator[Finding]:
+    spawned = [name.value for spawner in launched.spawners for name in spawner.names]
+    complete = launched.is_complete and all(spawner.complete for spawner in launched.spawners)
+    broadcasters = [it for it in launched.controllers if it.type.value == _STATE_BROADCASTER]
+    own = [it.name for it in launched.controllers if it.name in spawned]
+    started = {it.name for it in broadcasters} & package.workspace.launch_words
+    for broadcaster in broadcasters if complete and own and not started else ():
+        yield finding(
+            broadcaster.span,
+            f"no launch file starts {broadcaster.name!r} beside {own[0]!r}: nothing publishes "
+            f"/joint_states; add {broadcaster.name} to the arguments of a spawner",
+            severity=Severity.WARNING,
+            key=broadcaster.name,
+        )
 
 
 def _no_manager(launched: LaunchedControl) -> Iterator[Finding]:
@@ -109,12 +132,12 @@ def _spawner(*words: str, mark: str = "") -> str:
     return f"Node(package='controller_manager', executable='spawner', arguments=[{inside}])"
 
 
-def _arm(*nodes: str, gazebo: bool = False) -> object:
+def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> object:
     hardware = "gz_ros2_control/GazeboSimSystem" if gazebo else "mock_components/GenericSystem"
     started = ",\n        ".join(nodes)
     return {
         "@urdf": _HARDWARE.replace("@", hardware) + (_GAZEBO if gazebo else ""),
-        "config/arm.yaml": _YAML + _OWN,
+        "config/arm.yaml": _YAML + more + _OWN,
         "launch/arm.launch.py": f"""import os
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
@@ -132,12 +155,15 @@ def generate_launch_description():
 
 
 _MARK = "  # ^ R2C013"
+_BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
 GOOD = [
+    _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _arm(_NODE, _spawner("arm_controller")),
     _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
     _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
 ]
 BAD = [
+    _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
     _arm(_NODE, _spawner("grip_controller", mark=_MARK)),
     _arm(_STATES, _spawner("arm_controller").replace("Node(", f"Node({_MARK}\n            ")),

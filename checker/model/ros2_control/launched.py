@@ -8,7 +8,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import LaunchGraph, Node, ParameterFile, is_known
 from checker.expand.ros2_launch.package_files import local_file
-from checker.model.ros2_control.controllers import ControllerFile, controllers_of
+from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros2_control.parameters import MANAGER
 from checker.model.ros2_control.robot_control import ControlReader, RobotControl
 from checker.package.package import Package
@@ -148,6 +148,25 @@ class LaunchedControl(Record, eq=False, dict=True):
     @cached_property
     def listed(self) -> frozenset[str] | None:
         """Controllers whose type the managers know; None where a file of theirs is not known."""
+        if self._files is None:
+            return None
+        inline = (
+            parameter.name.removesuffix(".type")
+            for node in self.managers
+            for parameter in node.parameters
+            if not isinstance(parameter, ParameterFile) and parameter.name.endswith(".type")
+        )
+        listed = (each.name for each in self.controllers if each.listed)
+        return frozenset((*inline, *listed))
+
+    @cached_property
+    def controllers(self) -> tuple[Controller, ...]:
+        """What the files of the managers configure; none where a file is not known."""
+        return controllers_of(self._files or ())
+
+    @cached_property
+    def _files(self) -> tuple[ControllerFile, ...] | None:
+        """The files that the managers are given."""
         files = [file for control in self.controls for file in control.files if control.managers]
         for node in self.managers:
             if node.unread:
@@ -160,14 +179,7 @@ class LaunchedControl(Record, eq=False, dict=True):
                     files.append(read)
         if any(control.unread for control in self.controls if control.managers):
             return None
-        inline = (
-            parameter.name.removesuffix(".type")
-            for node in self.managers
-            for parameter in node.parameters
-            if not isinstance(parameter, ParameterFile) and parameter.name.endswith(".type")
-        )
-        listed = (each.name for each in controllers_of(files) if each.listed)
-        return frozenset((*inline, *listed))
+        return tuple(files)
 
     def typed(self, spawner: Spawner) -> frozenset[str] | None:
         """Return the controllers whose type a spawner's own files state; None if not known."""
