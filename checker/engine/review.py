@@ -17,6 +17,7 @@ from checker.base.output import Say, Stages
 from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.engine.facts import facts_of, trials_of
+from checker.engine.launched import launched_of
 from checker.engine.options import check_against_rules
 from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
 from checker.engine.subject import Subject
@@ -24,6 +25,7 @@ from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
+from checker.report.launched import Launched
 from checker.report.report import (
     NO_PHYSICS,
     ROBOT,
@@ -188,13 +190,15 @@ def _report(
     unread = _robots(subject)
     robots, trouble = _facts(subject)
     trials = trials_of(subject, outcome)
+    looked_at_launches = any(rule.startswith("WIR") for rule in outcome.looked)
+    launched, unwired = _launched(subject) if looked_at_launches else ((), ())
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,
         shown,
         str(package.kind),
         outcome.findings,
-        (*outcome.not_checked, *blind, *unread, *trouble, *undrawn),
+        (*outcome.not_checked, *blind, *unread, *trouble, *unwired, *undrawn),
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
@@ -210,6 +214,7 @@ def _report(
         other_robots=robots[1:],
         other_trials=trials[1:],
         target_reason=settings.target_reason,
+        launched=launched,
     )
 
 
@@ -237,6 +242,14 @@ def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotCh
             return facts_of(subject), ()
     except (Exception, Exceeded) as error:  # noqa: BLE001 - a reader that fails takes no finding with it
         return (), (unfinished("facts", error),)
+
+
+def _launched(subject: Subject) -> tuple[tuple[Launched, ...], tuple[NotChecked, ...]]:
+    try:
+        with subject.allowance.piece():
+            return launched_of(subject), ()
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
+        return (), (unfinished("launched", error),)
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

@@ -15,6 +15,7 @@ from msgspec import UNSET, Meta, UnsetType
 from checker.base.record import Record
 from checker.finding import Concern, Safety, Severity
 from checker.package.kind import PackageKind
+from checker.report.launched import Launched
 from checker.report.report import SCHEMA_VERSION, Cause, InheritedPart, SuppressedBy, VerdictKind
 
 _END = r"$(?!\n)"
@@ -245,6 +246,9 @@ class PackageJson(Record, kw_only=True):
     ] = ()
     other_trials: Annotated[
         tuple[TrialJson, ...], Meta(description="Of further robots that were driven.")
+    ] = ()
+    launched: Annotated[
+        tuple[Launched, ...], Meta(description="The graphs of launch files of ROS 2.")
     ] = ()
 
 

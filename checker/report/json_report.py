@@ -88,6 +88,7 @@ def _package_json(package: PackageReport) -> PackageJson:
         timings={stage: round(seconds, 4) for stage, seconds in package.timings.items()},
         other_robots=package.other_robots,
         other_trials=cast("tuple[TrialJson, ...]", package.other_trials),
+        launched=package.launched,
     )
 
 
@@ -176,6 +177,7 @@ def _package(read: PackageJson) -> PackageReport:
         facts=_facts(read.facts),
         other_robots=tuple(map(_facts, read.other_robots)),
         other_trials=cast("tuple[Mapping[str, Any], ...]", read.other_trials),
+        launched=read.launched,
         timings=read.timings,
         profile=read.profile,
         target_reason=read.target_reason,

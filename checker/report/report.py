@@ -11,6 +11,7 @@ from msgspec import field
 from checker.base.extras import PHYSICS
 from checker.base.record import Record
 from checker.finding import Concern, Fix, Place, Severity
+from checker.report.launched import Launched
 
 SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
@@ -224,6 +225,7 @@ class PackageReport(Record):
             was killed from outside: the first of these reasons; empty without any.
         target_reason: The simulator or ROS 2 distribution that the content of the package tells,
             and by what; empty where the user or a default chose it.
+        launched: The graphs of its launch files of ROS 2.
     """
 
     name: str
@@ -246,6 +248,7 @@ class PackageReport(Record):
     other_trials: tuple[Mapping[str, Any], ...] = ()
     disturbed: str = ""
     target_reason: str = ""
+    launched: tuple[Launched, ...] = ()
 
     @property
     def verdict(self) -> VerdictKind:

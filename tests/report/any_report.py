@@ -5,6 +5,7 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
+from checker.report.launched import Launched, LaunchedNode, LaunchedTopic, LaunchedTransform
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -60,6 +61,16 @@ FINDINGS = st.builds(
     source=TEXT,
     repeats=st.lists(REPEATS, max_size=2).map(tuple),
 )
+TOPICS = st.lists(TEXT, max_size=2).map(tuple)
+LAUNCHED = st.builds(
+    Launched,
+    TEXT,
+    TOPICS,
+    st.lists(st.builds(LaunchedNode, TEXT, TOPICS, TOPICS), max_size=3).map(tuple),
+    st.lists(st.builds(LaunchedTopic, TEXT, TOPICS), max_size=3).map(tuple),
+    st.lists(st.builds(LaunchedTransform, TEXT, TEXT, TEXT), max_size=4).map(tuple),
+    TEXT,
+)
 PACKAGES = st.builds(
     PackageReport,
     TEXT,
@@ -75,6 +86,7 @@ PACKAGES = st.builds(
         max_size=2,
     ).map(tuple),
     looked=st.lists(RULE, max_size=2).map(tuple),
+    launched=st.lists(LAUNCHED, max_size=2).map(tuple),
 )
 REPORTS = st.builds(
     Report,

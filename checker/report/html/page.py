@@ -16,6 +16,7 @@ from checker.base.words import count, listed, plain, shortened
 from checker.finding import Concern, Severity
 from checker.report.html.findings import grades_of, rule_pages
 from checker.report.html.index import common_problems, entry_of
+from checker.report.html.launches import shown_launches
 from checker.report.html.overview import first_tasks, told_trial
 from checker.report.html.robots import ShownRobot, files_out_of_view, shown_robots
 from checker.report.json_report import to_json
@@ -125,6 +126,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
         rules=rule_pages(package.findings),
         concerns=sorted({finding.concern for finding in package.findings}, key=_CONCERNS.index),
         index=index,
+        launches=shown_launches(package.launched[:SHOWN], package.findings),
         robots=robots,
         reasons=reasons[:SHOWN],
         more_reasons=max(0, len(reasons) - SHOWN),
