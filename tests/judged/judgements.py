@@ -111,7 +111,9 @@ def findings(source: str, path: str, profile: str, *, trial: bool) -> tuple[Repo
     """
     folder = folder_of(source)
     assert folder is not None, f"the packages of {source} are not there"
-    settings = Settings(profile=profile, profile_chosen=True, trial=trial)
+    # What is judged for ROS 2 is judged for Jazzy and Harmonic, whatever a package says of itself.
+    distro = "jazzy" if profile == "ros2" else ""
+    settings = Settings(profile=profile, profile_chosen=True, distro=distro, trial=trial)
     report = check_package(folder / path, settings)
     found = (finding for package in report.packages for finding in package.findings)
     return tuple(finding for finding in found if not is_of_the_copy(source, finding))
