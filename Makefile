@@ -1,6 +1,6 @@
 # `make demo` checks the samples; `make test` runs the first tier of tests. Both need only Python 3.11
 # or newer. `make test-all` runs lint, types and all tiers, on Debian or Ubuntu. Tests and benches
-# over real packages read the folders that SUBT_CHECK_CORPUS, _REVIEWS and _MODERN name.
+# over real packages read the folders that SUBT_CHECK_CORPUS, _REVIEWS, _REPORTS and _MODERN name.
 
 PYTHON ?= python3
 BIN := .venv/bin

@@ -21,6 +21,8 @@ REVIEWS = "SUBT_CHECK_REVIEWS"
 """Corrected faults: packages before and after."""
 MODERN = "SUBT_CHECK_MODERN"
 """Packages of today's Gazebo and ROS."""
+REPORTS = "SUBT_CHECK_REPORTS"
+"""Faults that people reported in public, rebuilt: `bad` and `good` packages of each."""
 _OWN_TESTS = {"bugs", "repro"}
 """Folders of MODERN with faults, rebuilt or as they were: not packages to be judged."""
 
@@ -62,7 +64,7 @@ def judged_files(variable: str, name: str) -> list[Path]:
 
 def not_judged() -> Iterator[str]:
     """Yield a line for each variable with folders that are not judged yet."""
-    for variable in (CORPUS, REVIEWS, MODERN):
+    for variable in (CORPUS, REVIEWS, MODERN, REPORTS):
         folder = named_folder(variable)
         there = [path.name for path in folder.iterdir() if path.is_dir()] if folder else []
         others = sorted({*there} - {*_judged_names()[variable]} - _OWN_TESTS)
