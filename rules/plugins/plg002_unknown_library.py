@@ -4,13 +4,15 @@ Gazebo cannot load it: it prints one line and continues without the drive, the s
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
 package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
 libraries: there it is information, unless the name is one of Gazebo's own. It is a warning if the
-library is of a known package, on which package.xml does not depend. For Gazebo Classic, it is an
-error if the name is a slip of the pen for one of gazebo_ros_pkgs.
+library is of a known package, on which package.xml does not depend, and an error if the ROS 2
+distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
+Classic, it is an error if the name is a slip of the pen for one of gazebo_ros_pkgs.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.
 Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins found in SubT
-packages (`subt_plugins.json`). None of the accepted packages that we checked shows this.
+packages (`subt_plugins.json`); packages that distributions do not have (`removed_packages.json`).
+None of the accepted packages that we checked shows this.
 """
 
 from checker.base.resources import table
@@ -58,17 +60,30 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
                 "available"
             )
             continue
-        if not context.of_submissions and lender_of(stem) in lenders.missing:
+        successor = _successor(stem, package, context)
+        if not (context.of_submissions or successor) and lender_of(stem) in lenders.missing:
             continue  # The package names the one that has it.
         yield finding(
             plugin.filename,
             f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
             "neither shipped nor built by "
             f"{' or '.join(package.name for package in lenders.at_hand)}"
-            f"{_elsewhere(stem, context) or suggestions.hint(stem)}",
-            severity=_severity(stem, context, suggestions),
+            f"{successor or _elsewhere(stem, context) or suggestions.hint(stem)}",
+            severity=None if successor else _severity(stem, context, suggestions),
             key=stem,
         )
+
+
+def _successor(stem: str, package: Package, context: Context) -> str:
+    """Say what took the place of a library whose package the distribution does not have."""
+    lender = lender_of(stem)
+    removed = table("removed_packages")["names"].get(lender)
+    if removed is None or context.distro not in removed["missing_in"]:
+        return ""
+    if package.workspace.package(lender) is not None:
+        return ""
+    expected = stem.replace(lender, removed["instead"])
+    return f"; {context.distro.capitalize()} has no package {lender!r}: expected {expected}"
 
 
 def _elsewhere(stem: str, context: Context) -> str:
@@ -111,6 +126,15 @@ def _classic(library: str, mark: str = "") -> dict[str, str]:
     return {"@profile": "gazebo-classic", "@fragment": plugin}
 
 
+_IGNITION = "ign_ros2_control"
+_MANIFEST = f"<package><name>arm</name><depend>{_IGNITION}</depend></package>"
+
+
+def _ignition(mark: str = "") -> dict[str, str]:
+    plugin = f'<plugin filename="lib{_IGNITION}-system.so" name="p"/>{mark}'
+    return {"@profile": "ros2", "@urdf": f"<gazebo>{plugin}</gazebo>", "package.xml": _MANIFEST}
+
+
 GOOD = [
     '<plugin filename="ignition-gazebo-diff-drive-system" name="drive"/>',
     '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>',
@@ -124,6 +148,11 @@ GOOD = [
     },
     _classic("libgazebo_ros_ray_sensor.so"),
     _classic("libgazebo_ros2_control.so"),
+    {
+        **_ignition(),
+        f"../{_IGNITION}/package.xml": f"<package><name>{_IGNITION}</name></package>",
+        f"../{_IGNITION}/CMakeLists.txt": f"add_library({_IGNITION}-system SHARED a.cc)",
+    },
 ]
 BAD = [
     '<plugin filename="libignition-gazebo-dif-drive-system.so" name="d"/>  <!-- ^ PLG002 -->',
@@ -133,4 +162,5 @@ BAD = [
     },
     _classic("libgazebo_ros_dif_drive.so", "  <!-- ^ PLG002 -->"),
     _classic("gz-sim-diff-drive-system", "  <!-- ^ PLG002 -->"),
+    _ignition("  <!-- ^ PLG002 -->"),
 ]
