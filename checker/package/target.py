@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from checker.package.kind import PackageKind, enclosing_package
+from checker.package.told_target import is_described_for_ros_2
 from checker.source.xml import XmlDocument
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ def usual_profile(package: Package) -> str:
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
     type or its dependencies. A model, a world or a single file is judged as the package around it
-    is; without one, it is Gazebo's, even where model.config names a URDF file.
+    is; without one, it is Gazebo's, even where model.config names a URDF file, and other URDF is
+    of ROS 2 or ROS 1 by its content.
     """
     if package.kind in _SUBMISSIONS:
         return SUBMISSION
@@ -31,7 +33,8 @@ def usual_profile(package: Package) -> str:
         return _of_manifest(package, manifest)
     around = _usual_around(package)
     if package.is_urdf and not package.exists("model.config"):
-        return around if around in (ROS_1, ROS_2) else ROS_1
+        by_content = around != SUBMISSION and is_described_for_ros_2(package)
+        return ROS_2 if around == ROS_2 or by_content else ROS_1
     if package.only and around == SUBMISSION:
         return SUBMISSION
     return ANY_SDF if around == ROS_1 else MODEL
@@ -40,8 +43,9 @@ def usual_profile(package: Package) -> str:
 def ros_2_package(package: Package) -> Package | None:
     """Return the package of ROS 2 that a package is, or that a model or file lies in."""
     manifest = None if package.only else package.xml("package.xml")
-    whole = package if isinstance(manifest, XmlDocument) else _around(package)
-    return whole if whole is not None and usual_profile(whole) == ROS_2 else None
+    around = None if isinstance(manifest, XmlDocument) else _around(package)
+    holders = (around, package)
+    return next((each for each in holders if each and usual_profile(each) == ROS_2), None)
 
 
 def _usual_around(package: Package) -> str:

@@ -34,6 +34,11 @@ _DESCRIPTION = {
         r"""|\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""
     ),
 }
+_OF_ROS_2 = re.compile(
+    rf"<ros2_control\b|gazebo_ros2_control\b"
+    rf"|{_DESCRIPTION[IGNITION].pattern}|{_DESCRIPTION[GZ].pattern}"
+)
+"""What only a URDF for ROS 2 or for Gazebo after Classic holds."""
 _DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
 _MANIFEST = {
     CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
@@ -83,6 +88,12 @@ def told_target(package: Package, distro: str = "") -> ToldTarget:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return ToldTarget(False, _OLDEST, reason)
     return ToldTarget(False, distro)
+
+
+def is_described_for_ros_2(package: Package) -> bool:
+    """Say whether a URDF without a package has `<ros2_control>` or plugins of later Gazebos."""
+    paths = (file.path for file in package.index.with_suffix(".urdf", ".xacro"))
+    return any(_in_files(package, paths, {GZ: _OF_ROS_2}))
 
 
 def _known(distro: str) -> str:

@@ -28,7 +28,7 @@ from checker.model.plugin_library import (
     release_label,
     releases_with,
 )
-from checker.package.dependencies import lenders_of
+from checker.package.dependencies import Lenders, lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
@@ -61,8 +61,8 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
             )
             continue
         successor = _successor(stem, package, context)
-        if not (context.of_submissions or successor) and lender_of(stem) in lenders.missing:
-            continue  # The package names the one that has it.
+        if not (context.of_submissions or successor) and _may_be_lent(stem, package, lenders):
+            continue
         yield finding(
             plugin.filename,
             f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
@@ -72,6 +72,12 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
             severity=None if successor else _severity(stem, context, suggestions),
             key=stem,
         )
+
+
+def _may_be_lent(stem: str, package: Package, lenders: Lenders) -> bool:
+    """Whether the package depends on the one that has a library, or says not what it depends on."""
+    is_silent = bool(package.only) or not package.exists("package.xml")
+    return lender_of(stem) in lenders.missing or (is_silent and bool(lender_of(stem)))
 
 
 def _successor(stem: str, package: Package, context: Context) -> str:
@@ -148,6 +154,11 @@ GOOD = [
     },
     _classic("libgazebo_ros_ray_sensor.so"),
     _classic("libgazebo_ros2_control.so"),
+    {
+        "@profile": "ros2",
+        "@urdf": '<gazebo><plugin filename="gz_ros2_control-system" name="p"/></gazebo>',
+        "package.xml": None,
+    },
     {
         **_ignition(),
         f"../{_IGNITION}/package.xml": f"<package><name>{_IGNITION}</name></package>",

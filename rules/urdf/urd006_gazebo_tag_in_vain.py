@@ -1,11 +1,13 @@
 """A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
-change a colour, or how a joint is computed, is a warning.
+change a colour, or how a joint is computed, is a warning. Controllers find no joints where
+`<ros2_control>` is inside a `<gazebo>`.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
-for joints under a joint.
-Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link>` and `<joint>`.
+for joints under a joint; put `<ros2_control>` directly into `<robot>`.
+Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link>` and `<joint>`;
+ros2_control, hardware_interface/src/component_parser.cpp: tags directly below `<robot>`.
 """
 
 from collections.abc import Iterator
@@ -59,6 +61,13 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
     for child in tag.element.children:
         if child.tag == "self_collide" and not tag.reference.stated:
             continue  # becomes a part of the model
+        if child.tag == "ros2_control":
+            yield finding(
+                child,
+                "<ros2_control> is inside <gazebo>, where nothing reads it, so no controller "
+                "finds its joints: move it out, directly into <robot>",
+            )
+            continue
         if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
             what = "a link" if child.tag in OF_LINKS else "a joint"
             message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
@@ -94,4 +103,5 @@ BAD = [
     _tag(f"<stopErp>0.2</stopErp>{_MARK}", "upper_arm"),
     _tag(f"<selfCollide>true</selfCollide>{_MARK}", "shoulder"),
     {"@urdf": f'<gazebo reference="upper_arm"/>{_MARK}'},
+    _tag(f'<ros2_control name="arm" type="system">{_MARK}\n</ros2_control>'),
 ]

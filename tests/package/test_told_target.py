@@ -68,6 +68,45 @@ def test_the_repository_around_tells(tmp_path: Path) -> None:
     assert judged(tmp_path, {"@ros2": True}) == ("ros2", "humble")
 
 
+CONTROL = '<ros2_control name="arm" type="system"/>'
+
+
+@pytest.mark.parametrize(
+    ("inside", "expected"),
+    [
+        ("", ("urdf", "")),
+        (f"<!-- {CONTROL} -->", ("urdf", "")),
+        ('<gazebo><plugin filename="libgazebo_ros_control.so" name="p"/></gazebo>', ("urdf", "")),
+        (CONTROL, ("ros2", "")),
+        (f"<gazebo>{CONTROL}</gazebo>", ("ros2", "")),
+        ('<gazebo><plugin filename="gz-sim-imu-system" name="p"/></gazebo>', ("ros2", "")),
+        (
+            '<gazebo><plugin filename="ignition-gazebo-imu-system" name="p"/></gazebo>',
+            ("ros2", "humble"),
+        ),
+        (
+            f'{CONTROL}<gazebo><plugin filename="libgazebo_ros2_control.so" name="p"/></gazebo>',
+            ("ros2-classic", "humble"),
+        ),
+    ],
+)
+def test_urdf_without_a_package_tells_by_its_content(
+    inside: str, expected: tuple[str, str], tmp_path: Path
+) -> None:
+    (tmp_path / "arm.urdf").write_text(f'<robot name="arm">{inside}</robot>')
+    workspace = Workspace((tmp_path.parent,))
+    for package in (Package(tmp_path, workspace, "arm.urdf"), Package(tmp_path, workspace)):
+        settings = Settings().suiting(package)
+        assert (settings.profile, settings.distro) == expected
+
+
+def test_a_file_for_ros_2_in_a_package_of_ros_1_counts_by_its_content(tmp_path: Path) -> None:
+    plugin = '<gazebo><plugin filename="libgazebo_ros2_control.so" name="p"/></gazebo>'
+    folder = write_example({"@urdf": plugin}, tmp_path)
+    package = Package(folder / "urdf", Workspace((tmp_path,)), "arm.urdf")
+    assert Settings().suiting(package).profile == "ros2-classic"
+
+
 def test_a_model_is_judged_as_the_package_around_it(tmp_path: Path) -> None:
     model = '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>'
     folder = write_example({"@ros2": SPAWN, "models/rover/model.sdf": model}, tmp_path)
