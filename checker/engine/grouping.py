@@ -55,12 +55,15 @@ def _have_one_cause(groups: Sequence[Sequence[Finding]]) -> bool:
 
 def joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
     """Return the places of findings that are one, each once, with what differs from the first."""
-    places: dict[Place, Place] = {}
+    places: dict[tuple[str, int, int, str, str], Place] = {}
     said = group[0].message
     for finding in group:
         own = "" if finding.message == said else shortened(finding.message, TEXT_LIMIT)
         for number, bounded in enumerate(bounded_places(finding.places)):
-            places.setdefault(bounded, replace(bounded, message="" if number else own))
+            place = replace(bounded, message="" if number else own)
+            # Robots that share a file have the same fault at the same place.
+            spot = (place.file, place.line, place.column, place.note, place.message)
+            places.setdefault(spot, place)
     return tuple(places.values())
 
 

@@ -65,8 +65,8 @@ GOOD = [
     _node("controller_manager", "spawner"),
 ]
 BAD = [
-    _node("gazebo_ros", "spawn_entity.py", _MARK),
     _node("controller_manager", "spawner.py", _MARK),
+    _node("gazebo_ros", "spawn_entity.py", _MARK),
     {
         "@ros2": f"""        IncludeLaunchDescription(PythonLaunchDescriptionSource(
             os.path.join(get_package_share_directory('ros_ign_gazebo'), 'launch', 'x.py'))),{_MARK}

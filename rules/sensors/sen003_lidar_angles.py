@@ -64,7 +64,7 @@ def _one_way(
         yield finding(
             scan.lower,
             f"{phrase}: expected -π to π",
-            severity=Severity.INFO if context.of_gazebo_sim else None,
+            severity=None if context.of_submissions else Severity.INFO,
             key="from 0",
             # It would turn ray 0 to the back, which only SubT asks for.
             fix=_written(scan, *_AROUND) if context.profile == "subt" else None,
