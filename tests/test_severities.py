@@ -95,3 +95,25 @@ def test_severity_depends_on_the_case(
     assert [str(finding.severity) for finding in report.findings] == [severity], [
         finding.message for finding in report.findings
     ]
+
+
+LID = '<joint name="lid" type="revolute"><parent>body</parent><child>top</child></joint>'
+
+
+@pytest.mark.parametrize(("joint", "severities"), [("", {"info"}), (LID, {"error", "warning"})])
+def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_path: Path) -> None:
+    box = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
+    inertia = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
+    (tmp_path / "barrel.sdf").write_text(
+        f"""<sdf version="1.9"><model name="barrel">
+<link name="body"><inertial><mass>1</mass>{inertia}</inertial>{box}</link>
+<link name="top">{box}</link>{joint}
+</model></sdf>
+""",
+        "utf-8",
+    )
+    wanted = ("INE001", "INE006")
+    settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=wanted, trial=False)
+    (report,) = check_package(tmp_path / "barrel.sdf", settings).packages
+    assert {finding.rule for finding in report.findings} == set(wanted)
+    assert {str(finding.severity) for finding in report.findings} == severities
