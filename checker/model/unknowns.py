@@ -148,7 +148,8 @@ def stuck_wheel(robot: Robot) -> str:
 def unknown_masses(robot: Robot) -> dict[str, str]:
     """Return the links whose stated mass is none, by scoped name, with the reason.
 
-    The reason is the end of a sentence. A mass of zero is right for frames, but not for bodies.
+    The reason is the end of a sentence. A mass of zero is right for frames, but not for bodies;
+    the readers of URDF take each link without mass for a frame, so there it is known.
     """
     misread = {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
     unknown = {}
@@ -158,6 +159,6 @@ def unknown_masses(robot: Robot) -> dict[str, str]:
             continue
         if mass.span in misread or not math.isfinite(mass.value):
             unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not known"
-        elif mass.value < 0.0 or (mass.value == 0.0 and link.collisions):
+        elif mass.value < 0.0 or (mass.value == 0.0 and link.collisions and robot.format != "urdf"):
             unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not positive"
     return unknown

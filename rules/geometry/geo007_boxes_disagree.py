@@ -36,7 +36,8 @@ def check(
 ) -> Findings:
     """Report links whose collisions and visuals fill boxes of different centres or sizes.
 
-    Tilted wheels (GEO003), rotors and links with an unknown mesh are skipped.
+    Tilted wheels (GEO003), rotors and links with an unknown mesh are skipped. A sphere may stand
+    for a narrower wheel of its diameter: it rolls alike.
 
     Options:
         wheel_share: Share of the larger box's diagonal by which centres or sizes may differ for a
@@ -59,10 +60,23 @@ def check(
             continue
         touched, seen = _box(robot, link, link.collisions), _box(robot, link, link.visuals)
         share = wheel_share if name in wheels else other_share
+        if seen is not None and name in wheels and _is_sphere(link):
+            seen = _cube_around(seen)
         if touched is not None and seen is not None and _differ(touched, seen, share):
             yield finding(link, _message(link, touched, seen))
         elif name in rolling:
             yield from _along_axle(robot, rolling[name], axle_share)
+
+
+def _is_sphere(link: Link) -> bool:
+    return [collision.geometry.shape for collision in link.collisions] == ["sphere"]
+
+
+def _cube_around(wheel: Box) -> Box:
+    """Return the box of a sphere that has the diameter of a wheel."""
+    x, y, z = wheel.centre
+    radius = max(_size(wheel)) / 2
+    return Box((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
 
 
 def _differ(touched: Box, seen: Box, share: float) -> bool:
@@ -184,6 +198,15 @@ def _wheel(
 """
 
 
+def _ball(radius: str, mark: str = "") -> str:
+    return f"""
+<link name="front_wheel">{mark}
+  <collision name="c"><geometry><sphere><radius>{radius}</radius></sphere></geometry></collision>
+  <visual name="v"><geometry><box><size>0.2 0.06 0.2</size></box></geometry></visual>
+</link>
+"""
+
+
 _MARK = "  <!-- ^ GEO007 -->"
 GOOD = [
     _body("0 0 0.1", "1 0.5 0.2"),
@@ -195,6 +218,7 @@ GOOD = [
     _wheel("0.05", "0.05", mesh=True),
     # Within a tyre that reaches inwards.
     _wheel("0", "-0.04", 0.19),
+    _ball("0.1"),
 ]
 BAD = [
     _body("0 0 0.8", "1 0.5 0.2", _MARK),
@@ -202,4 +226,5 @@ BAD = [
     _body("0 0 0", "1 0.5 0.6", _MARK, "front_wheel"),
     _wheel("0.04", "0", mark=_MARK),
     _wheel("0.04", "0", mesh=True, mark=_MARK),
+    _ball("0.15", _MARK),
 ]

@@ -103,5 +103,20 @@ def _wheel(moment: float, mark: str = "", beside: float = 2.0) -> str:
 
 
 _MARK = "  <!-- ^ INE004 -->"
-GOOD = [_wheel(0.008), _wheel(0.02), _wheel(1e-6, beside=1000)]
+_TOOL_FRAME = """
+<link name="tool">
+  <inertial>
+    <mass value="0"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
+  </inertial>
+  <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+</link>
+<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>
+"""
+GOOD = [
+    _wheel(0.008),
+    _wheel(0.02),
+    _wheel(1e-6, beside=1000),
+    {"@urdf": _TOOL_FRAME},
+]
 BAD = [_wheel(1e-6, _MARK), _wheel(0.03, _MARK), _wheel(8, _MARK), _wheel(8, _MARK, beside=1000)]

@@ -1,7 +1,8 @@
 """RViz or Gazebo cannot find a mesh of a URDF file.
 
 Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
-only on the author's machine; elsewhere the part is invisible. The simulation of a robot in SDF does
+only on the author's machine; elsewhere the part is invisible. `package:///` names no package: only
+Pinocchio takes it for `package://`. The simulation of a robot in SDF does
 not need the file, so this is a warning.
 
 Fix: write `package://<package>/<path>`.
@@ -21,7 +22,8 @@ from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
-_ABSOLUTE = ("/", "file:///")
+_NO_PACKAGE = "package:///"
+_ABSOLUTE = ("/", "file:///", _NO_PACKAGE)
 
 
 @rule("URD002", "mesh-uri", Severity.WARNING, Concern.ROBOT)
@@ -41,7 +43,14 @@ def check(package: Package, description: UrdfDescription) -> Findings:
         named = _PACKAGE.match(uri.value)
         if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
             continue
-        if named is None:
+        if uri.value.startswith(_NO_PACKAGE):
+            yield finding(
+                uri,
+                f"mesh {uri.value!r} names no package, so RViz and Gazebo do not find it: write "
+                "package:// with two slashes",
+                key="three slashes",
+            )
+        elif named is None:
             yield finding(
                 uri,
                 f"mesh {uri.value!r} does not start with package://, so at most the author's "
@@ -120,4 +129,9 @@ BAD = [
     _example(f"meshes/wheel.dae{_MARK}"),
     _example(f"file:///home/me/wheel.dae{_MARK}"),
     _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
+    {
+        "@urdf": True,
+        "package.xml": None,
+        "urdf/arm.urdf": _visual(f"package:///other_description/meshes/wheel.dae{_MARK}"),
+    },
 ]

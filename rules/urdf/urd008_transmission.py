@@ -120,8 +120,11 @@ def _twice(description: UrdfDescription) -> Iterator[Finding]:
 
 def _left_without(description: UrdfDescription) -> Iterator[Finding]:
     """Yield joints without transmission if most joints of their type have one."""
+    # Transmissions of the PR2 name joints in elements such as <flexJoint> and <passive_joint>.
     moved = {
-        end.name.value for transmission in description.transmissions for end in transmission.joints
+        part.attributes.get("name", "")
+        for transmission in description.transmissions
+        for part in transmission.element.descendants()
     }
     robot = description.robot
     moved |= {
@@ -173,6 +176,13 @@ GOOD = [
         )
     },
     {"@urdf": _SOUND + _hinge("elbow")},
+    {
+        "@urdf": _SOUND
+        + _transmission(f'<joint name="elbow">{_INTERFACE}</joint>{_MOTOR}')
+        + '<transmission name="w" type="WristTransmission"><flexJoint name="wrist"/></transmission>'
+        + _hinge("elbow")
+        + _hinge("wrist")
+    },
 ]
 BAD = [
     {"@urdf": _transmission(_shoulder(), _MARK)},
