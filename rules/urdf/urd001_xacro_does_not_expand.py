@@ -2,7 +2,7 @@
 
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
-at launch.
+at launch: one that has no default, or an empty one that the file cannot do without.
 
 Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
 line. URD014 reports what only xacro of ROS Noetic and later refuses.
@@ -101,7 +101,25 @@ _MARK = "  <!-- ^ URD001 -->"
 _MACROS = """
 <xacro:macro name="wheel" params="side"><link name="$(arg name)/${side}_wheel"/></xacro:macro>
 """
+_MODEL = '<xacro:arg name="model" default=""/>\n<xacro:include filename="$(arg model).xacro"/>'
+_STATE = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': Command(
+                 ['xacro ', in_package('urdf', 'arm.urdf.xacro'), ' model:=', @])}]),"""
+
+
+def _chosen(value: str, mark: str = "") -> dict[str, str]:
+    xacro = f'<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">\n{_MODEL}{mark}\n</robot>'
+    links = '<robot name="arm"><link name="base_link"/></robot>'
+    return {
+        "@ros2": _STATE.replace("@", value),
+        "urdf/arm.urdf.xacro": xacro,
+        "urdf/large.xacro": links,
+    }
+
+
 GOOD = [
+    _chosen("'large'"),
+    {"urdf/arm.urdf.xacro": f'{_HEAD}{_MODEL}<link name="base_link"/></robot>'},
     _loaded(f'<xacro:arg name="name" default="x"/>{_MACROS}<xacro:wheel side="left"/>'),
     _loaded('<link name="$(arg name)/base_link"/>'),
     {"urdf/wheel.xacro": f"{_HEAD}{_MACROS}</robot>"},
@@ -123,4 +141,7 @@ BAD = [
     },
     {_LAUNCH: _LOADING, _DESCRIPTION: "", "@reported": [f"{_DESCRIPTION}:1"]},
     {"@urdf": f'<link name="$(arg name)/hand"/>{_MARK}'},
+    _chosen("'lagre'", _MARK),
+    _loaded(f'<xacro:arg name="prefix" default=""/><xacro:wheel side="left"/>{_MARK}'),
+    _loaded(f"{_MODEL}{_MARK}"),
 ]

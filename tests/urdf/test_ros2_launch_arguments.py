@@ -120,3 +120,39 @@ def test_a_launch_file_of_another_package_gives_arguments(tmp_path: Path) -> Non
     reasons = {skipped.reason for skipped in judged(package).not_checked}
     (told,) = (reason for reason in reasons if "leaves kind:=…" in reason)
     assert "../acme_bringup/launch/bringup.launch.py" in told
+
+
+CHOOSING = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:arg name="kind" default=""/>
+  <xacro:include filename="$(arg kind).xacro"/>
+</robot>
+"""
+CLASSIC = """<launch>
+  <arg name="kind"/>
+  <param name="robot_description"
+         command="xacro $(find acme_description)/urdf/r.urdf.xacro kind:=$(arg kind)"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize("launch", ["view.launch.py", "view.launch", ""])
+def test_an_argument_that_is_empty_by_default_is_asked_for(launch: str, tmp_path: Path) -> None:
+    package = package_with(tmp_path)
+    (package / "urdf/r.urdf.xacro").write_text(CHOOSING)
+    (package / "urdf/small.xacro").write_text('<robot name="r"><link name="base"/></robot>')
+    if launch != "view.launch.py":
+        (package / "launch/view.launch.py").unlink()
+    if launch == "view.launch":
+        (package / "launch/view.launch").write_text(CLASSIC)
+    report = judged(package)
+    assert not [each for each in report.findings if each.rule == "URD001"]
+    assert [each for each in report.not_checked if "needs --xacro-arg kind:=…" in each.reason]
+    (package / "subt-check.toml").write_text('[xacro-args]\nkind = "small"\n')
+    assert judged(package).facts["links"] == 1
+
+
+def test_a_fault_that_the_argument_has_no_part_in_stays(tmp_path: Path) -> None:
+    package = package_with(tmp_path)
+    text = CHOOSING.replace("$(arg kind).xacro", "lost.xacro")
+    (package / "urdf/r.urdf.xacro").write_text(text)
+    assert [each for each in judged(package).findings if each.rule == "URD001"]

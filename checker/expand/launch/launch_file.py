@@ -35,11 +35,13 @@ class Load(Record):
         path: As xacro sees it.
         args: Arguments that xacro is given.
         by_xacro: Whether xacro reads it; otherwise it is loaded as it stands.
+        unknown: Names of arguments whose values are only known at launch.
     """
 
     path: str
     args: Mapping[str, str]
     by_xacro: bool
+    unknown: tuple[str, ...] = ()
 
 
 def loads(graph: LaunchGraph) -> Iterator[Load]:
@@ -63,11 +65,13 @@ def read_command(command: str) -> Iterator[Load]:
     if file is None:
         return
     pairs = (word.partition(":=") for word in words)
-    args = {name: value for name, assigned, value in pairs if assigned and is_known(value)}
+    given = {name: value for name, assigned, value in pairs if assigned}
+    args = {name: value for name, value in given.items() if is_known(value)}
     tools = {
         program_word.rpartition("/")[2].removesuffix(".py") for program_word in (program, *words)
     }
-    yield Load(file, args, by_xacro="xacro" in tools)
+    unknown = tuple(name for name in given if name not in args)
+    yield Load(file, args, "xacro" in tools, unknown)
 
 
 def _plain(text: str) -> Iterator[Load]:

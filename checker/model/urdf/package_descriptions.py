@@ -23,6 +23,7 @@ from checker.model.urdf.candidates import (
     unused_parts,
 )
 from checker.model.urdf.description import UrdfDescription, read_description
+from checker.model.urdf.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.model.urdf.files import UrdfFiles
 from checker.model.urdf.macro_calls import MacroCall, minimal_call
 from checker.model.urdf.started_loads import started_loads
@@ -94,6 +95,7 @@ class PackageDescriptions:
         expanded = self._expanded
         unread, assumed = self._choose(expanded)
         old = self._expand_as_melodic(expanded)
+        needed = self._needed(expanded)
         descriptions, faults, fragments = [], [], []
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
@@ -105,9 +107,13 @@ class PackageDescriptions:
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
                 unread.append((candidate, self._unread(candidate, outcome.reason)))
-            elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate):
+            elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate, outcome):
                 reason = f"{candidate.path} is not expanded: {outcome.message}"
                 unread.append((candidate, self._unread(candidate, reason)))
+            elif names := needed.get(candidate.path):
+                given = " ".join(f"{name}:=…" for name in names)
+                reason = f"{candidate.path} needs --xacro-arg {given}: without, {outcome.message}"
+                unread.append((candidate, reason))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
@@ -167,9 +173,10 @@ class PackageDescriptions:
         leads_out = any(end.get("link") not in links for end in ends)
         return leads_out and is_included(self._package, candidate.path)
 
-    def _may_be_given(self, candidate: Candidate) -> bool:
+    def _may_be_given(self, candidate: Candidate, fault: XacroFault) -> bool:
         """Say whether what starts a file may well give the argument that it lacks."""
-        return not candidate.loaded or bool(candidate.missing.keys() - self._args.keys())
+        left = candidate.missing.keys() - self._args.keys()
+        return not candidate.loaded or any(name in fault.message for name in left)
 
     def _unread(self, candidate: Candidate, reason: str) -> str:
         """Return a reason; it says which arguments a launch file leaves to whoever starts it."""
@@ -214,6 +221,28 @@ class PackageDescriptions:
                 unread.append((candidate, f"{why}; {taken} is taken instead"))
                 assumed[candidate.path] = taken
         return unread, assumed
+
+    def _needed(self, expanded: Mapping[str, Outcome]) -> dict[str, list[str]]:
+        """Return, by path, the arguments without which a file does not expand.
+
+        They are empty by default; with a value the file expands, or is refused for another reason.
+        """
+        tried = [
+            (self._wish(candidate), names)
+            for candidate in self._candidates
+            if isinstance(expanded.get(candidate.path), XacroFault)
+            and (names := empty_arguments(self._package, candidate, self._args))
+        ]
+        wanted = [
+            replace(wish, args={**wish.args, **dict.fromkeys(names, SAMPLE)})
+            for wish, names in tried
+        ]
+        outcomes = Expansions(self._package, wanted, self._expander).outcomes() if wanted else []
+        return {
+            wish.path: names
+            for (wish, names), outcome in zip(tried, outcomes, strict=True)
+            if not is_refused_alike(outcome, expanded[wish.path])
+        }
 
     def _expand_as_melodic(self, expanded: dict[str, Outcome]) -> tuple[XacroFault, ...]:
         """Expand what a newer xacro refuses as Melodic's does, and return what is refused.

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.launch_file import Load, loads
+from checker.expand.launch.launch_file import loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.expand.ros2_launch.package_launch import launches_naming
@@ -29,7 +29,7 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
     """
     for graph in ros2.entries if ros2 is not None else ():
         yield from _loaded(package, graph, "")
-    yield from map(StartedLoad, _classic_loads(package))
+    yield from _classic_loads(package)
     for other, graph in launches_naming(package):
         yield from _loaded(other, graph, f"../{other.name}/")
 
@@ -42,12 +42,12 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
         yield StartedLoad(described.load, missing, described.choices)
 
 
-def _classic_loads(package: Package) -> list[Load]:
+def _classic_loads(package: Package) -> list[StartedLoad]:
     launch_files = package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
     paths = [file.path for file in launch_files if _loads_something(package, file.path)]
     files, documents = LaunchFiles(package), map(package.xml, paths)
     return [
-        load
+        StartedLoad(load, dict.fromkeys(load.unknown, document.source.file))
         for document in documents
         if isinstance(document, XmlDocument)
         for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))
