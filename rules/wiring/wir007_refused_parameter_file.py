@@ -1,6 +1,6 @@
 """A parameter file that rcl refuses: the node ends when it starts.
 
-In a parameter file of ROS 2 stand names of nodes, below each of them `ros__parameters`, and the
+A parameter file of ROS 2 holds names of nodes, below each of them `ros__parameters`, and the
 values below that. A value anywhere else makes rcl refuse the whole file ("Cannot have a value
 before ros__parameters"), for every node that is given it, whether the rest is for it or not. Files
 of ROS 1, and those that a library reads by itself, have their values at the top.
