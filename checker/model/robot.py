@@ -118,9 +118,9 @@ class Robot(Part, dict=True):
 
     @cached_property
     def is_prop(self) -> bool:
-        """Whether nothing of it moves, senses or acts: a barrel, not a robot."""
-        movable = any(not joint.immovable for joint in self.joints)
-        return not (movable or self.sensors or self.plugins)
+        """Whether it has no joint to move, sensor or plugin: a barrel, not a robot."""
+        jointed = any(joint.type.value != "fixed" for joint in self.joints)
+        return not (jointed or self.sensors or self.plugins)
 
     def is_still(self, link: Link) -> bool:
         """Say whether a model around a link, this one or one nested in it, is static."""
