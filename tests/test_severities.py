@@ -53,6 +53,21 @@ def friction(inside: str) -> str:
 """
 
 
+TOOL = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>'
+LEFTOVER = f"""<link name="tool"/>{TOOL}
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+  <joint name="j"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+  <actuator name="m"/>
+</transmission>
+"""
+READ = '<gazebo><plugin name="p" filename="libgazebo_ros_control.so"/></gazebo>'
+DRAWN = f"""{TOOL}<link name="tool">
+  <visual><geometry><mesh filename="package://acme_arm_description/meshes/a.obj"/></geometry></visual>
+</link>
+"""
+CAMERA = '<gazebo reference="tool"><sensor name="c" type="camera"/></gazebo>'
+FINE = {"meshes/a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 201_000}
+
 CASES: list[tuple[str, Example, str]] = [
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
@@ -83,6 +98,10 @@ CASES: list[tuple[str, Example, str]] = [
     ("SDF008", friction("<radius>1</radius>"), "error"),
     ("SEN002", '<sensor name="s" type="gpu_ray"/>', "info"),
     ("SEN002", '<sensor name="s" type="ray"/>', "error"),
+    ("URD008", {"@urdf": LEFTOVER}, "info"),
+    ("URD008", {"@urdf": LEFTOVER + READ}, "warning"),
+    ("MSH004", {"@urdf": DRAWN, **FINE}, "info"),
+    ("MSH004", {"@urdf": DRAWN + CAMERA, **FINE}, "warning"),
 ]  # fmt: skip
 
 

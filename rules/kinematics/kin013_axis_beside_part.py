@@ -20,7 +20,7 @@ _HINGES = ("revolute", "continuous")
 
 
 @rule("KIN013", "axis-beside-part", Severity.WARNING, Concern.ROBOT)
-def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
+def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0, marker: float = 0.02) -> Findings:
     """Report parts far from their axis or parent.
 
     Meshes count as their convex hull; parts with an unreadable mesh are skipped.
@@ -30,6 +30,8 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
             as a multiple of that box's diagonal; more is reported.
         gap: Distance between the boxes around a part and its parent, divided by the sum of their
             diagonals; more is reported.
+        marker: Diagonal in metres of a box that only marks a frame, such as one of a stereo camera;
+            the gap between two boxes that are no larger is not reported.
     """
     boxes = {name: robot.box_of(link) for name, link in robot.tree.links.items()}
     for tie in robot.tree.ties:
@@ -39,6 +41,7 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
         if (
             child is not None
             and parent is not None
+            and max(child.diagonal, parent.diagonal) > marker
             and child.gap(parent) > gap * (child.diagonal + parent.diagonal)
         ):
             yield finding(
@@ -94,9 +97,30 @@ def _wheel(joint_pose: str, wheel_pose: str = "0 0.3 0 0 0 0", mark: str = "") -
 """
 
 
+def _stereo(side: float, mark: str = "") -> str:
+    cube = f"<geometry><box><size>{side} {side} {side}</size></box></geometry>"
+    return f"""
+<link name="left_camera"><visual name="v">{cube}</visual></link>
+<link name="right_camera">
+  <pose>0 -0.09 0 0 0 0</pose>
+  <visual name="v">{cube}</visual>
+</link>
+<joint name="baseline" type="fixed">{mark}
+  <parent>left_camera</parent>
+  <child>right_camera</child>
+</joint>
+"""
+
+
 _MARK = "  <!-- ^ KIN013 -->"
-GOOD = [_wheel("0 0 0 0 0 0"), _wheel("0.2 0.3 0 0 0 0"), _wheel("0 5 0 0 0 0")]
+GOOD = [
+    _stereo(0.01),
+    _wheel("0 0 0 0 0 0"),
+    _wheel("0.2 0.3 0 0 0 0"),
+    _wheel("0 5 0 0 0 0"),
+]
 BAD = [
     _wheel("1 0 0 0 0 0", mark=_MARK),
     _wheel("0 0 0 0 0 0", "0 30 0 0 0 0", mark=_MARK),
+    _stereo(0.015, _MARK),
 ]

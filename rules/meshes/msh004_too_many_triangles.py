@@ -1,7 +1,8 @@
 """A mesh with too many triangles for simulation.
 
 The simulator tests collision meshes against each other at every step, and draws visual meshes again
-for each camera and each lidar of the robot.
+for each camera and each lidar of the robot. A URDF without sensors is drawn on the screen alone:
+there many triangles of visuals are information.
 
 Fix: reduce the mesh (Blender: Decimate); use boxes, cylinders and spheres as collisions.
 Source: Model Migration Guide and review findings; the figures are ten times what the accepted
@@ -27,6 +28,8 @@ def check(
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
+    once = robot.format == "urdf" and not robot.sensors
+    drawn = Severity.INFO if once else Severity.WARNING
     total = 0
     for use in robot.mesh_uses:
         triangles = use.file.triangles if isinstance(use.file, Mesh) else 0
@@ -38,12 +41,14 @@ def check(
                 use.uri,
                 f"{kind} mesh {use.uri.value} has {triangles:,} triangles, "
                 f"expected at most {most:,}",
+                severity=Severity.WARNING if use.is_collision else drawn,
             )
     if total > together:
         yield finding(
             robot,
             f"the meshes of the robot have {total:,} triangles together, "
             f"expected at most {together:,}",
+            severity=drawn,
         )
 
 

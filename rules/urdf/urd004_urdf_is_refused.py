@@ -29,10 +29,10 @@ def check(description: UrdfDescription) -> Findings:
     """Report what prevents a description from being read as a tree of links."""
     robot = description.robot
     if not robot.links:
-        yield finding(robot, "the description has no link: every reader refuses it")
+        yield finding(robot, "the description has no link: RViz, Gazebo and Pinocchio refuse it")
         return
     if not robot.name.value:
-        yield finding(robot, "the robot has no name: every reader refuses it")
+        yield finding(robot, "the robot has no name: RViz, Gazebo and Pinocchio refuse it")
     optional = has_version(description.document, "1.2")
     for joint in robot.joints:
         yield from _type_and_limit(joint, optional=optional)

@@ -2,7 +2,8 @@
 
 gazebo_ros_control registers a joint with the controllers through its transmission. It skips a
 transmission without a joint, an actuator or an interface, and the controller does not find its
-joint.
+joint. Without a plugin that reads transmissions, one of a fixed joint is a leftover that does no
+harm: information.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
@@ -76,14 +77,15 @@ def _joint(
 ) -> Iterator[Finding]:
     name, own = end.name.value, transmission.name.value
     joint = robot.joints_by_name.get(name)
+    used = any("control" in plugin.filename.value for plugin in robot.plugins)
     if joint is None:
         phrase = f"moves joint {name!r}, which does not exist{names.hint(name)}"
-        used = any("control" in plugin.filename.value for plugin in robot.plugins)
         level = None if used else Severity.WARNING
         yield finding(end.name, f"transmission {own!r} {phrase}", severity=level)
     elif joint.type.value not in _MOVING:
         phrase = f"moves joint {name!r}, which is {joint.type.value}"
-        yield finding(end.name, f"transmission {own!r} {phrase}", severity=Severity.WARNING)
+        level = Severity.WARNING if used else Severity.INFO
+        yield finding(end.name, f"transmission {own!r} {phrase}", severity=level)
     if not end.interfaces:
         if _is_of_ros_control(transmission):
             message = f"joint {name!r} of transmission {own!r} has no <hardwareInterface>"
