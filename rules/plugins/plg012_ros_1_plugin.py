@@ -86,7 +86,7 @@ def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Fin
             element,
             f"<{element.tag}> is a parameter of ROS 1 that {library} ignores: {advice}",
             severity=None if _is_missed(plugin, instead, element.value) else Severity.WARNING,
-            key=f"{library} {element.tag}",
+            key=library,
         )
 
 
