@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
+from checker.package.inheritance import SUBMISSION_NAME
 from checker.package.kind import PackageKind, enclosing_package
 from checker.package.told_target import is_described_for_ros_2
+from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 if TYPE_CHECKING:
@@ -14,6 +17,9 @@ if TYPE_CHECKING:
 SUBMISSION, ROS_1, ROS_2, MODEL, ANY_SDF = "subt", "urdf", "ros2", "gazebo-harmonic", "sdf"
 _OF_ROS_2 = ("ament_", "rclcpp", "rclpy", "ros_gz", "rosidl_", "launch_ros", "ros2")
 """How the names of packages begin that only ROS 2 has."""
+_OF_SUBT = re.compile(r"(?<![a-z])subt(?![a-z]|-check)", re.IGNORECASE)
+"""How files name the challenge: `subt_ros`, `subt::`, `SubT`."""
+_NAMING = (".xml", ".sdf", ".launch", ".md", ".rb", "cmakelists.txt")
 _LEVELS = 6
 _SUBMISSIONS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
 
@@ -22,9 +28,10 @@ def usual_profile(package: Package) -> str:
     """Return the profile that judges a package where the user names none.
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
-    type or its dependencies. A model, a world or a single file is judged as the package around it
-    is; without one, it is Gazebo's, even where model.config names a URDF file, and other URDF is
-    of ROS 2 or ROS 1 by its content.
+    type or its dependencies. One of catkin that names SubT nowhere is of ROS 1, or a model for any
+    Gazebo. A model, a world or a single file is judged as the package around it is; without one,
+    it is Gazebo's, even where model.config names a URDF file, and other URDF is of ROS 2 or ROS 1
+    by its content.
     """
     if package.kind in _SUBMISSIONS:
         return SUBMISSION
@@ -37,7 +44,7 @@ def usual_profile(package: Package) -> str:
         return ROS_2 if around == ROS_2 or by_content else ROS_1
     if package.only and around == SUBMISSION:
         return SUBMISSION
-    return ANY_SDF if around == ROS_1 else MODEL
+    return ANY_SDF if around in (ROS_1, ANY_SDF) else MODEL
 
 
 def ros_2_package(package: Package) -> Package | None:
@@ -64,7 +71,23 @@ def _around(package: Package) -> Package | None:
 def _of_manifest(package: Package, manifest: XmlDocument) -> str:
     if _is_ros_2(manifest):
         return ROS_2
-    return ROS_1 if package.is_urdf else SUBMISSION
+    if package.is_urdf:
+        return ROS_1
+    if not _is_catkin(manifest) or _is_of_subt(package):
+        return SUBMISSION
+    return ANY_SDF if package.kind is PackageKind.BASE_MODEL else ROS_1
+
+
+def _is_catkin(manifest: XmlDocument) -> bool:
+    return any(child.text.value.strip() == "catkin" for child in manifest.root.children)
+
+
+def _is_of_subt(package: Package) -> bool:
+    """Say whether a package is for the challenge: it lies beside submissions, or names SubT."""
+    if any(map(SUBMISSION_NAME.search, package.workspace.packages)):
+        return True
+    texts = (package.read(file.path) for file in package.index.with_suffix(*_NAMING))
+    return any(isinstance(text, SourceText) and _OF_SUBT.search(text.text) for text in texts)
 
 
 def _is_ros_2(manifest: XmlDocument) -> bool:

@@ -107,6 +107,43 @@ def test_a_file_for_ros_2_in_a_package_of_ros_1_counts_by_its_content(tmp_path: 
     assert Settings().suiting(package).profile == "ros2-classic"
 
 
+CATKIN = """<package format="2">
+  <name>{0}</name><version>1.0.0</version><description>{0}</description>
+  <maintainer email="a@example.org">A</maintainer><license>BSD</license>
+  <buildtool_depend>catkin</buildtool_depend><exec_depend>gazebo_ros</exec_depend>
+</package>
+"""
+BOX = '<sdf version="1.6"><model name="box"><link name="base_link"/></model></sdf>'
+
+
+def of_catkin(folder: Path, name: str = "acme_worlds", **files: str) -> Package:
+    """Return a package of worlds and models without anything of a submission."""
+    own = {"package.xml": CATKIN.format(name), "worlds/yard.world": BOX, "box/model.sdf": BOX}
+    for path, text in {**own, **files}.items():
+        (folder / name / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name / path).write_text(text)
+    return Workspace((folder,)).at(folder / name)
+
+
+def test_worlds_and_models_in_a_package_of_ros_1_are_no_submission(tmp_path: Path) -> None:
+    package = of_catkin(tmp_path)
+    workspace = package.workspace
+    world = Package(package.root / "worlds", workspace, "yard.world")
+    model = Package(package.root / "box", workspace)
+    robot = of_catkin(tmp_path, "acme_box", **{"model.sdf": BOX})
+    chosen = [Settings().suiting(each).profile for each in (package, world, model, robot)]
+    assert chosen == ["urdf", "sdf", "sdf", "sdf"]
+
+
+def test_what_names_subt_or_lies_beside_submissions_is_for_it(tmp_path: Path) -> None:
+    named = of_catkin(tmp_path / "a", **{"README.md": "Models for the SubT Challenge"})
+    suppressing = of_catkin(tmp_path / "b", **{"README.md": "Checked by subt-check."})
+    of_catkin(tmp_path / "c", "acme_rover_sensor_config_1")
+    beside = of_catkin(tmp_path / "c")
+    chosen = [Settings().suiting(each).profile for each in (named, suppressing, beside)]
+    assert chosen == ["subt", "urdf", "subt"]
+
+
 def test_a_model_is_judged_as_the_package_around_it(tmp_path: Path) -> None:
     model = '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>'
     folder = write_example({"@ros2": SPAWN, "models/rover/model.sdf": model}, tmp_path)
