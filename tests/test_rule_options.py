@@ -124,7 +124,7 @@ def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
         ("BRD001", 1, {"counts": [4]}, "expected 4; without it there is no limit"),
         ("GEO011", 1, {"least_clearance": 0}, ""),
         ("GEO011", 0, {"least_clearance": 0, "tolerance": 0.1}, ""),
-        ("INE004", -2, {"warning_above": 0.5}, "are too large for 2 kg"),
+        ("INE004", -3, {"warning_above": 0.5}, "are too large for 2 kg"),
         ("REF006", 1, {"folder": "textures/"}, ""),
         ("REF006", 1, {"folder": "textures"}, ""),
         ("ROS012", -3, {"published_elsewhere": ""}, "(camera_optical_frame)"),

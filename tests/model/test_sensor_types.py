@@ -55,7 +55,10 @@ def test_what_is_lost_is_known() -> None:
         types = sensor_types(release)
         assert types.lost < types.known
         assert {"gpu_lidar", "camera", "imu"} <= types.known - types.lost
-    assert sensor_types("classic") == sensor_types("")
+    assert not sensor_types("").lost
+    classic = sensor_types("classic")
+    assert {"gpu_lidar", "navsat", "rgbd_camera"} <= classic.lost
+    assert {"ray", "gpu_ray", "camera", "imu", "gps"} <= classic.known - classic.lost
 
 
 @pytest.mark.parametrize(
