@@ -21,6 +21,7 @@ from checker.model.ros2_control.robot_control import (
 if TYPE_CHECKING:
     from checker.engine.subject import Subject
     from checker.model.ros.simulation import Simulations
+    from checker.model.ros.spawned import SpawnedReader
     from checker.model.ros.wiring.wiring import Wiring
 
 
@@ -73,6 +74,13 @@ class Ros2Parts(Record, eq=False, dict=True):
         return tuple(self.controls_by_file.values())
 
     @cached_property
+    def spawned_reader(self) -> SpawnedReader:
+        """Reads the robots that launch files spawn and describe; each file once."""
+        from checker.model.ros.spawned import SpawnedReader
+
+        return SpawnedReader(self.subject.package, self.subject.expander, self.control_reader)
+
+    @cached_property
     def simulations(self) -> Simulations | NotAvailable:
         """What the ROS 2 launch files simulate and bridge."""
         if self.subject.package.only:
@@ -81,7 +89,7 @@ class Ros2Parts(Record, eq=False, dict=True):
         known = None if isinstance(launch, NotAvailable) else launch
         from checker.model.ros.simulation import simulations
 
-        found = simulations(self.subject.package, known, self.subject.expander, self.control_reader)
+        found = simulations(self.subject.package, known, self.spawned_reader)
         if any(it.bridges.is_there or it.starts_gazebo or it.classic_robots for it in found.all):
             return found
         return self.subject.without_simulation
@@ -94,10 +102,7 @@ class Ros2Parts(Record, eq=False, dict=True):
             return launch
         simulations = self.subject.simulations
         known = None if isinstance(simulations, NotAvailable) else simulations
-        from checker.model.ros.spawned import SpawnedReader
         from checker.model.ros.wiring.wiring import wirings
 
-        package, reader = self.subject.package, self.control_reader
-        robots = SpawnedReader(package, self.subject.expander, reader)
-        found = tuple(wirings(launch, known, reader, robots))
+        found = tuple(wirings(launch, known, self.control_reader, self.spawned_reader))
         return found or NotAvailable("no launch file starts a node", applicable=False)

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
+from checker.package.distribution_sign import DistributionSign, distribution_sign
 from checker.package.index import (
     EntryKind,
     FileEntry,
@@ -42,6 +43,7 @@ from checker.package.references import (
     spawner_references,
 )
 from checker.package.repository import units_below
+from checker.package.told_target import simulator_signs
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
@@ -171,6 +173,24 @@ class Package(Record, eq=False, dict=True):
         return kind_of(self)
 
     @cached_property
+    def simulator_signs(self) -> Mapping[str, str]:
+        """Which simulators its files name, each with the first place that does."""
+        return simulator_signs(self)
+
+    @cached_property
+    def distribution_sign(self) -> DistributionSign | None:
+        """Which ROS 2 distribution its files, or those around it, name."""
+        return distribution_sign(self)
+
+    @cached_property
+    def build_type(self) -> str | None:
+        """What package.xml says of who builds it; None where it says nothing."""
+        manifest = self.xml("package.xml")
+        export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
+        build_type = export.child("build_type") if export is not None else None
+        return build_type.text.value if build_type is not None else None
+
+    @cached_property
     def is_urdf(self) -> bool:
         """Whether its robot is described in URDF alone, as packages and files of ROS are."""
         if not self.only:
@@ -289,10 +309,7 @@ class Package(Record, eq=False, dict=True):
     @cached_property
     def build(self) -> CMakeFile | None:
         """CMakeLists.txt; None when it is missing or no text, or setup.py builds the package."""
-        manifest = self.xml("package.xml")
-        export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
-        build_type = export.child("build_type") if export is not None else None
-        if build_type is not None and build_type.text.value == "ament_python":
+        if self.build_type == "ament_python":
             return None
         source = self.read("CMakeLists.txt")
         return read_cmake(source) if isinstance(source, SourceText) else None

@@ -69,7 +69,7 @@ def _around(package: Package) -> Package | None:
 
 
 def _of_manifest(package: Package, manifest: XmlDocument) -> str:
-    if _is_ros_2(manifest):
+    if _is_ros_2(package, manifest):
         return ROS_2
     if package.is_urdf:
         return ROS_1
@@ -90,11 +90,9 @@ def _is_of_subt(package: Package) -> bool:
     return any(isinstance(text, SourceText) and _OF_SUBT.search(text.text) for text in texts)
 
 
-def _is_ros_2(manifest: XmlDocument) -> bool:
-    export = manifest.root.child("export")
-    build_type = export.child("build_type") if export is not None else None
-    if build_type is not None:
-        return build_type.text.value.startswith("ament_")
+def _is_ros_2(package: Package, manifest: XmlDocument) -> bool:
+    if package.build_type is not None:
+        return package.build_type.startswith("ament_")
     return any(
         child.tag.endswith("depend") and child.text.value.startswith(_OF_ROS_2)
         for child in manifest.root.children

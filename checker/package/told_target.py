@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.package.distribution_sign import distribution_sign
 from checker.source.text import SourceText, blank_markup
 
 if TYPE_CHECKING:
@@ -76,9 +75,9 @@ def told_target(package: Package, distro: str = "") -> ToldTarget:
         package: A package of ROS 2.
         distro: That the user names; it counts instead of what the content names.
     """
-    named = None if distro else distribution_sign(package)
+    named = None if distro else package.distribution_sign
     distro = distro or (named.distro if named else "")
-    signs = _signs(package)
+    signs = package.simulator_signs
     if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
         reason = f"Gazebo Classic 11, {_SUPPORT}: {signs[CLASSIC]}"
         return ToldTarget(True, _known(distro or _OLDEST), reason)
@@ -101,7 +100,7 @@ def _known(distro: str) -> str:
     return distro if distro in known else _OLDEST
 
 
-def _signs(package: Package) -> dict[str, str]:
+def simulator_signs(package: Package) -> dict[str, str]:
     """Return which simulators the package names, each with the first place that does."""
     found: dict[str, str] = {}
     for names, patterns in _SIGNS:

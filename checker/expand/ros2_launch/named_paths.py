@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterable, Iterator
+from functools import cache
 
 from checker.base.record import Record
 from checker.base.resources import table
@@ -126,12 +127,17 @@ def unavailable(package: Package, name: str) -> str:
         package: That is checked.
         name: Of the other package.
     """
-    known = {node.partition("/")[0] for node in table("ros_nodes")["nodes"]}
-    if name.startswith(_OF_ROS) or name in (*known, *GAZEBO) or holder_of(package, name):
+    if name.startswith(_OF_ROS) or name in _known_packages() or holder_of(package, name):
         return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
     return f"package {name} is not available; --package-path DIR names the folder that holds it"
+
+
+@cache
+def _known_packages() -> frozenset[str]:
+    """Return the packages of ROS whose nodes, or launch files, start no robot of the user's."""
+    return frozenset((*GAZEBO, *(node.partition("/")[0] for node in table("ros_nodes")["nodes"])))
 
 
 def lies_elsewhere(package: Package, path: SharePath) -> str:

@@ -8,7 +8,6 @@ from checker.base.record import Record
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, shown
-from checker.expand.xacro.expansion import Expander
 from checker.model.robot import Robot
 from checker.model.ros.servers import (
     GazeboServer,
@@ -26,7 +25,6 @@ from checker.model.ros.simulated_topics import (
 )
 from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
 from checker.model.ros.topics import comparable
-from checker.model.ros2_control.robot_control import ControlReader
 from checker.model.sdf.world import World, systems_of
 from checker.package.package import Package
 
@@ -165,19 +163,15 @@ class Simulations(Record, eq=False):
         return (*self.launched, self.loose)
 
 
-def simulations(
-    package: Package, launch: Ros2Launch | None, expander: Expander, control: ControlReader
-) -> Simulations:
+def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedReader) -> Simulations:
     """Read what the launch files of a package simulate, those that start Gazebo or a bridge.
 
     Args:
         package: That is checked.
         launch: Its launch files.
-        expander: Expands the files that are xacro.
-        control: Reads ros2_control of the robots.
+        reader: Of the robots that they spawn.
     """
     graphs = launch.entries if launch is not None else ()
-    reader = SpawnedReader(package, expander, control)
     launched = tuple(_simulation(package, graph, reader) for graph in graphs)
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))

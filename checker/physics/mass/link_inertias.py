@@ -37,17 +37,19 @@ class _Body(Record):
 def link_inertias(robot: Robot) -> LinkInertias:
     """Return the inertia of each link; those of a rigid piece count together as well."""
     piece_of = robot.tree.rigid_bodies.of_link
+    written = {
+        name: (link, inertial_pose(robot, link), rows_of(link))
+        for name, link in robot.tree.links.items()
+    }
     pieces: dict[str, _Body] = {}
-    for name, link in robot.tree.links.items():
-        pose = inertial_pose(robot, link)
+    for name, (link, pose, rows) in written.items():
         if pose is not None and 0.0 < link.mass < math.inf:
-            body = _Body(link.mass, pose.translation, _turned(rows_of(link), pose))
+            body = _Body(link.mass, pose.translation, _turned(rows, pose))
             before = pieces.get(piece_of[name])
             pieces[piece_of[name]] = _together(before, body) if before else body
     together = {name: pseudo_eigenvalue(it.mass, it.moments) for name, it in pieces.items()}
     links = {}
-    for name, link in robot.tree.links.items():
-        pose, rows = inertial_pose(robot, link), rows_of(link)
+    for name, (link, pose, rows) in written.items():
         principal = principal_moments(rows)
         sound = link.mass > 0.0 and principal[2] >= 0.0 and math.isfinite(link.mass)
         links[name] = LinkInertia(
