@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import Any
+from typing import TypeVar
 
 from msgspec.structs import replace
 
@@ -25,7 +25,6 @@ from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.report.launched import Launched
 from checker.report.report import (
     NO_PHYSICS,
     ROBOT,
@@ -43,6 +42,8 @@ from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
+
+T = TypeVar("T")
 
 _SHOWN = 10
 """XML files that are too large, by their names."""
@@ -187,18 +188,22 @@ def _report(
                 subject.start_display()
         outcome = run_and_set_aside(known, known, subject, judge, settings)
     blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
-    unread = _robots(subject)
-    robots, trouble = _facts(subject)
+    unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
+    robots, trouble = _piece(subject, "facts", lambda: facts_of(subject))
     trials = trials_of(subject, outcome)
     looked_at_launches = any(rule.startswith("WIR") for rule in outcome.looked)
-    launched, unwired = _launched(subject) if looked_at_launches else ((), ())
+    launched, unwired = (
+        _piece(subject, "launched", lambda: launched_of(subject))
+        if looked_at_launches
+        else ((), ())
+    )
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,
         shown,
         str(package.kind),
         outcome.findings,
-        (*outcome.not_checked, *blind, *unread, *trouble, *unwired, *undrawn),
+        (*outcome.not_checked, *blind, *unread, *undone, *trouble, *unwired, *undrawn),
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
@@ -227,29 +232,15 @@ def _unread(package: Package) -> Iterator[str]:
         yield f"{len(large) - _SHOWN} more XML files are too large to be checked"
 
 
-def _robots(subject: Subject) -> tuple[NotChecked, ...]:
-    """Return why no robot was read, if one is missing."""
+def _piece(
+    subject: Subject, name: str, make: Callable[[], tuple[T, ...]]
+) -> tuple[tuple[T, ...], tuple[NotChecked, ...]]:
+    """Return what is made of a subject beside its findings, which a failure leaves as they are."""
     try:
         with subject.allowance.piece():
-            return tuple(unread_robots(subject))
+            return make(), ()
     except (Exception, Exceeded) as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return (unfinished(ROBOT, error),)
-
-
-def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:
-    try:
-        with subject.allowance.piece():
-            return facts_of(subject), ()
-    except (Exception, Exceeded) as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return (), (unfinished("facts", error),)
-
-
-def _launched(subject: Subject) -> tuple[tuple[Launched, ...], tuple[NotChecked, ...]]:
-    try:
-        with subject.allowance.piece():
-            return launched_of(subject), ()
-    except (Exception, Exceeded) as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
-        return (), (unfinished("launched", error),)
+        return (), (unfinished(name, error),)
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

@@ -114,7 +114,7 @@ class Robot(Part, dict=True):
     @property
     def is_static(self) -> bool:
         """Whether the model says that nothing moves it."""
-        return _states_static(self.element)
+        return states_static(self.element)
 
     @cached_property
     def is_prop(self) -> bool:
@@ -126,7 +126,7 @@ class Robot(Part, dict=True):
         """Say whether a model around a link, this one or one nested in it, is static."""
         element: Element | None = link.element
         while element is not None:
-            if element.tag == "model" and _states_static(element):
+            if element.tag == "model" and states_static(element):
                 return True
             element = element.parent
         return False
@@ -394,6 +394,7 @@ class Robot(Part, dict=True):
         return frame.rotate((x / length, y / length, z / length))
 
 
-def _states_static(model: Element) -> bool:
+def states_static(model: Element) -> bool:
+    """Say whether a `<model>` says that nothing moves it."""
     static = model.child("static")
     return static is not None and static.text.value.lower() in ("1", "true")

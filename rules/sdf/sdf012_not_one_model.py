@@ -12,11 +12,11 @@ libsdformat: "A model must have at least one link."
 
 from collections.abc import Iterator
 
+from checker.model.robot import states_static
 from checker.model.sdf.document import SdfDocument, sdf_version
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
-from checker.source.xml import Element
 
 
 @rule("SDF012", "not-one-model", Severity.ERROR, Concern.ROBOT)
@@ -48,7 +48,7 @@ def _second_models(sdf: SdfDocument, context: Context) -> Iterator[Finding]:
 
 def _without_links(sdf: SdfDocument) -> Iterator[Finding]:
     for element in sdf.elements():
-        if element.tag != "model" or _is_static(element):
+        if element.tag != "model" or states_static(element):
             continue
         # <model> of an actor's or a world's state describes no model.
         described = element.parent is None or element.parent.tag in ("sdf", "world", "model")
@@ -67,13 +67,8 @@ def _no_robot(sdf: SdfDocument) -> Iterator[Finding]:
         )
     for model in sdf.root.all("model"):
         static = model.child("static")
-        if static is not None and _is_static(model):
+        if static is not None and states_static(model):
             yield finding(static, f"model {model.get('name')!r} is static: it cannot move")
-
-
-def _is_static(model: Element) -> bool:
-    static = model.child("static")
-    return static is not None and static.text.value.lower() in ("true", "1")
 
 
 _ROVER = '<model name="rover"><link name="base_link"/></model>'

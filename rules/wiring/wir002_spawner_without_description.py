@@ -14,14 +14,14 @@ Source: ros_gz_sim, create.cpp; gazebo_ros, spawn_entity.py; robot_state_publish
 from collections.abc import Iterator
 from itertools import pairwise
 
-from checker.expand.ros2_launch.graph import GAZEBO, is_known
+from checker.expand.ros2_launch.graph import is_known
+from checker.model.ros.spawned import CLASSIC_SPAWNS, SPAWNS
 from checker.model.ros.transforms import STATE_PUBLISHER
 from checker.model.ros.wiring.nodes import WiredNode
 from checker.model.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
-_SPAWNERS = (*((package, "create") for package in GAZEBO), ("gazebo_ros", "spawn_entity.py"))
 _OPTIONS = ("-topic", "--topic")
 _DESCRIPTION = "std_msgs/msg/String"
 
@@ -53,7 +53,7 @@ def _descriptions(node: WiredNode) -> Iterator[str]:
 
 
 def _topics(node: WiredNode) -> Iterator[Located[str]]:
-    if (node.node.package.value, node.node.executable.value) in _SPAWNERS:
+    if (node.node.package.value, node.node.executable.value) in (*SPAWNS, *CLASSIC_SPAWNS):
         for option, word in pairwise(node.node.arguments):
             if option.value in _OPTIONS and is_known(word.value):
                 yield word

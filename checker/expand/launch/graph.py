@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import enum
 import posixpath
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from msgspec import field
@@ -35,6 +35,22 @@ def resolve_name(name: str, namespace: str, node: str = "") -> str:
     else:
         parts = [*namespace.split("/"), *name.split("/")]
     return "/" + "/".join(part for part in parts if part)
+
+
+def remapped(name: str, remaps: Iterable[tuple[str, str]], namespace: str, node: str = "") -> str:
+    """Return the absolute name that a node gets when it asks for one: the first remap of it counts.
+
+    Args:
+        name: As the node asks for it.
+        remaps: Source and target of each, in the forms that `resolve_name` takes.
+        namespace: Absolute namespace of the node.
+        node: Its name, for private names.
+    """
+    wanted = resolve_name(name, namespace, node)
+    for source, target in remaps:
+        if resolve_name(source, namespace, node) == wanted:
+            return resolve_name(target, namespace, node)
+    return wanted
 
 
 _SIMULATOR = "gazebo_ros"
@@ -123,11 +139,8 @@ class Node(Record, eq=False):
 
     def resolve(self, name: str) -> str:
         """Return the absolute name that the node gets when it asks for `name`."""
-        wanted = resolve_name(name, self.namespace, self.name)
-        for remap in self.remaps:
-            if resolve_name(remap.source, self.namespace, self.name) == wanted:
-                return resolve_name(remap.target, self.namespace, self.name)
-        return wanted
+        remaps = ((remap.source, remap.target) for remap in self.remaps)
+        return remapped(name, remaps, self.namespace, self.name)
 
 
 class Param(Record, eq=False):

@@ -31,7 +31,7 @@ _SERVER = "gzserver"
 _SERVER_PLUGIN = "ros_gz_sim::GzServer"
 _WORLD_FILE = "world_sdf_file"
 _COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
-_CLASSIC_PACKAGE, _CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
+CLASSIC_PACKAGE, _CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
 _STARTS_CLASSIC = ("gazebo.launch", "gzserver.launch")
 _WORLD_SUFFIXES = (".sdf", ".world")
 _EMPTY = "empty.sdf"
@@ -105,7 +105,7 @@ def includes_classic(graph: LaunchGraph) -> bool:
     """Whether a launch file of gazebo_ros starts it, which reads `<gazebo_ros>` of manifests."""
     started = (share_path(it.target.value) for it in graph.includes if it.starts is True)
     return any(
-        found.package == _CLASSIC_PACKAGE
+        found.package == CLASSIC_PACKAGE
         and found.path.rpartition("/")[2].startswith(_STARTS_CLASSIC)
         for found in started
         if found is not None

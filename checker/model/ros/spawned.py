@@ -20,7 +20,7 @@ from checker.expand.ros2_launch.graph import (
 from checker.expand.xacro.expansion import Expander, Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
-from checker.model.ros.servers import is_gazebo_include
+from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo_include
 from checker.model.ros.transforms import STATE_PUBLISHER
 from checker.model.ros2_control.robot_control import (
     ControlReader,
@@ -33,8 +33,8 @@ from checker.model.urdf.description import read_description
 from checker.package.package import Package
 from checker.source.xml import XmlDocument
 
-_SPAWNS = tuple((package, "create") for package in GAZEBO)
-CLASSIC_SPAWNS = (("gazebo_ros", "spawn_entity.py"),)
+SPAWNS = tuple((package, "create") for package in GAZEBO)
+CLASSIC_SPAWNS = ((CLASSIC_PACKAGE, "spawn_entity.py"),)
 
 
 class SpawnedRobot(Record, eq=False):
@@ -79,7 +79,7 @@ class SpawnedReader:
         self._control = control
 
     def robots(
-        self, graph: LaunchGraph, spawns: Collection[tuple[str, str]] = _SPAWNS
+        self, graph: LaunchGraph, spawns: Collection[tuple[str, str]] = SPAWNS
     ) -> tuple[list[SpawnedRobot], list[str]]:
         """Return the robots that a launch file spawns, and why others are not among them.
 
@@ -151,7 +151,7 @@ def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
             yield f"what {target} spawns is not known"
     for process in graph.processes:
         words = [word.value for word in process.words]
-        if any(pair in _SPAWNS for pair in pairwise(words)):
+        if any(pair in SPAWNS for pair in pairwise(words)):
             yield "what a command spawns is not known"
 
 

@@ -9,11 +9,11 @@ from msgspec import convert
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.graph import resolve_name
+from checker.expand.launch.graph import remapped
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.model.ros.wiring.endpoints import Endpoint
+from checker.model.ros.wiring.endpoints import Endpoint, remap_rule
 
 _DEFAULT_OUTPUT = "sensor_msgs/PointCloud2"
 _TRUE = ("1", "true")
@@ -63,17 +63,8 @@ def _endpoint(plugin: Plugin, sensor: Sensor | None, topic: _Topic) -> Endpoint:
     name = topic.topic.replace(
         "{camera_name}", camera or (sensor.name.value if sensor is not None else "")
     )
-
-    def absolute(text: str) -> str:
-        above = f"/{namespace.strip('/')}"
-        return resolve_name(text.replace("~/", "~", 1), above, plugin.name.value)
-
-    resolved = absolute(name)
-    for text in plugin.at(f"{ros}remapping"):
-        source, _, target = text.value.strip().partition(":=")
-        if absolute(source) == resolved:
-            resolved = absolute(target)
-            break
+    rules = (remap_rule(text.value) for text in plugin.at(f"{ros}remapping"))
+    resolved = remapped(name, rules, f"/{namespace.strip('/')}", plugin.name.value)
     output = next((text.value.strip() for text in plugin.at("output_type")), _DEFAULT_OUTPUT)
     kind = topic.type.replace("{output_type}", output.replace("/msg/", "/").replace("/", "/msg/"))
     by = f"plugin {plugin.filename.value}"

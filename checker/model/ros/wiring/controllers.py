@@ -11,13 +11,13 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.graph import resolve_name
+from checker.expand.launch.graph import remapped
 from checker.expand.ros2_launch.graph import is_known
 from checker.model.ros.spawned import SpawnedRobot
-from checker.model.ros.wiring.endpoints import Endpoint
+from checker.model.ros.wiring.endpoints import Endpoint, remap_rule
 from checker.model.ros.wiring.nodes import WiredNode
 from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
-from checker.model.ros2_control.launched import MANAGER_NODE, spawner_of
+from checker.model.ros2_control.launched import MANAGER_NODE
 from checker.model.ros2_control.parameters import MANAGER
 
 _REMAPS = ("-r", "--remap")
@@ -52,15 +52,7 @@ class RunController(Record, eq=False, dict=True):
 
     def resolve(self, name: str) -> str:
         """Return the absolute topic that it gets when it asks for a name; empty if not known."""
-
-        def absolute(text: str) -> str:
-            return resolve_name(text.replace("~/", "~", 1), self.namespace, self.controller.name)
-
-        topic = absolute(name)
-        for source, target in self.remaps:
-            if absolute(source) == topic:
-                topic = absolute(target)
-                break
+        topic = remapped(name, self.remaps, self.namespace, self.controller.name)
         return topic if is_known(topic) else ""
 
     @cached_property
@@ -103,7 +95,7 @@ def run_controllers(
         control = robot.control
         if control is not None and len(control.managers) == 1 and robot.node.starts:
             manager = control.managers[0]
-            own = tuple(_pair(text.value) for text in manager.plugin.at("ros/remapping"))
+            own = tuple(remap_rule(text.value) for text in manager.plugin.at("ros/remapping"))
             for controller in control.controllers:
                 yield _run(controller, manager.namespace.value, own, remaps, simulated=True)
     for node in nodes:
@@ -130,14 +122,9 @@ def _run(
 def _spawners(nodes: tuple[WiredNode, ...]) -> Iterator[tuple[str, tuple[tuple[str, str], ...]]]:
     """Yield the controllers that spawners start, each with the remaps that these give it."""
     for node in nodes:
-        spawner = spawner_of(node.node)
+        spawner = node.spawner
         if spawner is not None:
             given = " ".join(spawner.options.get("--controller-ros-args", ()))
             words = pairwise(shlex.split(given)) if given.count("'") + given.count('"') == 0 else ()
-            remaps = tuple(_pair(rule) for option, rule in words if option in _REMAPS)
+            remaps = tuple(remap_rule(rule) for option, rule in words if option in _REMAPS)
             yield from ((name.value, remaps) for name in spawner.names)
-
-
-def _pair(rule: str) -> tuple[str, str]:
-    source, _, target = rule.strip().partition(":=")
-    return source, target

@@ -57,3 +57,9 @@ def of_bridges(simulation: Simulation) -> Iterator[Endpoint]:
             if entry.ros_topic and entry.direction is not other:
                 span = entry.passed.ros_topic.span
                 yield Endpoint(entry.ros_topic, types, publishes, by, span, entry, entry.counts)
+
+
+def remap_rule(text: str) -> tuple[str, str]:
+    """Return source and target of a remap as command lines and plugins write it: `a:=b`."""
+    source, _, target = text.strip().partition(":=")
+    return source, target

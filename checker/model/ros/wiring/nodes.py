@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.launch.graph import resolve_name
+from checker.expand.launch.graph import remapped, resolve_name
 from checker.expand.ros2_launch.graph import Node, ParameterFile, is_known
 from checker.model.ros.wiring.facts import NodeFacts, node_facts
 from checker.model.ros.wiring.inputs import Input, inputs
 from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
+from checker.model.ros2_control.launched import Spawner, spawner_of
 from checker.model.ros2_control.parameters import NodeBlock
 from checker.model.ros2_control.robot_control import ControlReader
 
@@ -58,6 +59,11 @@ class WiredNode(Record, eq=False, dict=True):
         """Its package and executable: `nav2_amcl/amcl`."""
         return f"{self.node.package.value}/{self.node.executable.value}"
 
+    @cached_property
+    def spawner(self) -> Spawner | None:
+        """The node as a spawner of controllers; None for any other node."""
+        return spawner_of(self.node)
+
     @property
     def _rules(self) -> bool:
         return any(word.value.startswith(_OWN_RULES) for word in self.node.arguments)
@@ -91,12 +97,8 @@ class WiredNode(Record, eq=False, dict=True):
 
     def resolve(self, name: str) -> str:
         """Return the absolute topic that it gets when it asks for a name; empty if not known."""
-        own, namespace = self.name, self.node.namespace
-        topic = resolve_name(name, namespace, own)
-        for remap in self.node.remaps:
-            if resolve_name(remap.source, namespace, own) == topic:
-                topic = resolve_name(remap.target, namespace, own)
-                break
+        remaps = ((remap.source, remap.target) for remap in self.node.remaps)
+        topic = remapped(name, remaps, self.node.namespace, self.name)
         known = is_known(topic) and not self._rules and not self.node.unread
         return topic if known else ""
 
@@ -141,3 +143,9 @@ def _loaded(given: ParameterFile, reader: ControlReader) -> LoadedFile:
     if file is None:
         return LoadedFile(given)
     return LoadedFile(given, file.path, file.blocks, True, file.refused)
+
+
+def spawned_names(nodes: Iterable[WiredNode]) -> list[str]:
+    """Return the names of the controllers that the spawners among some nodes start."""
+    spawners = (node.spawner for node in nodes if node.spawner is not None)
+    return [name.value for spawner in spawners for name in spawner.names]

@@ -11,9 +11,8 @@ from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.ros.simulation import Simulation
 from checker.model.ros.spawned import SpawnedRobot
-from checker.model.ros.wiring.nodes import WiredNode
+from checker.model.ros.wiring.nodes import WiredNode, spawned_names
 from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.launched import spawner_of
 from checker.source.text import Span
 
 TOPIC = "/tf"
@@ -126,12 +125,7 @@ def _of_controllers(nodes: tuple[WiredNode, ...], spawned: SpawnedRobot) -> Iter
     control = spawned.control
     if control is None or any(it.namespace.value != "/" for it in control.managers):
         return
-    started = {
-        name.value
-        for node in nodes
-        if (spawner := spawner_of(node.node)) is not None
-        for name in spawner.names
-    }
+    started = spawned_names(nodes)
     for controller in control.controllers:
         if controller.class_name in _CONTROLLERS and controller.name in started:
             yield from _of_controller(controller)

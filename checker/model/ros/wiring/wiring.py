@@ -17,20 +17,18 @@ from checker.expand.ros2_launch.graph import (
     shown,
 )
 from checker.model.robot import Robot
-from checker.model.ros.servers import is_gazebo, is_gazebo_include
+from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
 from checker.model.ros.simulated_topics import unknown_owner
 from checker.model.ros.simulation import Simulation, Simulations
-from checker.model.ros.spawned import SpawnedReader
+from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
 from checker.model.ros.wiring.classic import of_classic, unknown_plugin
 from checker.model.ros.wiring.controllers import RunController, run_controllers
 from checker.model.ros.wiring.endpoints import Endpoint, of_bridges, of_node
 from checker.model.ros.wiring.frames import of_joints, of_static
-from checker.model.ros.wiring.nodes import WiredNode, wired_node
+from checker.model.ros.wiring.nodes import WiredNode, spawned_names, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
-from checker.model.ros2_control.launched import spawner_of
 from checker.model.ros2_control.robot_control import ControlReader
 
-_CLASSIC = "gazebo_ros"
 _QUIET_COMMANDS = tuple(
     ("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")
 )
@@ -111,11 +109,9 @@ class Wiring(Record, eq=False, dict=True):
         simulation = self.simulation
         known = {run.controller.name for run in self.controllers if run.is_known}
         reasons = [
-            f"what controller {name.value!r} publishes is not known"
-            for node in self.nodes
-            if (spawner := spawner_of(node.node)) is not None
-            for name in spawner.names
-            if name.value not in known
+            f"what controller {name!r} publishes is not known"
+            for name in spawned_names(self.nodes)
+            if name not in known
         ]
         if simulation is not None:
             reasons += [*simulation.unknown_robots]
@@ -156,7 +152,7 @@ class Wiring(Record, eq=False, dict=True):
 
 def _is_of_gazebo(include: Include) -> bool:
     target = share_path(include.target.value)
-    return is_gazebo_include(include) or (target is not None and target.package == _CLASSIC)
+    return is_gazebo_include(include) or (target is not None and target.package == CLASSIC_PACKAGE)
 
 
 def _publishes_nothing(process: Process) -> bool:
@@ -198,4 +194,4 @@ def _described(
 
 def _spawns_in_classic(node: Node) -> bool:
     program = (node.package.value, node.executable.value)
-    return node.starts is True and program == (_CLASSIC, "spawn_entity.py")
+    return node.starts is True and program in CLASSIC_SPAWNS
