@@ -179,7 +179,7 @@ def uses_in_ros2(package: Package) -> Iterator[Use]:
 
 
 def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
-    """Return names of packages that are not at hand and whose files this package has, all of them.
+    """Return names of packages that are not available, and all of whose files this package has.
 
     It was renamed, and still uses its own files by the name that it had.
 

@@ -24,7 +24,7 @@ MAX_DEPTH = 250
 ELEMENTS_LIMIT = 50_000
 """Of one document; the largest of 5 000 real ones has 3 705. Each takes up to 9 kB as a robot."""
 ELEMENTS_VARIABLE = "SUBT_CHECK_ELEMENTS"
-"""Environment variable that states another limit of elements, for whoever has the memory."""
+"""Environment variable that states another limit of elements, for machines with more memory."""
 ATTRIBUTES_FOR_ONE = 8
 """Attributes that a document may have for each element that it may have. Each takes 0.5 kB."""
 _PATH_LIMIT = 400

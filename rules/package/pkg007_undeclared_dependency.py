@@ -5,10 +5,10 @@ submission, the bridge to ROS, or the package of a node are then missing where t
 Comments do not count. In ROS 2 this holds for the packages of nodes, components, included launch
 files, parameter files, `xacro` commands, `$(find …)` and `package://` in robot descriptions, and
 messages that nodes in Python import; what a declared package of packages such as ros_gz brings is
-declared. The
-same happens if package.xml misspells the package of a team or plugin: it is reported if a package
-of a similar name is available, and that one is not. A package that is not at hand and of which this
-package has every file that it uses is this package itself, under the name that it had before.
+declared. The same happens if package.xml misspells the package of a team or plugin: it is reported
+if a package of a similar name is available, and that one is not. A package that is not available,
+and of which this package has every file that it uses, is this package itself, under the name that
+it had before.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
 package's own name instead of its former one.
@@ -107,7 +107,7 @@ def check(
 
 def _renamed(package: Package, use: Use) -> str:
     return (
-        f"{use.how}: {use.package_name} is not at hand, and {package.name} has all files that it "
+        f"{use.how}: {use.package_name} is not available, and {package.name} has all files that it "
         f"uses of it: expected {package.name}, if it was renamed"
     )
 

@@ -6,7 +6,7 @@ whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, 
 Gazebo Classic, a drive controller of ros2_control) and a filter that takes its odometry
 (`ekf_node`) both publish `odom` to the base unless one of them is told not to. The joints of the
 robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
-at `base_link` where that hangs on `base_footprint`, makes two of one.
+at `base_link` where that is a child of `base_footprint`, makes two of one.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.
@@ -48,7 +48,7 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _cure(first: Transform, second: Transform) -> str:
-    """Return what to do; a joint itself is no fault, and its robot hangs on its root."""
+    """Return what to do; a joint itself is no fault, and its robot starts at its root."""
     repeats = isinstance(second.source, Joint) and first.parent == second.parent
     return first.cure if repeats or not second.cure else f"{first.cure}, or {second.cure}"
 
@@ -166,7 +166,7 @@ def _static(words: str, mark: str = "") -> dict[str, object]:
 
 
 def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
-    """Return a rover whose base hangs on its footprint, with a filter."""
+    """Return a rover whose base is a child of its footprint, with a filter."""
     urdf = """<robot name="rover">
   <link name="base_footprint"/>
   <link name="base_link"/>

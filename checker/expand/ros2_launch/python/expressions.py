@@ -429,7 +429,7 @@ def _named(run: Interpreter, node: ast.NamedExpr, scope: Scope) -> Value:
 
 
 def _yield(run: Interpreter, node: ast.Yield | ast.YieldFrom, scope: Scope) -> Value:
-    """Add to what the generator gives: all of it is worked out at once."""
+    """Add to what the generator gives: all of it is computed at once."""
     if scope.yielded is None:
         return run.unknown(node, "yield outside of a function is not evaluated")
     value = evaluate(run, node.value, scope) if node.value is not None else None

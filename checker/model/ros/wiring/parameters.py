@@ -37,7 +37,7 @@ class LoadedFile(Record, eq=False):
 
     Attributes:
         given: Where the launch file names it.
-        path: As the package lists it; empty when it is not at hand.
+        path: As the package lists it; empty when it is not available.
         blocks: What it gives to which nodes; none when it cannot be read.
         is_read: Whether it could be read.
         refused: The key for whose value rcl refuses the file, if there is one.
