@@ -62,4 +62,4 @@ def test_a_square_is_told_from_linear_growth() -> None:
         sum(range(steps))
 
     assert grows_linearly(lambda: work(1_000_000), lambda: work(4_000_000))
-    assert not grows_linearly(lambda: work(1_000**2), lambda: work(4_000**2))
+    assert not grows_linearly(lambda: work(3_000**2), lambda: work(12_000**2))

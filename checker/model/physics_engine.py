@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.model.plugin_library import library_stem
+from checker.source.text import Located
 
 if TYPE_CHECKING:
     from checker.model.sdf.world import World
@@ -30,7 +32,13 @@ class PhysicsEngine(Record):
 
     def has_mimic(self, release: str) -> bool:
         """Whether `<mimic>` couples joints in a Gazebo release."""
-        return release in table("physics_engines")["engines"][self.key]["mimic"]
+        return release in _entry(self.key)["mimic"]
+
+    @property
+    def lacks(self) -> Mapping[str, Any]:
+        """What it cannot simulate, by kind."""
+        lacking: Mapping[str, Any] = _entry(self.key)["lacks"]
+        return lacking
 
 
 def engine_of(world: World | None, told: str = "") -> PhysicsEngine | None:
@@ -40,22 +48,40 @@ def engine_of(world: World | None, told: str = "") -> PhysicsEngine | None:
         world: The world; None for one of Gazebo's own.
         told: What the command line says behind `--physics-engine`; empty for nothing.
     """
-    name = told or (_named(world) if world is not None else "")
+    named = engine_name(world) if world is not None else None
+    name = told or (named.value if named is not None else "")
     if not name:
         return _engine(table("physics_engines")["default"], is_default=True)
     match = _LIBRARY.fullmatch(library_stem(name))
     return _engine(match[1], is_default=False) if match else None
 
 
+def libraries_of(release: str) -> list[str]:
+    """Return the libraries of the engines that a release has; older names after the newer ones."""
+    engines = [key for key, entry in _engines().items() if release in entry["in"]]
+    prefixes = ("ignition",) if release == "fortress" else ("gz", "ignition")
+    return [f"{prefix}-physics-{key}-plugin" for prefix in prefixes for key in engines]
+
+
+def _engines() -> Mapping[str, Any]:
+    engines: Mapping[str, Any] = table("physics_engines")["engines"]
+    return engines
+
+
+def _entry(key: str) -> Mapping[str, Any]:
+    entry: Mapping[str, Any] = _engines()[key]
+    return entry
+
+
 def _engine(key: str, *, is_default: bool) -> PhysicsEngine | None:
-    entry = table("physics_engines")["engines"].get(key)
+    entry = _engines().get(key)
     return PhysicsEngine(key, entry["title"], is_default) if entry else None
 
 
-def _named(world: World) -> str:
-    """Return what `<engine><filename>` of the world's plugins says; empty when none does."""
+def engine_name(world: World) -> Located[str] | None:
+    """Return what `<engine><filename>` of the world's plugins says; None when none does."""
     for plugin in world.plugins:
         engine = plugin.element.child("engine")
         if engine is not None and (file := engine.child("filename")) is not None:
-            return file.value.strip()
-    return ""
+            return file.text
+    return None

@@ -7,8 +7,8 @@ Featherstone has. Fortress is URD019's. A joint that a plugin drives by itself, 
 of ros2_control knows, is not affected: gz_ros2_control moves it along.
 
 Fix: in the world's physics plugin write `<engine>` with
-`<filename>gz-physics-bullet-featherstone-plugin</filename>`; or let ros2_control, or a plugin of
-its own, move the joint.
+`<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 says what that engine lacks);
+or let ros2_control, or a plugin of its own, move the joint.
 Source: gz-physics, features of dartsim and bullet-featherstone (gz-physics 7, 8, 9), issue 432;
 gz-sim, Physics.cc: the default engine; gz_ros2_control issue 340.
 """
@@ -16,11 +16,11 @@ gz-sim, Physics.cc: the default engine; gz_ros2_control issue 340.
 from collections.abc import Iterator
 
 from checker.model.components import Joint
-from checker.model.physics_engine import PhysicsEngine, engine_of
 from checker.model.robot import Robot
-from checker.model.ros.simulation import Simulation, Simulations
+from checker.model.ros.engine_uses import EngineUse, engine_uses
+from checker.model.ros.simulation import Simulations
 from checker.model.sdf.world import World
-from checker.rule import Concern, Context, Finding, Findings, Severity, Where, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _SHOWS = ("JointStatePublisher", "PosePublisher")
 """Systems that name joints and move none."""
@@ -31,32 +31,13 @@ def check(simulations: Simulations | None, world: World | None, context: Context
     """Report mimicking joints of robots that are spawned, and of models that stand in the world."""
     if not context.of_gazebo_sim or context.release == "fortress":
         return
-    if world is not None and (engine := engine_of(world)) is not None:
-        for model in world.models:
-            yield from _loose(model, engine, context.release, [(world, "this world")])
-    for simulation in simulations.launched if simulations is not None else ():
-        for engine, where in _engines(simulation):
-            for model in simulation.models:
-                yield from _loose(model, engine, context.release, where)
+    for use in engine_uses(simulations, world):
+        for model in use.models:
+            yield from _loose(model, use, context.release)
 
 
-def _engines(simulation: Simulation) -> Iterator[tuple[PhysicsEngine, list[tuple[Where, str]]]]:
-    for server in simulation.servers:
-        if server.unknown:
-            continue
-        for world in server.worlds or (None,):
-            engine = engine_of(world, server.engine)
-            if engine is not None:
-                yield engine, [(server, "Gazebo is started here"), *_place(world)]
-
-
-def _place(world: World | None) -> list[tuple[Where, str]]:
-    return [(world, "this world")] if world is not None else []
-
-
-def _loose(
-    robot: Robot, engine: PhysicsEngine, release: str, where: list[tuple[Where, str]]
-) -> Iterator[Finding]:
+def _loose(robot: Robot, use: EngineUse, release: str) -> Iterator[Finding]:
+    engine = use.engine
     if engine.has_mimic(release) or robot.is_static:
         return
     chosen = " (the default)" if engine.is_default else ""
@@ -68,7 +49,7 @@ def _loose(
                 f"joint {joint.name.value!r} mimics {leader.value!r}, but the physics engine "
                 f"{engine.title}{chosen} has no such constraint: nothing couples them; expected "
                 "gz-physics-bullet-featherstone-plugin, or a controller for this joint",
-                related=where,
+                related=use.places,
                 key=f"mimic {engine.key}",
             )
 

@@ -152,7 +152,7 @@ WHEEL_GEOMETRY = (
     Fault(
         "wheel 0.1 m to the side",
         (Swap("<pose>0.256 0.2854 0.033", "<pose>0.256 0.3854 0.033"),),
-        ("GEO012", "KIN013", "GEO005"),
+        ("GEO017",),
         "front_left_wheel",
     ),
     Fault(

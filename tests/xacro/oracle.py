@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import posixpath
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -44,7 +45,10 @@ def copied(value: Any) -> Any:
 def native_outcome(expression: str, names: Any) -> str:
     """Return the value, with its type, or the name of what is raised."""
     try:
-        code = compile(expression.strip(), "<expression>", "eval")
+        with warnings.catch_warnings():
+            # `0[0]` is a SyntaxWarning of the compiler, and an error only where warnings are.
+            warnings.simplefilter("ignore", SyntaxWarning)
+            code = compile(expression.strip(), "<expression>", "eval")
         return shown(eval(code, Native(names)))  # noqa: S307 - real files, and expressions of ours
     except Exception as error:  # noqa: BLE001 - whatever it is
         return type(error).__name__

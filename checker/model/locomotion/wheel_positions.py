@@ -174,7 +174,7 @@ def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
 
 def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
-    left, right = ([_middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
+    left, right = ([middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
     true = _apart(left, right, axis) if axis is not None else None
     if true is not None and drive.separation_tag:
         what, slips = "left and right wheels", drive.slips
@@ -184,7 +184,7 @@ def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
         )
 
 
-def _middle_of(robot: Robot, wheel: Wheel) -> Vector | None:
+def middle_of(robot: Robot, wheel: Wheel) -> Vector | None:
     """Return the middle of what a wheel rolls on; the joint's origin where that is not known."""
     rolls = tread(robot, wheel)
     return wheel.centre if rolls is None or wheel.centre is None else rolls.box.centre
@@ -203,7 +203,7 @@ def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
         yield CountedDistance(
             drive.plugin, drive.kingpin_tag, drive.kingpin_width, width, what, steers=True
         )
-    rear = [_middle_of(robot, wheel) for wheel in drive.wheels if wheel.steering is None]
+    rear = [middle_of(robot, wheel) for wheel in drive.wheels if wheel.steering is None]
     base = _apart([*left, *right], rear, _FORWARD)
     if base is not None and drive.wheel_base is not None:
         stated = drive.wheel_base

@@ -1,0 +1,73 @@
+"""Whether the wheels of one side stand in line as those of the other side do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from checker.base.record import Record
+from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
+from checker.model.locomotion.wheel_positions import middle_of
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_FARTHEST = 1e6
+"""Metres; numbers beyond are no places."""
+
+
+class OutOfLine(Record, eq=False):
+    """A wheel that stands farther out than its neighbour, where the other side has no such step.
+
+    Attributes:
+        wheel: The one farther out.
+        neighbour: In front of it or behind it, on the same side.
+        step: Metres by which it stands farther out.
+        other_step: Metres by which the wheel across it stands farther out than its own neighbour.
+    """
+
+    wheel: Wheel
+    neighbour: Wheel
+    step: float
+    other_step: float
+
+
+class _Placed(Record, eq=False):
+    wheel: Wheel
+    along: float
+    out: float
+
+
+def wheels_out_of_line(robot: Robot, tolerance: float) -> Iterator[OutOfLine]:
+    """Yield wheels of which a robot is not symmetric, by more than `tolerance` metres.
+
+    Only drives with as many wheels on the left as on the right are compared, each wheel with the
+    next one of its side; a step that both sides have is meant so.
+    """
+    for drive in robot.locomotion.wheel_drives:
+        left, right = (list(_in_order(robot, drive, side)) for side in Side)
+        if len(left) != len(right) or len(left) != len(drive.on(Side.LEFT)):
+            continue
+        for pair in zip(pairwise(left), pairwise(right), strict=True):
+            steps = [behind.out - front.out for front, behind in pair]
+            if abs(steps[0] - steps[1]) > tolerance:
+                worse = 0 if abs(steps[0]) > abs(steps[1]) else 1
+                near, far = sorted(pair[worse], key=lambda placed: placed.out)
+                sign = 1 if steps[worse] > 0 else -1
+                step, other = abs(steps[worse]), sign * steps[1 - worse]
+                yield OutOfLine(far.wheel, near.wheel, step, other)
+
+
+def _in_order(robot: Robot, drive: WheelDrive, side: Side) -> Iterator[_Placed]:
+    """Yield the wheels of a side whose place is known, along the robot."""
+    axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
+    placed = []
+    for wheel in drive.on(side) if axis is not None else ():
+        middle = middle_of(robot, wheel)
+        if axis is not None and middle is not None:
+            across = middle[0] * axis[0] + middle[1] * axis[1]
+            along = middle[0] * axis[1] - middle[1] * axis[0]
+            if max(abs(across), abs(along)) < _FARTHEST:
+                placed.append(_Placed(wheel, along, across if side is Side.LEFT else -across))
+    yield from sorted(placed, key=lambda each: each.along)
