@@ -30,10 +30,17 @@ class Person(Record, eq=False):
 
 
 class Dependency(Record, eq=False):
-    """A dependency; `kind` is the name of its tag: `exec_depend`."""
+    """A dependency.
+
+    Attributes:
+        kind: Name of its tag: `exec_depend`.
+        package: What is needed: a package, or a key of rosdep.
+        is_conditional: Whether it counts only where a condition holds, such as a ROS version.
+    """
 
     kind: str
     package: Located[str]
+    is_conditional: bool = False
 
     @property
     def at_run_time(self) -> bool:
@@ -119,7 +126,7 @@ def read_package_xml(document: XmlDocument) -> PackageManifest:
         authors=tuple(_person(author) for author in root.all("author")),
         licenses=tuple(entry.text for entry in root.all("license")),
         dependencies=tuple(
-            Dependency(child.tag, child.text)
+            Dependency(child.tag, child.text, child.get("condition") is not None)
             for child in root.children
             if child.tag in DEPENDENCY_TAGS
         ),

@@ -6,15 +6,18 @@ package in the workspace is never reported. It is a warning, since a build from 
 have it.
 
 Fix: use what the message names, or check for the distribution that the robot runs on (`--distro`).
-Source: ros/rosdistro, and the programs that packages install (`removed_packages.json`).
+Source: ros/rosdistro, and the programs that packages install (`removed_packages.json`,
+`ros_packages.json`).
 """
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.base.resources import table
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, share_path
+from checker.base.words import Suggestions
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, is_known, share_path
 from checker.package.package import Package
+from checker.package.released import distributions_with, released_names
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -22,22 +25,27 @@ from checker.source.text import Located
 @rule("LCH015", "package-not-in-distribution", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
     """Report names that are known to be missing in the distribution."""
-    known: Mapping[str, Any] = table("removed_packages")["names"]
+    released = released_names(context.distro)
     for graph in launch.entries:
         for name, program in _started(graph):
-            removed = next((key for key in (name.value, program) if key in known), None)
-            if removed is None or context.distro not in known[removed]["missing_in"]:
-                continue
-            if package.workspace.package(name.value) is None:
-                what, _, executable = removed.partition("/")
-                shown = f"program {executable!r} in {what!r}" if executable else f"package {what!r}"
-                yield finding(
-                    name,
-                    f"{context.distro.capitalize()} has no {shown}: expected "
-                    f"{known[removed]['instead']}",
-                    key=removed,
-                    covered_by=("LCH008",),
-                )
+            if package.workspace.package(name.value) is None and is_known(name.value):
+                for key, message in _missing(name.value, program, context.distro, released):
+                    yield finding(name, message, key=key, covered_by=("LCH008",))
+
+
+def _missing(
+    name: str, program: str, distro: str, released: Suggestions
+) -> Iterator[tuple[str, str]]:
+    """Yield what a distribution does not have, the package or its program, and what to write."""
+    removed: Mapping[str, Any] = table("removed_packages")["names"]
+    key = next((key for key in (name, program) if key in removed), None)
+    if key is not None and distro in removed[key]["missing_in"]:
+        what, _, executable = key.partition("/")
+        shown = f"program {executable!r} in {what!r}" if executable else f"package {what!r}"
+        instead = removed[key]["instead"]
+        yield key, f"{distro.capitalize()} has no {shown}: expected {instead}"
+    elif key is None and not distributions_with(name) and (meant := released.sure(name)):
+        yield name, f"there is no package {name!r}; did you mean {meant!r}?"
 
 
 def _started(graph: LaunchGraph) -> Iterator[tuple[Located[str], str]]:
@@ -63,8 +71,10 @@ GOOD = [
     _node("ros_gz_sim", "create"),
     _node("acme_driver", "amcl"),
     _node("controller_manager", "spawner"),
+    _node("acme_state_publisher", "state_publisher"),
 ]
 BAD = [
+    _node("robot_state_publsher", "robot_state_publisher", _MARK),
     _node("controller_manager", "spawner.py", _MARK),
     _node("gazebo_ros", "spawn_entity.py", _MARK),
     {

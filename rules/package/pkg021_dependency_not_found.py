@@ -1,0 +1,106 @@
+"""A dependency in package.xml that neither the ROS distribution nor rosdep has.
+
+`rosdep install` ends with "Cannot locate rosdep definition", so whoever clones the package cannot
+build it. A name that is a slip of the pen for one that exists is a warning. Others are information:
+a package may be built from source that is not available here, such as one that only an older
+distribution has released. Dependencies with a `condition` are skipped.
+
+Fix: correct the name; or add the source of the package to the workspace, and say so in the README.
+Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`).
+"""
+
+from collections.abc import Iterator
+
+from checker.base.resources import table
+from checker.package.manifests import Dependency, Paperwork
+from checker.package.package import Package
+from checker.package.released import distributions_with, is_of_system, released_names
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+
+
+@rule("PKG021", "dependency-not-found", Severity.WARNING, Concern.PAPERWORK)
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
+    """Report misspelt names one by one, and the others in one finding."""
+    if paperwork.manifest is None or not context.distro:
+        return
+    absent = [
+        dependency
+        for dependency in paperwork.manifest.dependencies
+        if not dependency.is_conditional and not _is_found(package, dependency, context.distro)
+    ]
+    names, seen, others = released_names(context.distro), set[str](), list[Dependency]()
+    for dependency in absent:
+        name = dependency.package.value
+        if name in seen:
+            continue
+        seen.add(name)
+        meant = None if distributions_with(name) else names.sure(name)
+        if meant is None:
+            others.append(dependency)
+        else:
+            yield finding(
+                dependency.package,
+                f"neither {context.distro.capitalize()} nor rosdep has {name!r}; did you mean "
+                f"{meant!r}?",
+                key=name,
+            )
+    yield from _elsewhere(others, context.distro)
+
+
+def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
+    name = dependency.package.value
+    return (
+        not name
+        or distro in distributions_with(name)
+        or is_of_system(name)
+        or package.workspace.package(name) is not None
+    )
+
+
+def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]:
+    if dependencies:
+        first, *others = dependencies
+        names = ", ".join(map(_shown, dependencies))
+        yield finding(
+            first.package,
+            f"{distro.capitalize()} and rosdep have no {names}: expected in the workspace",
+            severity=Severity.INFO,
+            related=[(other.package, "and this") for other in others],
+        )
+
+
+def _shown(dependency: Dependency) -> str:
+    """Return a name and what is known of it: what took its place, or which distribution has it."""
+    name = dependency.package.value
+    removed = table("removed_packages")["names"].get(name)
+    if removed is not None:
+        return f"{name} ({removed['instead']} took its place)"
+    having = [distro.capitalize() for distro in distributions_with(name)]
+    return f"{name} ({having[-1]} has it)" if having else name
+
+
+def _package(depends: str) -> dict[str, object]:
+    manifest = f"""<package format="3">
+  <name>acme_arm_bringup</name>
+{depends}
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+    return {"@ros2": True, "package.xml": manifest, "@profile": "ros2"}
+
+
+_MARK = "  <!-- ^ PKG021 -->"
+GOOD = [
+    _package("<depend>rclcpp</depend><exec_depend>robot_state_publisher</exec_depend>"),
+    _package("<depend>eigen</depend><exec_depend>python3-numpy</exec_depend>"),
+    _package('<depend condition="$ROS_VERSION == 1">roscpp</depend>'),
+    {
+        **_package("<depend>acme_msgs</depend>"),
+        "../acme_msgs/package.xml": "<package><name>acme_msgs</name></package>",
+    },
+]
+BAD = [
+    _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
+    _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
+    _package(f"<exec_depend>acme_drivers</exec_depend>{_MARK}\n<depend>acme_tools</depend>"),
+]
