@@ -9,12 +9,12 @@ from checker.rulebook.discovery import all_rules
 
 BOOK = {
     "CFG": 4,
-    "PKG": 20,
+    "PKG": 21,
     "SDF": 18,
     "REF": 6,
-    "KIN": 18,
+    "KIN": 20,
     "INE": 13,
-    "GEO": 16,
+    "GEO": 17,
     "MSH": 10,
     "SEN": 28,
     "PLG": 12,
@@ -29,7 +29,7 @@ BOOK = {
     "BRG": 11,
     "WIR": 7,
     "LCH": 15,
-    "WLD": 7,
+    "WLD": 11,
     "R2C": 14,
     "TRI": 18,
 }
