@@ -3,15 +3,18 @@
 What is included or read does not start; a node that is given the path ends, or runs without its
 parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
 Worlds and parameters in packages that are not available are not checked; files that the build makes
-are not judged. Where a condition leaves the action out, for what is only shown in RViz, and for
-what is handed to a launch file that is not available, unless it starts Gazebo, this is a warning.
+are not judged. Launch skips a parameter file whose path is empty. Where a condition leaves the
+action out, for what is only shown in RViz, and for what is handed to a launch file that is not
+available, unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
 ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 """
 
-from checker.expand.ros2_launch.graph import Ros2Launch
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.expand.ros2_launch.named_paths import (
     is_missing,
     lies_elsewhere,
@@ -19,7 +22,7 @@ from checker.expand.ros2_launch.named_paths import (
     unavailable,
 )
 from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _DATA = (".yaml", ".yml", ".world", ".sdf")
 
@@ -41,6 +44,21 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     f"{what} {named.path} does not exist{hint}",
                     severity=None if named.needed else Severity.WARNING,
                 )
+        yield from _unnamed(graph)
+
+
+def _unnamed(graph: LaunchGraph) -> Iterator[Finding]:
+    """Report parameter files whose path is empty."""
+    for node in graph.nodes:
+        empty = [file for file in node.parameter_files if not file.path.strip()]
+        if empty and node.starts is True:
+            yield finding(
+                empty[0],
+                f"{node.executable.value} runs without its parameters: the path of its parameter "
+                "file is '', expected a file",
+                severity=Severity.WARNING,
+                key=node.executable.value,
+            )
 
 
 _STATE = """        Node(package='p', executable='e', parameters=[
@@ -80,6 +98,11 @@ ament_package()
     },
 ]
 BAD = [
+    {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},
+    {
+        "@ros2": """        DeclareLaunchArgument('params', default_value=''),  # ^ LCH001
+        Node(package='p', executable='e', parameters=[LaunchConfiguration('params')]),"""
+    },
     {"@ros2": f"{_WORLD}  # ^ LCH001"},
     {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001")},
     {

@@ -374,6 +374,7 @@ class LaunchGraph(Record, eq=False, dict=True):
         includes: Files, whether they were read or not.
         environment: Variables set.
         files: Paths of share folders that are opened or read when the file is launched.
+        used: Names of arguments that it or an included file asks for.
         faults: What is wrong.
         unread: What could not be told, by place.
     """
@@ -386,6 +387,7 @@ class LaunchGraph(Record, eq=False, dict=True):
     includes: tuple[Include, ...] = ()
     environment: tuple[EnvironmentChange, ...] = ()
     files: tuple[FileUse, ...] = ()
+    used: frozenset[str] = frozenset()
     faults: tuple[LaunchFault, ...] = ()
     unread: tuple[Unread, ...] = ()
 

@@ -109,6 +109,7 @@ class LaunchReader:
             includes=tuple(found.includes),
             environment=tuple(found.environment),
             files=tuple(self._uses),
+            used=frozenset(context.used),
             faults=_each_once(faults),
             # What nothing declares is a fault, and all that is not known of it follows from that.
             unread=_each_once(u for u in found.unread if not u.reason.endswith(NOT_DECLARED)),

@@ -1,0 +1,61 @@
+"""An argument that a launch file declares, and that nothing in it asks for.
+
+`ros2 launch --show-args` lists it, and whatever the user gives has no effect. Often the value was
+meant for a node, or for an included file that asks for another name. Files that are not read, or
+that include such, are not judged: they may ask for it.
+
+Fix: use it with `LaunchConfiguration`, in XML `$(var …)`; or remove the declaration.
+Source: launch, `DeclareLaunchArgument`: it sets a launch configuration and nothing else.
+"""
+
+from checker.base.words import Suggestions
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("LCH016", "unused-launch-argument", Severity.INFO, Concern.INTERFACE)
+def check(launch: Ros2Launch) -> Findings:
+    """Report arguments that no file of a launch uses; a near name that is used is a warning."""
+    for graph in launch.entries:
+        unread = graph.unread or any(include.reason for include in graph.includes)
+        if unread or graph.faults:
+            continue
+        declared = {argument.name for argument in graph.arguments}
+        others = Suggestions(sorted(graph.used - declared))
+        for argument in graph.arguments:
+            if argument.name not in graph.used:
+                near = others.near(argument.name)
+                yield finding(
+                    argument,
+                    f"argument {argument.name!r} has no effect: nothing in this launch uses it"
+                    f"{others.hint(argument.name)}",
+                    severity=Severity.WARNING if near else None,
+                    key=argument.name,
+                )
+
+
+_USE = """        Node(package='rviz2', executable='rviz2',
+             arguments=['-d', LaunchConfiguration('view')]),"""
+_DECLARED = "        DeclareLaunchArgument('view', default_value='a.rviz'),"
+_INCLUDE = """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            [FindPackageShare('acme_cells'), '/launch/x.launch.py'])),"""
+
+GOOD = [
+    {"@ros2": f"{_DECLARED}\n{_USE}"},
+    {"@ros2": f"{_DECLARED}\n{_INCLUDE}"},
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": '<launch><arg name="gui"/>'
+        '<node pkg="rviz2" exec="rviz2" if="$(var gui)"/></launch>',
+        "launch/all.launch.xml": '<launch><arg name="gui" default="1"/>'
+        '<include file="$(find-pkg-share acme_arm_bringup)/launch/view.launch.xml"/></launch>',
+    },
+]
+BAD = [
+    {"@ros2": f"{_DECLARED}  # ^ LCH016"},
+    {
+        "@ros2": True,
+        "launch/all.launch.xml": '<launch><arg name="rviz" default="1"/>  <!-- ^ LCH016 -->\n'
+        '<node pkg="rviz2" exec="rviz2"/></launch>',
+    },
+]

@@ -1,0 +1,68 @@
+"""A command that asks ros2_control for a state of Galactic and older.
+
+`ros2 control` ends with "invalid choice: 'start'", so the controller is not loaded and the robot
+does not move. Since Humble, states are called `active` and `inactive`.
+
+Fix: write `active` for `start`, and `inactive` for `configure` and `stop`; or use the `spawner` of
+controller_manager.
+Source: ros2_control pull request 755, ros2controlcli; gazebo_ros2_control pull request 146.
+"""
+
+from collections.abc import Mapping
+
+from checker.expand.ros2_launch.graph import Process, Ros2Launch
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+_STATES: Mapping[str, str] = {"start": "active", "configure": "inactive", "stop": "inactive"}
+_LOADS, _CHANGES = "load_controller", "set_controller_state"
+_OPTION = "--set-state"
+
+
+@rule("LCH017", "old-controller-state", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch) -> Findings:
+    """Report states that `ros2 control` of Humble and later does not know."""
+    for graph in launch.entries:
+        for process in graph.processes:
+            state = _state(process)
+            if state is not None and state.value in _STATES:
+                yield finding(
+                    state,
+                    f"ros2 control has no state {state.value!r}, and does not load the controller: "
+                    f"expected {_STATES[state.value]!r}",
+                    severity=None if process.starts is True else Severity.WARNING,
+                    key=state.value,
+                )
+
+
+def _state(process: Process) -> Located[str] | None:
+    """Return the state that a command of `ros2 control` asks for."""
+    words = process.words
+    said = [word.value for word in words]
+    if said[:2] != ["ros2", "control"] or len(said) < 4:
+        return None
+    if said[2] == _CHANGES:
+        return words[-1]
+    after = [words[i + 1] for i, word in enumerate(said[:-1]) if word == _OPTION]
+    return after[0] if said[2] == _LOADS and after else None
+
+
+def _command(words: str) -> object:
+    start = f"ExecuteProcess(cmd={words.split()}, output='screen')"
+    return {"@ros2": f"        {start},", "@profile": "ros2"}
+
+
+def _marked(words: str) -> object:
+    start = f"ExecuteProcess(cmd={words.split()})"
+    return {"@ros2": f"        {start},  # ^ LCH017", "@profile": "ros2"}
+
+
+GOOD = [
+    _command("ros2 control load_controller --set-state active arm_controller"),
+    _command("ros2 run acme start"),
+    _command("ros2 control load_controller arm_controller"),
+]
+BAD = [
+    _marked("ros2 control load_controller --set-state start arm_controller"),
+    _marked("ros2 control set_controller_state arm_controller configure"),
+]

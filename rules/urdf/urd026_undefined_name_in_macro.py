@@ -1,0 +1,134 @@
+"""A name in the expressions of a macro that nothing defines.
+
+No robot here calls the macro, so nobody sees it: xacro ends with "name 'x' is not defined" as soon
+as somebody does. A name counts as defined where any file at hand makes it: a property, or a
+parameter of any macro, since a macro sees the names of whoever calls it. Packages that include
+files which are not available are not judged. Names in braces without a dollar sign, such as
+`{prefix}`, are kept as text, and so end up in the name of a link.
+
+Fix: define the property, correct the name, or write `${prefix}`.
+Source: xacro, `eval_text` and `handle_macro_call`.
+"""
+
+import builtins
+import keyword
+import math
+import re
+from collections.abc import Iterable, Iterator
+
+from checker.base.words import Suggestions
+from checker.expand.xacro.files import local_path, named_path, path_of
+from checker.package.package import Package
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.xml import Element, XmlDocument
+
+_MACRO, _PROPERTY, _INCLUDE = "xacro:macro", "xacro:property", "xacro:include"
+_EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
+_TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"")
+_NAME = re.compile(r"(?<![\w.])([A-Za-z_]\w{0,100})(?!\w|\s{0,8}=[^=])")
+_BINDS = re.compile(r"\bfor\b|\blambda\b")
+_PARAMETER = re.compile(r"(?:^|\s)\*{0,2}([A-Za-z_]\w{0,100})(?=\s|$|:?=)")
+_SYMBOLS = {*dir(math), *dir(builtins), "math", "python", "xacro", "load_yaml", "dotify"}
+_BRACES = re.compile(r"(?<![$\\])\{([A-Za-z_]\w{0,100})\}")
+
+
+@rule("URD026", "undefined-name-in-macro", Severity.WARNING, Concern.ROBOT)
+def check(package: Package) -> Findings:
+    """Report the names that no property, parameter or symbol of xacro has."""
+    files = {file.path: package.xml(file.path) for file in package.index.with_suffix(".xacro")}
+    documents = {path: it for path, it in files.items() if isinstance(it, XmlDocument)}
+    for path, document in documents.items():
+        for element in document.root.descendants(_INCLUDE):
+            if not _is_at_hand(package, path, element.get("filename") or ""):
+                yield unchecked(f"{path} includes {element.get('filename')}, which is not read")
+                return
+    defined = {name for each in _at_hand(package) for name in _defined(each)}
+    if any("$" in name for name in defined):
+        yield unchecked("names of properties are computed")
+        return
+    for document in documents.values():
+        for macro in document.root.descendants(_MACRO):
+            yield from _undefined(macro, defined)
+
+
+def _is_at_hand(package: Package, path: str, name: str) -> bool:
+    """Whether an included file was found; one whose name is computed was not."""
+    named = named_path(path_of(package, path).rpartition("/")[0], name)
+    local = local_path(package, named) if named is not None else None
+    return local is not None and isinstance(package.xml(local), XmlDocument)
+
+
+def _at_hand(package: Package) -> Iterator[XmlDocument]:
+    """Yield all xacro files of the workspace."""
+    for other in {id(it): it for it in (package, *package.workspace.packages.values())}.values():
+        for file in other.index.with_suffix(".xacro"):
+            document = other.xml(file.path)
+            if isinstance(document, XmlDocument):
+                yield document
+
+
+def _defined(document: XmlDocument) -> Iterator[str]:
+    for element in document.elements:
+        if element.tag == _PROPERTY:
+            yield element.get("name") or ""
+        elif element.tag == _MACRO:
+            yield from _PARAMETER.findall(element.get("params") or "")
+        elif element.tag == _INCLUDE and element.get("ns"):
+            yield element.get("ns") or ""
+
+
+def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
+    suggestions = Suggestions(sorted(defined))
+    for element in macro.descendants():
+        for attribute, value in element.attributes.items():
+            place = element.attribute(attribute) or element
+            where = f"in macro {macro.get('name')!r}"
+            for name in _names(_EXPRESSION.findall(value)) - defined - _SYMBOLS:
+                yield finding(
+                    place,
+                    f"{name!r} {where} is not defined: xacro ends as soon as somebody calls it"
+                    f"{suggestions.hint(name)}",
+                    key=name,
+                    covered_by=("URD001",),
+                )
+            for name in _BRACES.findall(_EXPRESSION.sub("", value)):
+                if name in defined:
+                    yield finding(
+                        place,
+                        f"{{{name}}} {where} is kept as text: expected ${{{name}}}",
+                        key=name,
+                        covered_by=("URD001",),
+                    )
+
+
+def _names(expressions: Iterable[str]) -> set[str]:
+    plain = (_TEXT.sub("", it) for it in expressions if not _BINDS.search(it))
+    names = {name for expression in plain for name in _NAME.findall(expression)}
+    return {name for name in names if not keyword.iskeyword(name)}
+
+
+def _arm(inside: str, more: str = "") -> object:
+    return {
+        "@urdf": True,
+        "urdf/grip.xacro": f"""<robot name="grip" xmlns:xacro="http://ros.org/wiki/xacro">
+{more}
+<xacro:property name="width" value="0.1"/>
+<xacro:macro name="grip" params="prefix parent *origin">
+  {inside}
+</xacro:macro>
+</robot>
+""",
+    }
+
+
+_MARK = "  <!-- ^ URD026 -->"
+GOOD = [
+    _arm('<link name="${prefix}finger"/><link name="${width * pi}"/>'),
+    _arm("<link name=\"${'left' if prefix == 'l' else 'right'}\"/>"),
+    _arm('<link name="${max(width, 2)} {other}"/>'),
+    _arm('<link name="${sum([x for x in sizes])}"/>'),
+]
+BAD = [
+    _arm(f'<link name="${{widht}}"/>{_MARK}'),
+    _arm(f'<link name="{{prefix}}finger"/>{_MARK}'),
+]
