@@ -22,6 +22,7 @@ from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element, XmlDocument
 
+_XACRO = "xacro:"
 _MACRO, _PROPERTY, _INCLUDE = "xacro:macro", "xacro:property", "xacro:include"
 _EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
 _TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"")
@@ -42,13 +43,16 @@ def check(package: Package) -> Findings:
             if not _is_at_hand(package, path, element.get("filename") or ""):
                 yield unchecked(f"{path} includes {element.get('filename')}, which is not read")
                 return
-    defined = {name for each in _at_hand(package) for name in _defined(each)}
+    at_hand = list(_at_hand(package))
+    defined = {name for each in at_hand for name in _defined(each)}
     if any("$" in name for name in defined):
         yield unchecked("names of properties are computed")
         return
+    called = _called(at_hand)
     for document in documents.values():
         for macro in document.root.descendants(_MACRO):
-            yield from _undefined(macro, defined)
+            if _name(macro) not in called:
+                yield from _undefined(macro, defined)
 
 
 def _is_at_hand(package: Package, path: str, name: str) -> bool:
@@ -65,6 +69,34 @@ def _at_hand(package: Package) -> Iterator[XmlDocument]:
             document = other.xml(file.path)
             if isinstance(document, XmlDocument):
                 yield document
+
+
+def _called(documents: Iterable[XmlDocument]) -> set[str]:
+    """Return the names of macros that a robot calls, or a macro that one calls."""
+    calls: dict[str, set[str]] = {}
+    for document in documents:
+        for element in document.elements:
+            if element.tag.startswith(_XACRO):
+                around = _macro_around(element)
+                calls.setdefault(around, set()).add(element.tag.removeprefix(_XACRO))
+    called, waiting = set[str](), [""]
+    while waiting:
+        new = calls.get(waiting.pop(), set()) - called
+        called |= new
+        waiting += new
+    return called
+
+
+def _macro_around(element: Element) -> str:
+    """Return the name of the macro that an element stands in; empty outside of macros."""
+    around = element.parent
+    while around is not None and around.tag != _MACRO:
+        around = around.parent
+    return _name(around) if around is not None else ""
+
+
+def _name(macro: Element) -> str:
+    return (macro.get("name") or "").removeprefix(_XACRO)
 
 
 def _defined(document: XmlDocument) -> Iterator[str]:
@@ -89,7 +121,6 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
                     f"{name!r} {where} is not defined: xacro ends as soon as somebody calls it"
                     f"{suggestions.hint(name)}",
                     key=name,
-                    covered_by=("URD001",),
                 )
             for name in _BRACES.findall(_EXPRESSION.sub("", value)):
                 if name in defined:
@@ -97,7 +128,6 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
                         place,
                         f"{{{name}}} {where} is kept as text: expected ${{{name}}}",
                         key=name,
-                        covered_by=("URD001",),
                     )
 
 
