@@ -55,8 +55,8 @@ def test_a_file_of_too_many_attributes_is_not_read(tmp_path: Path) -> None:
     with open_input(package) as opened:
         read = opened.packages[0].xml("launch/a.launch")
     assert isinstance(read, TooLarge)
-    most = "only files of up to 400,000 are checked"
-    assert read.reason == f"has 400,001 attributes; {most} ({_REMEDY})"
+    most = "only files of up to 100,000 are checked"
+    assert read.reason == f"has 100,001 attributes; {most} ({_REMEDY})"
 
 
 def test_a_model_of_too_many_elements_is_not_checked_and_the_others_are(tmp_path: Path) -> None:

@@ -27,6 +27,8 @@ LIMITED = (
     "x = ('a' * 90000).replace('a', 'a' * 90000)",
     "x = {}\nfor i in range(10 ** 8):\n    x[i] = i",
     "x = []\nfor i in range(40):\n    x = [x, x]\nx = [str(x)]",
+    "x = (1,)\nfor i in range(60):\n    x = (x, x)\nx = {x: 1}",
+    "x = (1,)\nfor i in range(60):\n    x = (x, x)\nx = x == (x, x)",
     "x = []\nx.append(x)\nx = str(x)",
     "d = {}\nd['d'] = d\nx = str(d)",
     "x = " + "-" * 5_000 + "1",

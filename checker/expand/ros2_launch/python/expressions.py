@@ -236,6 +236,7 @@ def hashable(run: Interpreter, key: Value, node: ast.AST) -> Value:
     if key is None or isinstance(key, str | int | float | bool | Made):
         return key
     if isinstance(key, tuple):
+        run.allowance.spend(len(key))  # a tuple may hold another one many times
         parts = tuple(hashable(run, part, node) for part in key)
         return next((part for part in parts if isinstance(part, Unknown)), parts)
     return key if isinstance(key, Unknown) else run.unknown(node, "the key is not evaluated")
