@@ -62,8 +62,8 @@ def check(
         share = wheel_share if name in wheels else other_share
         if seen is not None and name in wheels and _is_sphere(link):
             seen = _cube_around(seen)
-        if touched is not None and seen is not None and _differ(touched, seen, share):
-            yield finding(link, _message(link, touched, seen))
+        if touched is not None and seen is not None and _difference(touched, seen) > share:
+            yield finding(link, _message(link, touched, seen, share))
         elif name in rolling:
             yield from _along_axle(robot, rolling[name], axle_share)
 
@@ -79,10 +79,12 @@ def _cube_around(wheel: Box) -> Box:
     return Box((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
 
 
-def _differ(touched: Box, seen: Box, share: float) -> bool:
+def _difference(touched: Box, seen: Box) -> float:
+    """Return by how much centres or sizes differ, as a share of the larger box's diagonal."""
     beside = math.dist(touched.centre, seen.centre)
     larger = math.dist(_size(touched), _size(seen))
-    return max(beside, larger) > share * max(touched.diagonal, seen.diagonal)
+    diagonal = max(touched.diagonal, seen.diagonal)
+    return max(beside, larger) / diagonal if diagonal > 0.0 else 0.0
 
 
 def _along_axle(robot: Robot, wheel: Wheel, share: float) -> Iterator[Finding]:
@@ -137,13 +139,18 @@ def _places(
     return [sum(a * b for a, b in zip(axis, point, strict=True)) for point in (centre, *points)]
 
 
-def _message(link: Link, touched: Box, seen: Box) -> str:
+def _message(link: Link, touched: Box, seen: Box, share: float) -> str:
     name = link.name.value
+    expected = (
+        f"{_difference(touched, seen):.0%} of the larger diagonal, expected {share:.0%} or less"
+    )
     beside = math.dist(touched.centre, seen.centre)
     if beside > math.dist(_size(touched), _size(seen)):
-        return f"the centres of collision and visual of {name!r} are {beside:.3g} m apart"
+        return (
+            f"the centres of collision and visual of {name!r} are {beside:.3g} m apart, {expected}"
+        )
     sizes = f"{_text(touched)}, but its visual measures {_text(seen)}"
-    return f"the collision of {name!r} measures {sizes}"
+    return f"the collision of {name!r} measures {sizes}: they differ by {expected}"
 
 
 def _text(box: Box) -> str:

@@ -48,7 +48,9 @@ def check(robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06) -> Fi
     body = max(members, key=_diagonal)
     for group in members:
         if group is not body:
-            yield _floating(group, gap)
+            own = {*group}
+            others = (piece for piece in shapes if piece not in own)
+            yield _floating(group, _distance(group, [piece.box for piece in others]), gap)
 
 
 def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
@@ -75,14 +77,29 @@ def _diagonal(group: Sequence[Placed]) -> float:
     return box.diagonal if box is not None else 0.0
 
 
-def _floating(group: Sequence[Placed], gap: float) -> Finding:
+def _distance(group: Sequence[Placed], others: Sequence[Box]) -> float:
+    """Return the distance of a group from other boxes, along the axis of the gap, metres."""
+    return min(
+        max(
+            max(low - other_high, other_low - high)
+            for low, high, other_low, other_high in zip(
+                piece.box.low, piece.box.high, other.low, other.high, strict=True
+            )
+        )
+        for piece in group
+        for other in others
+    )
+
+
+def _floating(group: Sequence[Placed], distance: float, gap: float) -> Finding:
     first = group[0]
     more = f" and {len(group) - 1} more" if len(group) > 1 else ""
     x, y, z = first.box.centre
     return finding(
         first.shape,
         f"{first.shape.name.value!r}{more} of {first.link.name.value!r} at ({x:.3g}, {y:.3g}, "
-        f"{z:.3g}) m: all other parts are more than {gap * 1e3:g} mm away",
+        f"{z:.3g}) m: the nearest other part is {distance * 1e3:.3g} mm away, expected at most "
+        f"{gap * 1e3:g} mm",
     )
 
 

@@ -42,12 +42,13 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0, marker: float =
             child is not None
             and parent is not None
             and max(child.diagonal, parent.diagonal) > marker
-            and child.gap(parent) > gap * (child.diagonal + parent.diagonal)
+            and child.gap(parent) > gap * (together := child.diagonal + parent.diagonal)
         ):
             yield finding(
                 tie.joint,
                 f"joint {tie.joint.name.value!r} connects {tie.child!r} to {tie.parent!r}, which "
-                f"is {child.gap(parent):.3g} m away",
+                f"is {child.gap(parent):.3g} m away, {child.gap(parent) / together:.2g} times "
+                f"their diagonals together, expected at most {gap:g}",
             )
         elif tie.joint.type.value in _HINGES:
             yield from _beside(robot, tie, sizes)

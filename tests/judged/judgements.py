@@ -17,7 +17,7 @@ from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
-from tests.real_packages import CORPUS, MODERN, named_folder
+from tests.real_packages import CORPUS, MODERN, URDFS, named_folder
 
 HERE = Path(__file__).parent
 _URDFS = "example-robot-data"
@@ -66,6 +66,8 @@ class Judgement:
 def folder_of(source: str) -> Path | None:
     """Return the folder of a source of packages; None where it is not there."""
     if source == "urdf":
+        if (named := named_folder(URDFS)) is not None:
+            return named
         try:
             root = distribution(_URDFS).locate_file("cmeel.prefix/share/example-robot-data/robots")
         except PackageNotFoundError:
