@@ -64,6 +64,8 @@ def test_a_rule_that_crashed() -> None:
         {"verdict": "splendid"},
         {"name": 3},
         {"name": "x" * 2_000},
+        {"name": "\ud800"},
+        {"folder": "a/\udfff"},
         {"folder": None},
     ],
 )

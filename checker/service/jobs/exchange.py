@@ -63,6 +63,7 @@ def limit(limits: StageLimits) -> None:
 
 _PACKAGES_LIMIT = 5_000
 _TEXT_LIMIT = 1_000
+_HALVES = re.compile(r"[\ud800-\udfff]")
 _TEXTS, _NUMBERS = ("name", "folder"), ("errors", "warnings", "infos")
 
 
@@ -118,7 +119,8 @@ def _is_package(data: Any) -> bool:
 
 
 def _is_text(data: Any) -> bool:
-    return isinstance(data, str) and len(data) <= _TEXT_LIMIT
+    # A child may write halves of surrogate pairs, which no page can show.
+    return isinstance(data, str) and len(data) <= _TEXT_LIMIT and not _HALVES.search(data)
 
 
 UPLOAD = "upload"
