@@ -28,7 +28,7 @@ def usual_profile(package: Package) -> str:
     """Return the profile that judges a package where the user names none.
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
-    type or its dependencies. One of catkin that names SubT nowhere is of ROS 1, or a model for any
+    type or its dependencies. Another one that names SubT nowhere is of ROS 1, or a model for any
     Gazebo. A model, a world or a single file is judged as the package around it is; without one,
     it is Gazebo's, even where model.config names a URDF file, and other URDF is of ROS 2 or ROS 1
     by its content.
@@ -73,13 +73,9 @@ def _of_manifest(package: Package, manifest: XmlDocument) -> str:
         return ROS_2
     if package.is_urdf:
         return ROS_1
-    if not _is_catkin(manifest) or _is_of_subt(package):
+    if _is_of_subt(package):
         return SUBMISSION
     return ANY_SDF if package.kind is PackageKind.BASE_MODEL else ROS_1
-
-
-def _is_catkin(manifest: XmlDocument) -> bool:
-    return any(child.text.value.strip() == "catkin" for child in manifest.root.children)
 
 
 def _is_of_subt(package: Package) -> bool:
