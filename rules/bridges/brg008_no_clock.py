@@ -32,7 +32,7 @@ def check(simulations: Simulations) -> Findings:
         left_out = {fault.kind for fault in simulation.bridges.faults} - {_IGNORED}
         nodes = simulation.graph.nodes
         waiting = [node for node in nodes if node.starts and _takes_clock(node)]
-        others_publish = any(map(_may_publish, nodes)) or simulation.graph.components
+        others_publish = any(map(_may_publish, nodes))
         if not waiting or left_out or others_publish:
             continue
         parameter = waiting[0].parameter("use_sim_time")
@@ -61,8 +61,6 @@ def _takes_clock(node: Node) -> bool:
 
 
 def _may_publish(node: Node) -> bool:
-    if node.components:
-        return True
     if node.package.value in _KNOWN:
         return False
     if node.package.value in GAZEBO:
@@ -78,13 +76,31 @@ _CLOCK_ENTRY = (
     "- topic_name: {}\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
 )
 _TIME = '{"use_sim_time": True}]'
+_COMPONENT = """LaunchDescription([
+        LoadComposableNodes(target_container="nav", composable_node_descriptions=[
+            ComposableNode(package="nav2_amcl", plugin="nav2_amcl::AmclNode", name="amcl",
+                           parameters=[{"use_sim_time": @}])]),%
+"""
+
+
+def _component(simulated: str, mark: str = "") -> dict[str, object]:
+    imports = "from launch_ros.actions import Node\n"
+    more = f"from launch_ros.actions import LoadComposableNodes\n{imports}"
+    more += "from launch_ros.descriptions import ComposableNode\n"
+    launch = _COMPONENT.replace("@", simulated).replace("%", mark)
+    heads = {_TIME: "]", "LaunchDescription([\n": launch, imports: more}
+    return {"@bridge": _SCAN, "@launch": heads}
+
+
 GOOD = [
+    _component("False"),
     {"@bridge": True},
     {"@bridge": _SCAN, "@launch": {_TIME: "]"}},
     {"@bridge": _SCAN, "@launch": {"LaunchDescription([\n": "LaunchDescription([other(),\n"}},
     {"@bridge": _SCAN, "config/clock_bridge.yaml": _CLOCK_ENTRY.format("/clock")},
 ]
 BAD = [
+    _component("True", "  # ^ BRG008"),
     {"@bridge": _SCAN, "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"}},
     {
         "@bridge": _SCAN + _CLOCK_ENTRY.format("/rover/clock"),

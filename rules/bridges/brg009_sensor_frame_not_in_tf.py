@@ -21,7 +21,7 @@ from checker.model.sensing.kind import SensorType, frame_ids
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.text import Located
 
-_STATIC = "static_transform_publisher"
+_STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNode")
 _PUBLISHES_POSES = "PosePublisher"
 
 
@@ -60,7 +60,7 @@ def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:
     return (
         _PUBLISHES_POSES in plugins
         or (prefix is not None and prefix.value not in ("", "/"))
-        or any(node.executable.value == _STATIC for node in nodes)
+        or any(node.executable.value in _STATIC for node in nodes)
         or any(entry.passed.overrides_frame for entry in simulation.entries)
         or any(node.parameter("override_frame_id") is not None for node in nodes)
     )

@@ -17,7 +17,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _FRAME = "base_frame_id"
-_STATIC = "static_transform_publisher"
+_STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNode")
 
 
 @rule("R2C014", "unknown-base-frame", Severity.WARNING, Concern.INTERFACE)
@@ -27,7 +27,7 @@ def check(control: RobotControl, launch: Ros2Launch) -> Findings:
         yield unchecked(control.robot.missing_parts)
         return
     links = {link.name.value for link in control.robot.links}
-    if any(node.executable.value == _STATIC for node in launch.nodes):
+    if any(node.executable.value in _STATIC for node in launch.nodes):
         return
     for controller in control.controllers:
         frame = _base_frame(controller)
@@ -87,6 +87,6 @@ GOOD = [
     _arm("base_frame_id: base_link"),
     _arm(""),
     _arm('base_frame_id: "$(var frame)"'),
-    _arm("base_frame_id: base_footprint", "tf2_ros", _STATIC),
+    _arm("base_frame_id: base_footprint", "tf2_ros", _STATIC[0]),
 ]
 BAD = [_arm(f"base_frame_id: base_footprint{_MARK}")]

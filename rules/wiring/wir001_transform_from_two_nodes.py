@@ -184,8 +184,28 @@ def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
     }
 
 
+_CONTAINER = """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="nav" namespace="">
+    <composable_node pkg="nav2_amcl" plugin="nav2_amcl::AmclNode" name="amcl">
+      <param name="tf_broadcast" value="@"/>%
+    </composable_node>
+  </node_container>
+  <node pkg="robot_localization" exec="ekf_node">
+    <param name="world_frame" value="map"/>
+  </node>
+</launch>
+"""
+
+
+def _component(tf_broadcast: str, mark: str = "") -> dict[str, object]:
+    """Return a launch file with a component that localises beside a filter."""
+    launch = _CONTAINER.replace("@", tf_broadcast).replace("%", mark)
+    return {"@bridge": True, "launch/nav.launch.xml": launch}
+
+
 GOOD = [
     {"@bridge": True},
+    _component("false"),
     _static('"--frame-id", "lidar_link", "--child-frame-id", "lidar_optical"'),
     _static('"0", "0", "0", "0", "0", "0", "map", "base_link"'),
     _static(
@@ -209,6 +229,7 @@ GOOD = [
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
+    _component("true", _XML_MARK),
     _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
     _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),

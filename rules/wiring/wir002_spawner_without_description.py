@@ -48,7 +48,7 @@ def check(wiring: Wiring) -> Findings:
 
 def _descriptions(node: WiredNode) -> Iterator[str]:
     """Yield the topic on which a robot_state_publisher publishes its robot."""
-    if node.node.executable.value == STATE_PUBLISHER:
+    if node.node.package.value == STATE_PUBLISHER:
         yield from (topic for topic, types in node.published if _DESCRIPTION in types)
 
 
@@ -78,6 +78,21 @@ _CLASSIC = """<launch>
   <node pkg="gazebo_ros" exec="spawn_entity.py" args="-topic @ -entity rover"/>%
 </launch>
 """
+_COMPONENT = """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="state" namespace="">
+    <composable_node pkg="robot_state_publisher" plugin="robot_state_publisher::RobotStatePublisher"
+        namespace="r1"/>
+  </node_container>
+  <node pkg="ros_gz_sim" exec="create" args="-topic @"/>%
+</launch>
+"""
+
+
+def _component(topic: str, mark: str = "") -> dict[str, object]:
+    launch = _COMPONENT.replace("@", topic).replace("%", mark)
+    return {"@bridge": True, "launch/state.launch.xml": launch}
+
+
 _CLASSIC_FILE = "launch/classic.launch.xml"
 
 
@@ -92,10 +107,12 @@ GOOD = [
     _rover("rover_description", state=' remappings=[("robot_description", "rover_description")],'),
     {**_rover("rover_description"), "@launch": {'"-file", URDF': '"-topic", topic()'}},
     _classic("robot_description"),
+    _component("/r1/robot_description"),
 ]
 BAD = [
     _rover("rover_description", _MARK),
     _rover("robot_description", _MARK, state=' namespace="rover",'),
     _rover("robot_description", _MARK, state=' remappings=[("robot_description", "model")],'),
     _classic("rover_description", "  <!-- ^ WIR002 -->"),
+    _component("robot_description", "  <!-- ^ WIR002 -->"),
 ]

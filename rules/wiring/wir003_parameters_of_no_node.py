@@ -95,8 +95,28 @@ def _given(
     }
 
 
+_CONTAINER = """LaunchDescription([
+        ComposableNodeContainer(package="rclcpp_components", executable="component_container",
+             name="box", namespace="", composable_node_descriptions=[ComposableNode(
+             package="nav2_amcl", plugin="nav2_amcl::AmclNode",{}
+             parameters=[os.path.join(HERE, "config", "a.yaml")])]),
+"""
+_IMPORTS = "from launch_ros.actions import Node\n"
+_MORE = """from launch_ros.actions import ComposableNodeContainer, Node
+from launch_ros.descriptions import ComposableNode
+"""
+
+
+def _component(name: str) -> dict[str, object]:
+    """Return a container with a component, and parameters for `amcl`."""
+    launch = {_HEAD: _CONTAINER.format(name), _IMPORTS: _MORE}
+    return {**_given("amcl", ""), "@launch": launch}
+
+
 _LIDAR = ("acme_lidar", "lidar_node")
 GOOD = [
+    _component(' name="amcl",'),
+    _component(""),
     _given("controller_server", ""),
     _given("follower", ' name="follower",'),
     _given("/**", ' name="follower",'),
@@ -114,6 +134,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _component(f' name="localizer",{_MARK}'),
     _given("controller_server", f' name="follower",{_MARK}'),
     {
         **_given("controller_server", ""),

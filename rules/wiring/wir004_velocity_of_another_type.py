@@ -100,7 +100,24 @@ def _controlled(more: str = "", mark: str = "") -> dict[str, object]:
 _STAMPED = 'parameters=[{"stamped": True}]'
 _ELSEWHERE = 'remappings=[("cmd_vel", "/base/teleop")]'
 _MARK = "  # ^ WIR004"
+_COMPONENT = """LaunchDescription([
+        LoadComposableNodes(target_container="box", composable_node_descriptions=[
+            ComposableNode(package="teleop_twist_joy", plugin="teleop_twist_joy::TeleopTwistJoy",
+                parameters=[{"publish_stamped_twist": @}])]),%
+"""
+_IMPORTS = "from launch_ros.actions import Node\n"
+_MORE = """from launch_ros.actions import LoadComposableNodes, Node
+from launch_ros.descriptions import ComposableNode
+"""
+
+
+def _component(stamped: str, mark: str = "") -> dict[str, object]:
+    launch = {_HEAD: _COMPONENT.replace("@", stamped).replace("%", mark), _IMPORTS: _MORE}
+    return {"@bridge": _TO_GAZEBO.format("Twist"), "@launch": launch}
+
+
 GOOD = [
+    _component("False"),
     _bridged("Twist"),
     _bridged("TwistStamped", _STAMPED),
     _bridged("TwistStamped", _ELSEWHERE),
@@ -108,6 +125,7 @@ GOOD = [
     _controlled(_ELSEWHERE),
 ]
 BAD = [
+    _component("True", _MARK),
     _bridged("TwistStamped", mark=_MARK),
     _bridged("Twist", f"{_STAMPED},{_MARK}\n"),
     _controlled(mark=_MARK),

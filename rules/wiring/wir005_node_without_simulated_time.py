@@ -39,7 +39,7 @@ def check(wiring: Wiring) -> Findings:
         reason = f"{simulated[0].called} of this launch has the time of /clock" if elsewhere else ""
     for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
-        is_affected = node.node.executable.value != STATE_PUBLISHER
+        is_affected = node.node.package.value != STATE_PUBLISHER
         if is_affected and _text(node) == "false":
             stated = "no use_sim_time" if setting is None else "use_sim_time: false"
             yield finding(
@@ -110,7 +110,24 @@ def _pair(simulated: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/rover.launch.py": None, "launch/state.launch.xml": launch}
 
 
+_CONTAINER = """LaunchDescription([
+        SetParameter("use_sim_time", @),%
+        LoadComposableNodes(target_container="nav", composable_node_descriptions=[
+            ComposableNode(package="nav2_amcl", plugin="nav2_amcl::AmclNode", name="amcl")]),
+"""
+_IMPORTS = "from launch_ros.actions import Node\n"
+_MORE = """from launch_ros.actions import LoadComposableNodes, Node, SetParameter
+from launch_ros.descriptions import ComposableNode
+"""
+
+
+def _component(simulated: str, mark: str = "") -> dict[str, object]:
+    launch = _CONTAINER.replace("@", simulated).replace("%", mark)
+    return {"@bridge": True, "@launch": {_HEAD: launch, _IMPORTS: _MORE}}
+
+
 GOOD = [
+    _component("True"),
     _pair("false"),
     _filter("ekf_filter_node"),
     _filter("/**"),
@@ -119,6 +136,7 @@ GOOD = [
     {**_filter("other"), "@bridge": "[]\n"},
 ]
 BAD = [
+    _component("False", _MARK),
     {
         **_filter("other"),
         "@launch": {

@@ -181,7 +181,26 @@ def _classic(remap: str, mark: str = "") -> dict[str, object]:
     }
 
 
+_CONTAINER = """<launch>
+  <node pkg="urg_node" exec="urg_node_driver"/>
+  <node_container pkg="rclcpp_components" exec="component_container" name="nav" namespace="">
+    <composable_node pkg="nav2_amcl" plugin="nav2_amcl::AmclNode" name="amcl" namespace="r1">
+      <param name="scan_topic" value="lidar"/>%
+      <remap from="lidar" to="@"/>
+    </composable_node>
+  </node_container>
+</launch>
+"""
+
+
+def _component(topic: str, mark: str = "") -> dict[str, object]:
+    """Return a lidar whose scans a component reads by a remap."""
+    launch = _CONTAINER.replace("@", topic).replace("%", mark)
+    return {"@bridge": True, "launch/nav.launch.xml": launch}
+
+
 GOOD = [
+    _component("/scan"),
     _filter("odom"),
     _filter("/odom"),
     _filter("wheel/odometry", "[]\n"),
@@ -193,6 +212,7 @@ GOOD = [
     _told("nav2_controller/controller_server", _COSTMAP.replace("@", "/scan"), True),
 ]
 BAD = [
+    _component("scan", "  <!-- ^ WIR006 -->"),
     _filter(f"wheel/odometry{_MARK}"),
     _filter(f"odom{_MARK}", more=' namespace="rover",', key="/**"),
     _controlled(f"base/odometry{_MARK}"),

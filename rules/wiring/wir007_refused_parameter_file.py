@@ -6,7 +6,8 @@ before ros__parameters"), for every node that is given it, whether the rest is f
 of ROS 1, and those that a library reads by itself, have their values at the top.
 
 It is reported where a launch file gives the file to a node as its parameters. A text that holds the
-path of such a file is no parameter file.
+path of such a file is no parameter file. For a component launch reads the file, and takes values
+at the top.
 
 Fix: put the values below the name of the node and `ros__parameters`. A slash and two asterisks
 instead of the name stand for every node.
@@ -49,7 +50,21 @@ def _given(yaml: str, before: str = "", after: str = "") -> dict[str, object]:
     }
 
 
+_COMPONENT = """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="box" namespace="">
+    <composable_node pkg="acme_lidar" plugin="acme_lidar::Lidar" name="lidar">
+      <param from="$(find-pkg-share acme_rover_bringup)/config/a.yaml"/>
+    </composable_node>
+  </node_container>
+</launch>
+"""
+
 GOOD = [
+    {
+        "@bridge": True,
+        "launch/lidar.launch.xml": _COMPONENT,
+        "config/a.yaml": "rate: 10\n",
+    },
     _given("lidar:\n  ros__parameters:\n    rate: 10\n    frames: [a, b]\n"),
     _given(
         "r1:\n  lidar:\n    ros__parameters: {rate: 10}\n/**:\n  ros__parameters: {a: {b: 1}}\n"

@@ -9,6 +9,7 @@ import pytest
 from checker.expand.ros2_launch.graph import (
     LaunchFaultKind,
     LaunchGraph,
+    NodeKind,
     Parameter,
     ParameterFile,
     shown,
@@ -219,15 +220,15 @@ def test_components_and_parameter_values(read: Read) -> None:
         ])
         """
     )
-    (component,) = graph.nodes[0].components
-    assert component.plugin.value == "image_proc::RectifyNode"
-    assert graph.components[0].container == "/box"
-    parameter = graph.nodes[1].parameter("robot_description")
+    components = graph.nodes[1:3]
+    assert [node.executable.value for node in components] == ["image_proc::RectifyNode"] * 2
+    assert {node.kind for node in components} == {NodeKind.COMPONENT}
+    parameter = graph.nodes[3].parameter("robot_description")
     assert parameter is not None
     assert parameter.as_text
     assert parameter.substituted
     assert parameter.value == "$(command xacro a.xacro)"
-    assert graph.nodes[1].parameter_files[0].substitutes
+    assert graph.nodes[3].parameter_files[0].substitutes
 
 
 @pytest.mark.parametrize(

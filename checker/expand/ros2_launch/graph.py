@@ -192,34 +192,13 @@ Parameters = tuple[Parameter | ParameterFile, ...]
 """Of a node, in order: later ones count."""
 
 
-class Component(Record, eq=False):
-    """A node that is loaded into a container.
-
-    Attributes:
-        package: Package that holds the plugin.
-        plugin: Name of its class.
-        name: Of the node; empty for the default.
-        namespace: Absolute.
-        parameters: Those in force.
-        remaps: Those in force; its own first.
-        span: The call or start tag.
-    """
-
-    package: Located[str]
-    plugin: Located[str]
-    name: str
-    namespace: str
-    parameters: Parameters
-    remaps: tuple[Remap, ...]
-    span: Span
-
-
 class NodeKind(enum.StrEnum):
     """What sort of node it is."""
 
     NODE = "node"
     LIFECYCLE = "lifecycle node"
     CONTAINER = "container"
+    COMPONENT = "component"
 
 
 class Started(Record, eq=False, kw_only=True):
@@ -252,18 +231,17 @@ class Started(Record, eq=False, kw_only=True):
 
 
 class Node(Started, eq=False, kw_only=True):
-    """A node, container or lifecycle node.
+    """A node, container, lifecycle node, or a component that is loaded into a container.
 
     Attributes:
         kind: What sort of node it is.
         package: Package that holds the program.
-        executable: The program.
+        executable: The program; of a component, its class.
         name: Of the node; None for the program's own.
         namespace: Absolute, `/` or `/r1`; it may hold `$(`.
         arguments: Words of the command line, `--ros-args` and what follows among them.
         parameters: Those in force: of scopes around it first, then its own.
         remaps: Those in force; its own first.
-        components: What is loaded into it, if it is a container.
         environment: Variables set for it alone.
         unread: Why its arguments, parameters or remaps may not be complete.
     """
@@ -276,7 +254,6 @@ class Node(Started, eq=False, kw_only=True):
     arguments: tuple[Located[str], ...] = ()
     parameters: Parameters = ()
     remaps: tuple[Remap, ...] = ()
-    components: tuple[Component, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
     unread: tuple[Unread, ...] = ()
 
@@ -289,18 +266,6 @@ class Node(Started, eq=False, kw_only=True):
     def parameter_files(self) -> tuple[ParameterFile, ...]:
         """YAML files of parameters, in order."""
         return tuple(p for p in self.parameters if isinstance(p, ParameterFile))
-
-
-class LoadedComponents(Started, eq=False, kw_only=True):
-    """Components that are loaded into a container that something else starts.
-
-    Attributes:
-        container: Name of the container.
-        components: What is loaded.
-    """
-
-    container: str
-    components: tuple[Component, ...]
 
 
 class Process(Started, eq=False, kw_only=True):
@@ -368,8 +333,7 @@ class LaunchGraph(Record, eq=False, dict=True):
     Attributes:
         file: The launch file.
         arguments: Arguments that it declares, those of included files after its own.
-        nodes: Nodes, in order.
-        components: What is loaded into containers that something else starts.
+        nodes: Nodes and components, in order.
         processes: Commands.
         includes: Files, whether they were read or not.
         environment: Variables set.
@@ -382,7 +346,6 @@ class LaunchGraph(Record, eq=False, dict=True):
     file: str
     arguments: tuple[Argument, ...] = ()
     nodes: tuple[Node, ...] = ()
-    components: tuple[LoadedComponents, ...] = ()
     processes: tuple[Process, ...] = ()
     includes: tuple[Include, ...] = ()
     environment: tuple[EnvironmentChange, ...] = ()

@@ -104,7 +104,6 @@ class LaunchReader:
             self._file,
             arguments=tuple(found.arguments),
             nodes=tuple(found.nodes),
-            components=tuple(found.components),
             processes=tuple(found.processes),
             includes=tuple(found.includes),
             environment=tuple(found.environment),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from checker.expand.ros2_launch.graph import (
     LaunchGraph,
+    NodeKind,
     Parameter,
     ParameterFile,
     Ros2Launch,
@@ -34,13 +35,10 @@ def used_packages(launch: Ros2Launch) -> Iterator[Use]:
 
 def _named(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
     for node in graph.nodes:
-        yield node.package.value, node.package.span, f"node {node.executable.value}"
+        what = "component" if node.kind is NodeKind.COMPONENT else "node"
+        yield node.package.value, node.package.span, f"{what} {node.executable.value}"
         for parameter in node.parameters:
             yield from _of_parameter(parameter)
-    loaded = [it for node in graph.nodes for it in node.components]
-    loaded += [it for each in graph.components for it in each.components]
-    for component in loaded:
-        yield component.package.value, component.package.span, f"component {component.plugin.value}"
     paths = [include.target for include in graph.includes] + [use.text for use in graph.files]
     for text in paths:
         yield from _of_path(text.value, text.span)

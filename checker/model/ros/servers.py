@@ -27,8 +27,7 @@ from checker.source.xml import XmlDocument
 _STARTS_SERVER = ("gz_sim.launch", "gz_server.launch", "ign_gazebo.launch", "ros_gz_sim.launch")
 _STARTS_WINDOW = "gz_gui.launch"
 """Launch files of Gazebo's own packages that start it; all but the last one load a world."""
-_SERVER = "gzserver"
-_SERVER_PLUGIN = "ros_gz_sim::GzServer"
+_SERVERS = ("gzserver", "ros_gz_sim::GzServer")
 _WORLD_FILE = "world_sdf_file"
 _COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
 CLASSIC_PACKAGE, _CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
@@ -74,13 +73,9 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
         if is_gazebo(process) and process.starts is not False:
             yield from _commanded(package, process.words[2:], process.span, process.starts)
     for node in graph.nodes:
-        if node.starts is False:
-            continue
-        if node.package.value in GAZEBO and node.executable.value == _SERVER:
+        server = node.package.value in GAZEBO and node.executable.value in _SERVERS
+        if server and node.starts is not False:
             yield _given(package, node.parameters, node.span, node.starts)
-        for component in node.components:
-            if component.plugin.value == _SERVER_PLUGIN:
-                yield _given(package, component.parameters, component.span, node.starts)
 
 
 def is_gazebo(process: Process) -> bool:

@@ -22,6 +22,7 @@ from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
 from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo_include
 from checker.model.ros.transforms import STATE_PUBLISHER
+from checker.model.ros.wiring.facts import program_of
 from checker.model.ros2_control.robot_control import (
     ControlReader,
     RobotControl,
@@ -169,7 +170,7 @@ def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescriptio
 
 
 def _publishes(description: LoadedDescription) -> bool:
-    return description.node.executable.value == STATE_PUBLISHER
+    return program_of(description.node).endswith(f"/{STATE_PUBLISHER}")
 
 
 def _publisher(description: LoadedDescription, loaded: list[LoadedDescription]) -> Node | None:

@@ -143,7 +143,7 @@ class LaunchedControl(Record, eq=False, dict=True):
             i for i in self.graph.includes if i.reason and "ros_gz_sim" not in i.target.value
         ]
         unsure = any(node.starts is None for node in self.graph.nodes)
-        return not (missing or self.graph.unread or unsure or self.graph.components)
+        return not (missing or self.graph.unread or unsure)
 
     @cached_property
     def listed(self) -> frozenset[str] | None:

@@ -14,7 +14,6 @@ from checker.expand.ros2_launch.graph import (
     FileUse,
     Include,
     LaunchFault,
-    LoadedComponents,
     Node,
     Process,
     Unread,
@@ -28,7 +27,6 @@ class Gathered:
 
     arguments: list[Argument] = field(default_factory=list)
     nodes: list[Node] = field(default_factory=list)
-    components: list[LoadedComponents] = field(default_factory=list)
     processes: list[Process] = field(default_factory=list)
     includes: list[Include] = field(default_factory=list)
     environment: list[EnvironmentChange] = field(default_factory=list)

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from checker.expand.launch.graph import resolve_name
-from checker.expand.ros2_launch.actions.node_parameters import MOVEIT, UNKNOWN
+from checker.expand.ros2_launch.actions.conditions import read_conditions
+from checker.expand.ros2_launch.actions.node_parameters import MOVEIT
 from checker.expand.ros2_launch.actions.parts import (
     namespace_of,
     parameters_of,
@@ -18,16 +18,13 @@ from checker.expand.ros2_launch.actions.parts import (
 )
 from checker.expand.ros2_launch.context import Context
 from checker.expand.ros2_launch.graph import (
-    Component,
     LaunchFaultKind,
-    LoadedComponents,
     Node,
     NodeKind,
     Parameters,
     Process,
     Unread,
 )
-from checker.expand.ros2_launch.substitutions import perform
 from checker.expand.ros2_launch.values import Guarded, Made, Unknown, Value, chosen, span_of
 from checker.source.text import Located
 
@@ -54,7 +51,9 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
     remaps = remaps_of(made, context, unread)
     name = made.values.get("name")
     environment = chosen(made.values.get("additional_env"))
-    visitor.found.nodes.append(
+    components = tuple(_components(made, context, unread))
+    _gather(
+        visitor,
         Node(
             kind=_NODES[made.name],
             package=text_of(made, "package", context, unread),
@@ -64,39 +63,22 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
             arguments=(*arguments, *ros),
             parameters=(*context.state.parameters, *parameters),
             remaps=remaps,
-            components=tuple(_components(made, context, unread)),
             environment=texts_of(environment, context, made.span),
             unread=tuple(unread),
             conditions=context.conditions,
             after=context.after,
             span=made.span,
-        )
+        ),
+        *components,
     )
-    visitor.found.unread += (item for item in unread if item.reason != MOVEIT)
     _keywords(made, context)
     visitor.later_events(made, context)
 
 
 def load(visitor: Visitor, made: Made, context: Context) -> None:
-    """Gather components that are loaded into a container."""
+    """Gather components that are loaded into a container which something else starts."""
     unread: list[Unread] = []
-    target = chosen(made.values.get("target_container"))
-    name = UNKNOWN
-    if isinstance(target, Made) and target.name == "ComposableNodeContainer":
-        target = target.values.get("name")
-    text = perform(target, context, made.span)
-    if not isinstance(text, Unknown):
-        name = resolve_name(str(text), context.state.namespace)
-    components = tuple(_components(made, context, unread))
-    visitor.found.components.append(
-        LoadedComponents(
-            container=name,
-            components=components,
-            conditions=context.conditions,
-            after=context.after,
-            span=made.span,
-        )
-    )
+    _gather(visitor, *_components(made, context, unread))
     visitor.found.unread += unread
 
 
@@ -142,27 +124,42 @@ def component_node(visitor: Visitor, made: Made, _: Context) -> None:
     visitor.unread("a ComposableNode is not an action of its own", made.span)
 
 
-def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Component]:
+def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Node]:
     value = chosen(made.values.get("composable_node_descriptions"))
     if isinstance(value, Unknown):
         unread.append(Unread(value.reason, value.span))
-    given = value if isinstance(value, list | tuple) else ()
-    there = (v for v in given if not (isinstance(v, Guarded) and v.holds is False))
-    for item in map(chosen, there):
+    for given in value if isinstance(value, list | tuple) else ():
+        guards = given.conditions if isinstance(given, Guarded) else ()
+        item = chosen(given.value if isinstance(given, Guarded) else given)
         if not isinstance(item, Made):
             reason = item.reason if isinstance(item, Unknown) else "it is not a component"
             unread.append(Unread(reason, span_of(item, made.span)))
             continue
-        parameters = parameters_of(item.values.get("parameters"), context, item.span, unread)
-        yield Component(
-            text_of(item, "package", context, unread),
-            text_of(item, "plugin", context, unread),
-            text_of(item, "name", context, unread).value,
-            namespace_of(item, context),
-            (*context.state.parameters, *parameters),
-            remaps_of(item, context, unread),
-            item.span,
-        )
+        yield _component(item, context.under(guards))
+
+
+def _component(made: Made, context: Context) -> Node:
+    if made.values.get("condition") is not None:
+        context = context.under(read_conditions(made, context))
+    parameters, unread = _parameters(made, context)
+    return Node(
+        kind=NodeKind.COMPONENT,
+        package=text_of(made, "package", context, unread),
+        executable=text_of(made, "plugin", context, unread),
+        name=text_of(made, "name", context, unread) if made.values.get("name") else None,
+        namespace=namespace_of(made, context),
+        parameters=(*context.state.parameters, *parameters),
+        remaps=remaps_of(made, context, unread),
+        unread=tuple(unread),
+        conditions=context.conditions,
+        after=context.after,
+        span=made.span,
+    )
+
+
+def _gather(visitor: Visitor, *nodes: Node) -> None:
+    visitor.found.nodes += nodes
+    visitor.found.unread += (u for node in nodes for u in node.unread if u.reason != MOVEIT)
 
 
 def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]:

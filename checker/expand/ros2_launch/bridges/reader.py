@@ -22,7 +22,6 @@ from checker.expand.ros2_launch.bridges.entry import (
 )
 from checker.expand.ros2_launch.bridges.file import is_bridge_file, read_bridge_file
 from checker.expand.ros2_launch.graph import (
-    Component,
     Include,
     LaunchGraph,
     Node,
@@ -122,9 +121,6 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
         reader.node(node)
     for process in graph.processes:
         reader.process(process)
-    for loaded in graph.components:
-        for component in loaded.components:
-            reader.component(component, None)
     for include in graph.includes:
         reader.include(include)
     return reader.bridges()
@@ -168,14 +164,14 @@ class _Reader:
         )
 
     def node(self, node: Node) -> None:
-        for component in node.components:
-            self.component(component, node)
         package, executable = node.package.value, node.executable.value
         own, given = _split(node.arguments)
         at = _at(node, given)
         if package in _IMAGES and executable == "image_bridge":
             self._entries += [at.entry(_image(word)) for word in own if _names_topic(word)]
-        elif package in _BRIDGES and executable in (_PROGRAM, "bridge_node"):
+        elif executable in _PLUGINS or (
+            package in _BRIDGES and executable in (_PROGRAM, "bridge_node")
+        ):
             self._unread += [unread.reason for unread in node.unread]
             for word in own:
                 self._argument(word, at)
@@ -204,12 +200,6 @@ class _Reader:
                 for word in own:
                     self._argument(word, at)
                 self._configured((), given, at)
-
-    def component(self, component: Component, node: Node | None) -> None:
-        if component.plugin.value in _PLUGINS:
-            expands = _expands(component.parameters, {})
-            at = _At(component.namespace, component.name, component.remaps, expands, node)
-            self._configured(component.parameters, {}, at)
 
     def _argument(self, word: Located[str], at: _At) -> None:
         if word.value.startswith("-"):

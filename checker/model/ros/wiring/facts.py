@@ -9,6 +9,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.expand.ros2_launch.graph import Node, NodeKind
 
 TransformFact = tuple[str, str, Mapping[str, str]]
 """Parent, child, and the values that parameters must have; `{x}` is the value of parameter x."""
@@ -38,3 +39,11 @@ class NodeFacts(Record):
 def node_facts() -> Mapping[str, NodeFacts]:
     """Return the known programs by package and executable: `nav2_amcl/amcl`."""
     return convert(table("ros_nodes")["nodes"], dict[str, NodeFacts])
+
+
+def program_of(node: Node) -> str:
+    """Return package and executable of a node; a component has those of the same node."""
+    executable = node.executable.value
+    if node.kind is NodeKind.COMPONENT:
+        executable = table("ros_nodes")["components"].get(executable, executable)
+    return f"{node.package.value}/{executable}"

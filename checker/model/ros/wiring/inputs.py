@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
+from checker.expand.ros2_launch.graph import NodeKind
 from checker.model.ros.wiring.parameters import Setting, settings_of
 
 if TYPE_CHECKING:
@@ -17,7 +18,10 @@ _COSTMAPS = {
     "nav2_controller/controller_server": "local_costmap",
     "nav2_planner/planner_server": "global_costmap",
 }
-"""Programs of Nav2 that make a node of their own for a costmap, in a namespace of its name."""
+"""Programs of Nav2 that make a node of their own for a costmap, in a namespace of its name.
+
+That of a component gets its parameters from the container.
+"""
 _MONITORS = (
     "nav2_collision_monitor/collision_monitor",
     "nav2_collision_monitor/collision_detector",
@@ -63,7 +67,7 @@ def inputs(node: WiredNode) -> Iterator[Input]:
                 yield Input(setting.text, types, name, setting)
     if node.program in _MONITORS:
         yield from _sources("", node.settings, "type")
-    if node.program in _COSTMAPS and node.full_name:
+    if node.program in _COSTMAPS and node.full_name and node.node.kind is not NodeKind.COMPONENT:
         yield from _of_costmap(node, _COSTMAPS[node.program])
 
 

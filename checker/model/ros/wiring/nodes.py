@@ -8,8 +8,8 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.expand.launch.graph import remapped, resolve_name
-from checker.expand.ros2_launch.graph import Node, ParameterFile, is_known
-from checker.model.ros.wiring.facts import NodeFacts, node_facts
+from checker.expand.ros2_launch.graph import Node, NodeKind, ParameterFile, is_known
+from checker.model.ros.wiring.facts import NodeFacts, node_facts, program_of
 from checker.model.ros.wiring.inputs import Input, inputs
 from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
 from checker.model.ros2_control.launched import Spawner, spawner_of
@@ -56,8 +56,8 @@ class WiredNode(Record, eq=False, dict=True):
 
     @property
     def program(self) -> str:
-        """Its package and executable: `nav2_amcl/amcl`."""
-        return f"{self.node.package.value}/{self.node.executable.value}"
+        """Its package and executable: `nav2_amcl/amcl`; of a component, those of the same node."""
+        return program_of(self.node)
 
     @cached_property
     def spawner(self) -> Spawner | None:
@@ -117,7 +117,7 @@ class WiredNode(Record, eq=False, dict=True):
 
     def publishes_more(self, message: str) -> str:
         """Say why it may publish a type on a topic that `published` lacks; else nothing."""
-        if self.facts is None or self.node.components:
+        if self.facts is None:
             return f"what {self.program} publishes is not known"
         own = [types for types in self.facts.publishes.values() if message in types]
         known = sum(message in types for _, types in self.published)
@@ -133,14 +133,15 @@ def wired_node(node: Node, reader: ControlReader) -> WiredNode:
         node: As the launch file has it.
         reader: Of the files of the package that is checked.
     """
-    program = f"{node.package.value}/{node.executable.value}"
-    files = tuple(_loaded(given, reader) for given in node.parameter_files)
-    return WiredNode(node, files, node_facts().get(program))
+    files = tuple(_loaded(node, given, reader) for given in node.parameter_files)
+    return WiredNode(node, files, node_facts().get(program_of(node)))
 
 
-def _loaded(given: ParameterFile, reader: ControlReader) -> LoadedFile:
+def _loaded(node: Node, given: ParameterFile, reader: ControlReader) -> LoadedFile:
+    """Return a parameter file; for a component, launch reads it itself, and refuses nothing."""
     file = reader.file(given.path)
-    if file is None:
+    is_component = node.kind is NodeKind.COMPONENT
+    if file is None or (is_component and (node.name is None or file.refused is not None)):
         return LoadedFile(given)
     return LoadedFile(given, file.path, file.blocks, True, file.refused)
 

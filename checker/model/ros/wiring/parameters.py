@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import Node, Parameter, ParameterFile, is_known
+from checker.expand.ros2_launch.graph import Node, NodeKind, Parameter, ParameterFile, is_known
 from checker.model.ros2_control.parameters import NodeBlock
 from checker.source.text import Span
 
@@ -62,7 +62,8 @@ def settings_of(
 
     rcl joins all files by the keys of their blocks, each at the place where it comes first, and a
     later block counts. launch writes the parameters of a launch file into a block for every node
-    as well, unless the node has a name and a namespace of its own.
+    as well, unless the node has a name and a namespace of its own. To a component launch hands all
+    parameters in order.
 
     Args:
         node: That gets them.
@@ -80,7 +81,8 @@ def settings_of(
         elif (file := by_given.get(id(parameter))) is not None:
             for block in file.blocks:
                 if block.is_for(name, namespace):
-                    blocks.setdefault(block.name, {}).update(_settings(block))
+                    key = own if node.kind is NodeKind.COMPONENT else block.name
+                    blocks.setdefault(key, {}).update(_settings(block))
     return {name: setting for block in blocks.values() for name, setting in block.items()}
 
 

@@ -133,8 +133,6 @@ class Wiring(Record, eq=False, dict=True):
         """Why it may start more than its nodes."""
         reasons = [unread.reason for unread in self.graph.unread]
         reasons += [fault.message for fault in self.graph.faults]
-        if self.graph.components:
-            reasons.append("components are loaded into a container")
         if not all(map(_publishes_nothing, self.graph.processes)):
             reasons.append("a command may start anything")
         for include in self.graph.includes:
@@ -145,9 +143,7 @@ class Wiring(Record, eq=False, dict=True):
     @property
     def knows_nodes(self) -> bool:
         """Whether it starts no nodes but those whose names are known."""
-        return not self.unread and all(
-            node.full_name and not node.node.components for node in self.every_node
-        )
+        return not self.unread and all(node.full_name for node in self.every_node)
 
 
 def _is_of_gazebo(include: Include) -> bool:
