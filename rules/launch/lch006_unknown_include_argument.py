@@ -1,14 +1,16 @@
 """An argument that the included launch file neither declares nor uses.
 
-It is accepted in silence and has no effect: a misspelt name leaves the default in force. Files that
-are not available, and files that include such, are not judged.
+It is accepted in silence and has no effect: a misspelt name leaves the default in force. Of other
+packages the files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge that people include
+most are judged; other files that are not available, and files that include such, are not.
 
 Fix: correct the name, or leave the argument out.
-Source: launch, `IncludeLaunchDescription`: arguments become configurations, declared or not.
+Source: launch, `IncludeLaunchDescription`: arguments become configurations, declared or not;
+navigation2, slam_toolbox and ros_gz, humble to lyrical: arguments of their launch files.
 """
 
 from checker.base.words import Suggestions
-from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.ros2_launch.graph import Ros2Launch, shown
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
@@ -25,7 +27,8 @@ def check(launch: Ros2Launch) -> Findings:
                     near = names.near(name)
                     yield finding(
                         value,
-                        f"{include.path} neither declares nor uses argument {name!r}"
+                        f"{include.path or shown(include.target.value)} neither declares nor uses "
+                        f"argument {name!r}"
                         f"{names.hint(name)}",
                         severity=Severity.WARNING if near else None,
                     )
@@ -43,7 +46,17 @@ _INCLUDE = """<launch>
 </launch>
 """
 
+_NAV2 = """<launch>
+  <include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py">
+    <arg name="@" value="/maps/hall.yaml"/>
+  </include>
+</launch>
+"""
+
 GOOD = [
+    {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "map")},
+    {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "graph")},
+    {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "a").replace("bringup_", "a_")},
     {"@ros2": True, "launch/view.launch.xml": _OTHER, "launch/all.launch.xml": _INCLUDE},
     {
         "@ros2": True,
@@ -54,6 +67,12 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        "@ros2": True,
+        "launch/all.launch.xml": _NAV2.replace('"@"', '"map_file"').replace(
+            '.yaml"/>', '.yaml"/> <!-- ^ LCH006 -->'
+        ),
+    },
     {
         "@ros2": True,
         "launch/view.launch.xml": _OTHER,

@@ -2,7 +2,8 @@
 
 `ros2 launch --show-args` lists it, and whatever the user gives has no effect. Often the value was
 meant for a node, or for an included file that asks for another name. Files that are not read, or
-that include such, are not judged: they may ask for it.
+that include such, are not judged: they may ask for it. What the files of nav2_bringup,
+slam_toolbox, ros_gz_sim and ros_gz_bridge ask for that people include most is known.
 
 Fix: use it with `LaunchConfiguration`, in XML `$(var …)`; or remove the declaration.
 Source: launch, `DeclareLaunchArgument`: it sets a launch configuration and nothing else.
@@ -17,7 +18,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 def check(launch: Ros2Launch) -> Findings:
     """Report arguments that no file of a launch uses; a near name that is used is a warning."""
     for graph in launch.entries:
-        unread = graph.unread or any(include.reason for include in graph.includes)
+        unread = graph.unread or any(include.is_unknown for include in graph.includes)
         if unread or graph.faults:
             continue
         declared = {argument.name for argument in graph.arguments}
@@ -40,7 +41,14 @@ _DECLARED = "        DeclareLaunchArgument('view', default_value='a.rviz'),"
 _INCLUDE = """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
             [FindPackageShare('acme_cells'), '/launch/x.launch.py'])),"""
 
+_NAV2 = """<launch>
+  <arg name="@" default="hall.yaml"/>%
+  <include file="$(find-pkg-share nav2_bringup)/launch/localization_launch.py"/>
+</launch>
+"""
+
 GOOD = [
+    {"@ros2": True, "launch/nav.launch.xml": _NAV2.replace("@", "map").replace("%", "")},
     {"@ros2": f"{_DECLARED}\n{_USE}"},
     {"@ros2": f"{_DECLARED}\n{_INCLUDE}"},
     {
@@ -52,6 +60,10 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        "@ros2": True,
+        "launch/nav.launch.xml": _NAV2.replace("@", "world").replace("%", "  <!-- ^ LCH016 -->"),
+    },
     {"@ros2": f"{_DECLARED}  # ^ LCH016"},
     {
         "@ros2": True,

@@ -203,8 +203,31 @@ def _component(tf_broadcast: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/nav.launch.xml": launch}
 
 
+_INCLUDED = """<launch>
+  <node pkg="robot_localization" exec="ekf_node">%
+    <param name="world_frame" value="map"/>
+  </node>
+  <include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py">
+    <arg name="params_file" value="$(find-pkg-share acme_rover_bringup)/config/nav2.yaml"/>
+    <arg name="slam" value="@"/>
+  </include>
+</launch>
+"""
+
+
+def _included(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
+    """Return a filter for the map beside the navigation of another package."""
+    return {
+        "@bridge": True,
+        "launch/nav.launch.xml": _INCLUDED.replace("@", slam).replace("%", mark),
+        "config/nav2.yaml": yaml,
+    }
+
+
 GOOD = [
     {"@bridge": True},
+    _included("True", "amcl: {ros__parameters: {}}"),
+    _included("False", "amcl: {ros__parameters: {tf_broadcast: false}}"),
     _component("false"),
     _static('"--frame-id", "lidar_link", "--child-frame-id", "lidar_optical"'),
     _static('"0", "0", "0", "0", "0", "0", "map", "base_link"'),
@@ -229,6 +252,7 @@ GOOD = [
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
+    _included("False", "amcl: {ros__parameters: {}}", _XML_MARK),
     _component("true", _XML_MARK),
     _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),

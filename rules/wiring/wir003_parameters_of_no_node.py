@@ -50,7 +50,8 @@ def check(wiring: Wiring) -> Findings:
 
 def _is_alone(node: WiredNode) -> bool:
     """Whether a process has no nodes but its own, as far as is known."""
-    hosts = node.node.kind is NodeKind.CONTAINER or node.node.package.value == MANAGER
+    kinds = (NodeKind.CONTAINER, NodeKind.INCLUDED)
+    hosts = node.node.kind in kinds or node.node.package.value == MANAGER
     return bool(node.full_name) and not hosts and not node.node.unread
 
 

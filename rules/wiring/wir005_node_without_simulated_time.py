@@ -14,6 +14,7 @@ Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that fol
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
 
+from checker.expand.ros2_launch.graph import NodeKind
 from checker.model.ros.transforms import STATE_PUBLISHER
 from checker.model.ros.wiring.nodes import WiredNode
 from checker.model.ros.wiring.wiring import Wiring
@@ -31,7 +32,8 @@ _PACKAGES = (
 @rule("WIR005", "node-without-simulated-time", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report nodes that do not take their time from Gazebo, though it is there."""
-    timed = [it for it in wiring.nodes if it.knows_parameters and _compares_time(it)]
+    nodes = (it for it in wiring.nodes if it.node.kind is not NodeKind.INCLUDED)
+    timed = [it for it in nodes if it.knows_parameters and _compares_time(it)]
     simulated = [node for node in timed if _text(node) == "true"]
     reason = "this launch starts Gazebo, and what it sends has the time of /clock"
     if not _has_clock(wiring):

@@ -199,7 +199,23 @@ def _component(topic: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/nav.launch.xml": launch}
 
 
+_INCLUDED = """<launch>
+  <node pkg="urg_node" exec="urg_node_driver"/>
+  <include file="$(find-pkg-share slam_toolbox)/launch/online_async_launch.py">
+    <arg name="slam_params_file" value="$(find-pkg-share acme_rover_bringup)/config/slam.yaml"/>
+  </include>
+</launch>
+"""
+
+
+def _included(topic: str) -> dict[str, object]:
+    """Return a lidar beside the mapping of another package."""
+    yaml = f"slam_toolbox:\n  ros__parameters:\n    scan_topic: {topic}\n"
+    return {"@bridge": True, "launch/slam.launch.xml": _INCLUDED, "config/slam.yaml": yaml}
+
+
 GOOD = [
+    _included("/scan"),
     _component("/scan"),
     _filter("odom"),
     _filter("/odom"),
@@ -212,6 +228,7 @@ GOOD = [
     _told("nav2_controller/controller_server", _COSTMAP.replace("@", "/scan"), True),
 ]
 BAD = [
+    _included(f"/lidar/scan{_MARK}"),
     _component("scan", "  <!-- ^ WIR006 -->"),
     _filter(f"wheel/odometry{_MARK}"),
     _filter(f"odom{_MARK}", more=' namespace="rover",', key="/**"),

@@ -199,6 +199,7 @@ class NodeKind(enum.StrEnum):
     LIFECYCLE = "lifecycle node"
     CONTAINER = "container"
     COMPONENT = "component"
+    INCLUDED = "node of an included file that is only known"
 
 
 class Started(Record, eq=False, kw_only=True):
@@ -288,8 +289,9 @@ class Include(Started, eq=False, kw_only=True):
         arguments: What is handed over, by name.
         path: The file as the package lists it; empty when it is not at hand.
         accepts: Names of arguments that the file, or one that it includes, declares or uses; None
-            when the file is not at hand or not all of it could be read.
+            when that is not known, as of a file that could not be read in full.
         reason: Why the file is not read; empty when it is.
+        nodes: That the file starts, if it is not read but known.
     """
 
     target: Located[str]
@@ -297,6 +299,12 @@ class Include(Started, eq=False, kw_only=True):
     path: str = ""
     accepts: frozenset[str] | None = None
     reason: str = ""
+    nodes: tuple[Node, ...] = ()
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether the file is not read, and not known either."""
+        return bool(self.reason) and self.accepts is None
 
 
 class EnvironmentChange(Started, eq=False, kw_only=True):

@@ -169,7 +169,7 @@ class LaunchReader:
         context.used |= inner.used
         context.declared |= inner.declared
         # A file that is not at hand may take arguments that are set around it.
-        beyond = any(include.reason for include in self._found.includes[includes:])
+        beyond = any(include.is_unknown for include in self._found.includes[includes:])
         complete = len(self._found.unread) == unread and not beyond
         accepts = frozenset(inner.used | inner.declared) if complete else None
         return FileRead(path=source.file, accepts=accepts)

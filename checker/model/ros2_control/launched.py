@@ -140,7 +140,7 @@ class LaunchedControl(Record, eq=False, dict=True):
         Launch files of Gazebo itself start no controller manager.
         """
         missing = [
-            i for i in self.graph.includes if i.reason and "ros_gz_sim" not in i.target.value
+            i for i in self.graph.includes if i.is_unknown and "ros_gz_sim" not in i.target.value
         ]
         unsure = any(node.starts is None for node in self.graph.nodes)
         return not (missing or self.graph.unread or unsure)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from checker.expand.ros2_launch.actions.parts import located, text_or_unknown
 from checker.expand.ros2_launch.context import Context
-from checker.expand.ros2_launch.graph import Include
+from checker.expand.ros2_launch.graph import Include, Node
+from checker.expand.ros2_launch.known_files import known_file, nodes_of
 from checker.expand.ros2_launch.substitutions import perform
 from checker.expand.ros2_launch.values import Made, PlacedText, Unknown, chosen, span_of
 from checker.source.text import Located
@@ -41,15 +42,21 @@ def include(visitor: Visitor, made: Made, context: Context) -> None:
     for name, value in arguments.items():
         context.state.configurations[name] = PlacedText(value.value, value.span)
     became = visitor.files.include(target, context)
+    accepts, nodes = became.accepts, tuple[Node, ...]()
     if became.reason:
         context.state.beyond = True
+        if (known := known_file(target)) is not None:
+            accepts = frozenset(known.arguments)
+            nodes = tuple(nodes_of(known, context, made.span))
+            context.used |= accepts
     visitor.found.includes.append(
         Include(
             target=located(target, made.span),
             arguments=arguments,
             path=became.path,
-            accepts=became.accepts,
+            accepts=accepts,
             reason=became.reason,
+            nodes=nodes,
             conditions=context.conditions,
             after=context.after,
             span=made.span,

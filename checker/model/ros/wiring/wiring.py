@@ -136,7 +136,7 @@ class Wiring(Record, eq=False, dict=True):
         if not all(map(_publishes_nothing, self.graph.processes)):
             reasons.append("a command may start anything")
         for include in self.graph.includes:
-            if not include.path and not _is_of_gazebo(include):
+            if include.is_unknown and not _is_of_gazebo(include):
                 reasons.append(f"{shown(include.target.value)} is not read")
         return tuple(reasons)
 
@@ -173,7 +173,8 @@ def wirings(
     launched = simulations.launched if simulations is not None else ()
     by_graph = {id(simulation.graph): simulation for simulation in launched}
     for graph in launch.entries:
-        nodes = tuple(wired_node(node, reader) for node in graph.nodes)
+        included = (node for include in graph.includes for node in include.nodes)
+        nodes = tuple(wired_node(node, reader) for node in (*graph.nodes, *included))
         if nodes:
             described = tuple(_described(graph, nodes, robots))
             spawns = any(_spawns_in_classic(node) for node in graph.nodes)
