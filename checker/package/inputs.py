@@ -15,6 +15,7 @@ from checker.package.kind import (
     holds_loose_models,
     looks_like_package,
 )
+from checker.package.no_package import found_in, said_of_file
 from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
 from checker.package.workspace import Workspace
@@ -87,7 +88,7 @@ def open_input(
     elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
         yield _open_single(path, real)
     else:
-        raise UnreadableInput(path, "is not a package, archive or model file", _WHAT_TO_GIVE)
+        raise UnreadableInput(path, *said_of_file(shown))
 
 
 def _resolved(path: Path) -> Path:
@@ -155,6 +156,9 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
         missing = f"contains no package outside of what {found.ignored[0]} leaves out"
+    elif not enclosing and (instead := found_in(folder)) is not None:
+        missing = f"contains no package, but {instead.kind} ({instead.name})"
+        advice = instead.advice
     raise UnreadableInput(path, missing, advice)
 
 

@@ -168,6 +168,29 @@ def test_file_of_another_kind(write: Write, name: str) -> None:
     assert "not a package, archive or model" in complaint(write({name: "hello"}) / name).reason
 
 
+@pytest.mark.parametrize(
+    ("name", "kind", "advice"),
+    [
+        ("inner.zip", "an archive", "the package in it"),
+        ("arm.STL", "a mesh", ".urdf, .xacro or .sdf"),
+        ("arm.step", "a CAD file", "export the robot"),
+        ("arm.usda", "a model for another simulator", "as URDF, xacro or SDF"),
+    ],
+)
+def test_what_is_given_in_place_of_a_package(
+    write: Write, name: str, kind: str, advice: str
+) -> None:
+    told = complaint(write({f"notes/parts/{name}": "hello", "notes/README.md": "hello"}))
+    assert kind in told.reason
+    assert name in told.reason
+    assert advice in told.advice
+
+
+@pytest.mark.parametrize(("name", "kind"), [("arm.stl", "a mesh"), ("a.rar", "an archive")])
+def test_what_a_file_is(write: Write, name: str, kind: str) -> None:
+    assert complaint(write({name: "hello"}) / name).reason.startswith(f"is {kind}")
+
+
 def test_link_in_a_circle(tmp_path: Path) -> None:
     (tmp_path / "a").symlink_to(tmp_path / "b")
     (tmp_path / "b").symlink_to(tmp_path / "a")

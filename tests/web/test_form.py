@@ -14,7 +14,14 @@ from hypothesis import strategies as st
 
 from checker.service.store.store import Store, TooLarge
 from checker.service.web.answers.refusal import Refused
-from checker.service.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
+from checker.service.web.uploads.form import (
+    FIELD_LIMIT,
+    LENGTH_LIMIT,
+    PARTS_LIMIT,
+    UploadForm,
+    misfit,
+    safe_name,
+)
 from tests.web.server import BOUNDARY, form, left_behind
 
 TYPE = f"multipart/form-data; boundary={BOUNDARY}"
@@ -82,7 +89,19 @@ def test_a_name_is_made_safe_or_refused(store: Store, name: str) -> None:
             .replace(".", "")
             .isalnum()
         )
-        assert taken.name.isascii()
+        assert len(taken.name.encode()) <= LENGTH_LIMIT
+
+
+@pytest.mark.parametrize("name", ["機器人.zip", "Käfer_é.urdf", "робот-2.tar.gz"])
+def test_letters_of_all_languages_are_kept(name: str) -> None:
+    assert safe_name(name) == name
+
+
+def test_a_long_name_keeps_whole_letters() -> None:
+    short = safe_name(f"{'機' * 200}.zip")
+    assert short.startswith("機機")
+    assert short.endswith(".zip")
+    assert len(short.encode()) <= LENGTH_LIMIT
 
 
 TWO_FILES = form("a.zip", ZIP).removesuffix(f"--{BOUNDARY}--\r\n".encode()) + form("b.zip", ZIP)

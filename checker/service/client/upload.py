@@ -22,6 +22,7 @@ from checker.package.archives.index import ArchiveLimits
 from checker.package.index import EntryKind, FileEntry, FileIndex
 from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
 from checker.package.kind import enclosing_package
+from checker.package.no_package import said_of_file
 from checker.package.walk import MAX_ENTRIES, build_index
 
 LEFT_OUT = frozenset({".git", ".hg", ".svn", "__pycache__"})
@@ -116,13 +117,12 @@ def _is_folder(path: Path) -> bool:
 
 
 def _refuse_file(path: Path) -> None:
-    advice = "give a package folder, a .zip or .tar.gz archive, or a model file"
     try:
         if not path.exists():
             raise UnreadableInput(path, "does not exist", "check the spelling")
         known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
         if not known or not path.is_file():
-            raise UnreadableInput(path, "is not a package, archive or model file", advice)
+            raise UnreadableInput(path, *said_of_file(path.name))
         with path.open("rb"):
             pass
     except (OSError, ValueError) as error:

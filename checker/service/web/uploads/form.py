@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from unicodedata import normalize
 
 from multipart import MultipartError, MultipartSegment, PushMultipartParser, parse_options_header
 
 from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
+from checker.package.no_package import said_of_file
 from checker.service.web.answers.refusal import Refused, sentence
 
 # Names that clients send, made safe; they are shown and tell the kind, and never become paths.
@@ -15,20 +17,29 @@ from checker.service.web.answers.refusal import Refused, sentence
 
 SUFFIXES = (*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES)
 LENGTH_LIMIT = 100
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_UNSAFE = re.compile(r"[^\w.-]+")
 _NAMELESS = "upload"
 
 
 class UnknownKind(ValueError):
-    """A file name that says of nothing that can be checked; the text is one sentence."""
+    """A file name that says of nothing that can be checked; the text is one sentence.
 
-    def __init__(self) -> None:
+    Attributes:
+        advice: What to send, one sentence.
+    """
+
+    def __init__(self, name: str) -> None:
+        reason, advice = said_of_file(name)
         known = ", ".join(SUFFIXES[:-1])
-        super().__init__(f"the file's name does not end in {known} or {SUFFIXES[-1]}")
+        ends = f"its name does not end in {known} or {SUFFIXES[-1]}"
+        super().__init__(f"the file {reason}: {ends}")
+        self.advice = sentence(advice)
 
 
 def safe_name(name: str) -> str:
-    """Return a file name of letters, digits, `-`, `_` and `.`, of at most 100 characters.
+    """Return a file name of letters, digits, `-`, `_` and `.`, of at most 100 bytes.
+
+    Letters of all languages are kept.
 
     Args:
         name: As the client says it: a name, or a path as some browsers send it.
@@ -36,12 +47,13 @@ def safe_name(name: str) -> str:
     Raises:
         UnknownKind: Its ending is of no archive and no model file.
     """
-    base = re.split(r"[/\\]", name)[-1].strip()
+    base = normalize("NFC", re.split(r"[/\\]", name)[-1].strip())
     suffix = next((ending for ending in SUFFIXES if base.lower().endswith(ending)), None)
     if suffix is None:
-        raise UnknownKind
+        raise UnknownKind(base)
     stem = _UNSAFE.sub("_", base[: -len(suffix)]).strip("._-")
-    return (stem[: LENGTH_LIMIT - len(suffix)].rstrip("._-") or _NAMELESS) + suffix
+    short = stem.encode()[: LENGTH_LIMIT - len(suffix)].decode(errors="ignore")
+    return (short.rstrip("._-") or _NAMELESS) + suffix
 
 
 FILE = "file"
@@ -147,7 +159,7 @@ class UploadForm:
         try:
             self.name = safe_name(filename)
         except UnknownKind as error:
-            raise Refused(415, sentence(str(error)), _WHAT_TO_SEND, "kind") from None
+            raise Refused(415, sentence(str(error)), error.advice, "kind") from None
 
     def _write(self, piece: bytes) -> None:
         """Hold the first bytes back until they are enough to tell what they are."""

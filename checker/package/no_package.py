@@ -1,0 +1,77 @@
+"""What people give in place of a package, and what to give instead."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from itertools import islice
+from pathlib import Path
+
+from checker.base.record import Record
+
+_FILES_LIMIT = 5_000
+"""Files that are looked at, by their names."""
+_SHOWN = 200
+_OTHER_ARCHIVES = (".zip", ".tar.gz", ".tgz", ".tar", ".tar.xz", ".tar.bz2", ".7z", ".rar")
+_MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")
+_CAD = (".step", ".stp", ".iges", ".sldasm", ".sldprt", ".f3d", ".blend", ".fcstd", ".ipt", ".iam")
+_OTHER_MODELS = (".mjcf", ".usd", ".usda", ".usdc", ".usdz", ".wbt", ".proto")
+_ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
+    _OTHER_ARCHIVES: (
+        "an archive that is not read",
+        "give the package in it, as a folder, .zip or .tar.gz",
+    ),
+    _OTHER_MODELS: (
+        "a model for another simulator",
+        "give the robot as URDF, xacro or SDF; other formats are not checked yet",
+    ),
+    _MESHES: (
+        "a mesh",
+        "give the model that uses it, a .urdf, .xacro or .sdf file, best with its whole package",
+    ),
+    _CAD: ("a CAD file", "export the robot as URDF or SDF, and give that with its meshes"),
+}
+"""What files are by the ends of their names, the kind that explains most first."""
+_WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
+
+
+class Instead(Record):
+    """What was found in place of a package.
+
+    Attributes:
+        kind: What it is: `a mesh`.
+        advice: What to give, in the imperative.
+        name: Of the file.
+    """
+
+    kind: str
+    advice: str
+    name: str
+
+
+def said_of_file(name: str) -> tuple[str, str]:
+    """Return why a file that is neither archive nor model is not checked, and what to give."""
+    found = _of([name])
+    if found is None:
+        return "is not a package, archive or model file", _WHAT_TO_GIVE
+    return f"is {found.kind}, not a package, archive or model file", found.advice
+
+
+def found_in(folder: Path) -> Instead | None:
+    """Return what a folder without a package holds; None where its names tell nothing."""
+    return _of(list(islice(_names(folder), _FILES_LIMIT)))
+
+
+def _of(names: list[str]) -> Instead | None:
+    for endings, (kind, advice) in _ADVICE.items():
+        for name in names:
+            if name.lower().endswith(endings):
+                return Instead(kind, advice, name[:_SHOWN])
+    return None
+
+
+def _names(folder: Path) -> Iterator[str]:
+    """Yield the names of files, those of hidden folders left out."""
+    for _, folders, files in os.walk(folder):
+        folders[:] = [name for name in sorted(folders) if not name.startswith((".", "__MACOSX"))]
+        yield from sorted(name for name in files if not name.startswith("."))
