@@ -107,16 +107,15 @@ class _Search:
             yield Unit(folder)
             if not MODEL_MARKERS.isdisjoint(files) or (folder / SPAWNER).is_file():
                 return
-        yield from _loose(folder, files, folders, inside=inside or is_package)
+        inside = inside or is_package
+        # Loose model files of URDF belong to the package around.
+        holds_urdf = not inside and _holds_urdf(folder, files, folders)
+        if holds_urdf:
+            yield Unit(folder)
+        yield from (Unit(folder, name) for name in files if name.lower().endswith(_SDF_SUFFIXES))
         for name in folders:
-            yield from self.at(folder / name, inside=inside or is_package, depth=depth + 1)
-
-
-def _loose(folder: Path, files: list[str], folders: list[str], *, inside: bool) -> Iterator[Unit]:
-    """Yield the loose model files of a folder; those of URDF belong to the package around."""
-    if not inside and _holds_urdf(folder, files, folders):
-        yield Unit(folder)
-    yield from (Unit(folder, name) for name in files if name.lower().endswith(_SDF_SUFFIXES))
+            is_part = holds_urdf and name == _URDF_FOLDER
+            yield from self.at(folder / name, inside=inside or is_part, depth=depth + 1)
 
 
 def _holds_urdf(folder: Path, files: list[str], folders: list[str]) -> bool:

@@ -1,5 +1,7 @@
 // What the user gives: one archive or model file as it is, or folders that are to be packed.
 
+import { laidOut } from "./parts.js";
+
 const SKIPPED = new Set([".git", ".hg", ".svn", "__pycache__"]); // as `submit` leaves them out
 
 // What cannot be sent, in words for the user.
@@ -56,22 +58,33 @@ function refuseMany(number, most) {
   }
 }
 
-// Returns what is to be sent: {name, bytes, files, file}; `file` is null for what is to be packed.
-export function chosen(files, limits) {
-  const loose = files.filter(({ path }) => !path.includes("/"));
+// Returns what is to be sent: {name, bytes, files, file, missing}; `file` is null for what is to be packed, and
+// `missing` names the files that a model without its package needs.
+export async function chosen(files, limits) {
   if (files.length === 0) {
     throw new Refusal("The folder contains no files. Choose a package folder with a model.");
   }
   const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
-  if (loose.length === 1 && files.length === 1) {
-    refuseFile(loose[0].file, limits);
-    return { name: loose[0].file.name, bytes, files, file: loose[0].file };
+  const loose = files.filter(({ path }) => !path.includes("/"));
+  if (loose.length > 0 && loose.length < files.length) {
+    throw new Refusal("Files and folders were dropped together. Drop one folder, an archive, or files alone.");
   }
-  if (loose.length > 0) {
-    throw new Refusal(`${loose.length} loose files were dropped. Drop their folder, or one archive.`);
+  const { files: laid, missing } = loose.length > 0 ? await laidOut(files) : { files, missing: [] };
+  if (files.length === 1 && loose.length === 1) {
+    refuseFile(files[0].file, limits);
+    return { name: files[0].file.name, bytes, files, file: files[0].file, missing };
   }
+  refuseMissingModel(loose);
   refuseBytes(bytes, Math.min(limits.bytes, limits.unpacked));
-  return { name: `${nameOf(files)}.zip`, bytes, files, file: null };
+  return { name: `${nameOf(laid)}.zip`, bytes, files: laid, file: null, missing };
+}
+
+function refuseMissingModel(loose) {
+  const archive = loose.find(({ path }) => /\.(zip|tgz|gz)$/i.test(path));
+  if (archive) throw new Refusal(`${archive.path} is an archive: send it alone.`);
+  if (loose.length > 0 && !loose.some(({ path }) => /\.(urdf|xacro|sdf|world)$/i.test(path))) {
+    throw new Refusal("None of these files is a model. Add the .urdf, .xacro or .sdf file that uses them.");
+  }
 }
 
 function nameOf(files) {

@@ -17,6 +17,7 @@ let given = null;
 let stop = null;
 
 part("file").required = false; // a folder will do as well
+part("file").multiple = true;
 
 function refuse(problem) {
   part("refusal").textContent = problem instanceof Refusal
@@ -24,18 +25,32 @@ function refuse(problem) {
     : "The files cannot be read. They may have changed since they were chosen: choose them again.";
 }
 
-// Takes what was chosen, or says why not; `find` returns the files, or a promise of them.
+// Takes what was chosen, or says why not; `find` returns the files, or a promise of them. Files that a model needs are
+// added to it.
 async function take(find) {
+  const before = given?.missing.length ? given.files : [];
   given = null;
   part("refusal").textContent = "";
   part("chosen").textContent = "";
+  part("missing").textContent = "";
   try {
-    given = chosen(await find(), limits);
+    const found = await find();
+    const loose = found.every(({ path }) => !path.includes("/"));
+    const kept = loose ? before.filter(({ file }) => !found.some((other) => other.file.name === file.name)) : [];
+    given = await chosen([...kept.map(({ file }) => ({ path: file.name, file })), ...found], limits);
     const number = given.file ? "" : `${given.files.length} file${given.files.length === 1 ? "" : "s"}, `;
     part("chosen").textContent = `${given.name}: ${number}${megabytes(given.bytes)}`;
+    part("missing").textContent = asking(given.missing);
   } catch (problem) {
     refuse(problem);
   }
+}
+
+function asking(missing) {
+  if (missing.length === 0) return "";
+  const more = missing.length > 5 ? ` and ${missing.length - 5} more` : "";
+  return `The model needs ${missing.slice(0, 5).join(", ")}${more}: drop or choose them too, or its package folder. `
+    + "Without them, what depends on them is not checked.";
 }
 
 function show(doing, share) {

@@ -271,3 +271,10 @@ def test_unreadable_file_and_folder_within_a_package(write: Write) -> None:
     assert "IndexFault(path='model.sdf', reason='cannot be read: permission denied')" in said
     assert "IndexFault(path='meshes', reason='cannot be listed: Permission denied')" in said
     assert "NotReadable(path='model.sdf', reason='cannot be read: Permission denied')" in said
+
+
+def test_a_robot_folder_without_a_manifest_is_one_package(write: Write) -> None:
+    robot = '<robot name="arm"><link name="base"/></robot>'
+    space = write({"arm/urdf/arm.urdf": robot, "arm/meshes/base.stl": "mesh"})
+    assert names(space) == ["arm"]
+    assert names(space / "arm") == ["arm"]

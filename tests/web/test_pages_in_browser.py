@@ -341,19 +341,65 @@ def test_a_folder_is_dropped(chromium: Browser, board: Board, package: Path) -> 
         assert_packed(upload_of(board), package)
 
 
-def test_loose_files_are_refused_and_one_is_taken(
-    chromium: Browser, board: Board, package: Path
+ARM = """<robot name="arm"><link name="base"><visual><geometry>
+<mesh filename="package://my_arm/meshes/visual/base.stl"/></geometry></visual>
+<collision><geometry><mesh filename='../meshes/hull.STL'/></geometry></collision></link></robot>
+"""
+
+
+def test_a_model_asks_for_its_meshes_and_takes_them(
+    chromium: Browser, board: Board, tmp_path: Path
 ) -> None:
+    files = {"arm.urdf": ARM.encode(), "base.stl": b"solid base", "hull.STL": b"solid hull"}
+    for name, content in files.items():
+        (tmp_path / name).write_bytes(content)
     with watched_page(chromium) as page:
         page.goto(board.address)
-        drop(page, package / "model.sdf", package / "package.xml")
-        page.get_by_role("alert").get_by_text("2 loose files").wait_for()
+        drop(page, tmp_path / "arm.urdf")
+        page.locator("#missing").get_by_text("The model needs base.stl, hull.STL").wait_for()
+        drop(page, tmp_path / "base.stl")
+        page.locator("#missing").get_by_text("The model needs hull.STL").wait_for()
+        drop(page, tmp_path / "hull.STL")
+        page.locator("#chosen").get_by_text("my_arm.zip: 3 files").wait_for()
+        assert page.locator("#missing").inner_text() == ""
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        with zipfile.ZipFile(upload_of(board)) as made:
+            assert {name: made.read(name) for name in made.namelist()} == {
+                "my_arm/urdf/arm.urdf": files["arm.urdf"],
+                "my_arm/meshes/visual/base.stl": files["base.stl"],
+                "my_arm/meshes/hull.STL": files["hull.STL"],
+            }
+
+
+def test_one_model_is_sent_as_it_is(chromium: Browser, board: Board, package: Path) -> None:
+    with watched_page(chromium) as page:
+        page.goto(board.address)
         drop(page, package / "model.sdf")
         page.locator("#chosen").get_by_text("model.sdf").wait_for()
         assert page.get_by_role("alert").inner_text() == ""
         page.get_by_role("button", name="Check").click()
         page.wait_for_url(f"**/checks/{ID}")
         assert board.jobs.states[ID].order.name == "model.sdf"
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("arm.stl", "hand.stl"), "None of these files is a model"),
+        (("arm.zip", "arm.urdf"), "arm.zip is an archive: send it alone"),
+        (("arm.stl",), "does not end in"),
+    ],
+)
+def test_files_that_are_no_robot(
+    chromium: Browser, board: Board, tmp_path: Path, names: tuple[str, ...], said: str
+) -> None:
+    for name in names:
+        (tmp_path / name).write_text("x")
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        drop(page, *(tmp_path / name for name in names))
+        page.get_by_role("alert").get_by_text(said).wait_for()
 
 
 def test_what_is_beyond_the_limits_is_not_sent(

@@ -19,7 +19,7 @@ KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 """Media types by suffix; all of them are text of ours."""
 OF_THE_SITE = (
     *("site.css", "icon.svg"),
-    *("upload.js", "choosing.js", "zip.js", "sending.js", "watch.js"),
+    *("upload.js", "choosing.js", "parts.js", "zip.js", "sending.js", "watch.js"),
 )
 OF_THE_REPORT = ("report.css",)
 """What the site shares with the reports, so that both look the same."""
