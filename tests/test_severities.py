@@ -68,9 +68,31 @@ DRAWN = f"""{TOOL}<link name="tool">
 CAMERA = '<gazebo reference="tool"><sensor name="c" type="camera"/></gazebo>'
 FINE = {"meshes/a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 201_000}
 
+CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 0.1) for y in (0, 0.1) for z in (0, 0.1))
+SIDES = ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
+BRACKET = """
+<inertial><mass>{mass}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
+<collision name="c"><geometry>{shape}</geometry></collision>
+"""
+DRAWN_CUBE = {"meshes/cube.obj": CUBE + "".join(f"f {side}\n" for side in SIDES)}
+CUBE_MESH = "<mesh><uri>meshes/cube.obj</uri></mesh>"
+CUBE_BOX = "<box><size>0.1 0.1 0.1</size></box>"
+ARM = """
+<link name="arm"><gravity>0</gravity></link>
+<joint name="j" type="revolute"><parent>base_link</parent><child>arm</child></joint>
+"""
+
 CASES: list[tuple[str, Example, str]] = [
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
+    ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),
+    (
+        "INE006",
+        {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
+        "info",
+    ),
+    ("KIN016", ARM, "info"),
+    ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("PKG003", {"specifications.md": None}, "error"),
     ("PKG003", {**HELD, SHEET: "# Rover\nsensor_config_1 has no lidar\n"}, "warning"),
     ("PKG003", {**HELD, SHEET: "# Rover\nconfiguration 12\n"}, "error"),

@@ -1,7 +1,9 @@
 """A part floats: no other part is near it.
 
 A camera or an antenna in the air next to the robot usually has a wrong pose: a decimal point, a
-sign, a unit, or the pose of another configuration.
+sign, a unit, or the pose of another configuration. A box of a centimetre that marks a frame, such
+as `base_footprint`, is no part. In published robots, gaps that are meant so measure up to 16 mm,
+and those that are mistakes 38 mm or more.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.
@@ -20,13 +22,17 @@ _EQUAL = 1e-6
 
 
 @rule("GEO012", "floating-part", Severity.WARNING, Concern.ROBOT)
-def check(robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06) -> Findings:
+def check(
+    robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06, marker: float = 0.02
+) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 
     Options:
         gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
             count as connected.
         gap_of_wheels: The same for a wheel: many models leave out its axle.
+        marker: Diagonal in metres of a box that only marks a frame; a group that is no larger is
+            not reported.
     """
     if robot.is_static:
         return
@@ -47,7 +53,7 @@ def check(robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06) -> Fi
     members = [[shapes[number] for number in group] for group in groups]
     body = max(members, key=_diagonal)
     for group in members:
-        if group is not body:
+        if group is not body and _diagonal(group) > marker:
             own = {*group}
             others = (piece for piece in shapes if piece not in own)
             yield _floating(group, _distance(group, [piece.box for piece in others]), gap)
@@ -149,5 +155,6 @@ GOOD = [
     _camera("0.4 0 0.15"),
     _camera("0.4 0 0.165"),
     _camera("0 0 0.45", bracket=_BRACKET),
+    _camera("0 0 0.45").replace("0.1 0.1 0.1", "0.01 0.01 0.01"),
 ]
 BAD = [_camera("0 0 0.45", _MARK), _camera("1.5 0 0", _MARK)]

@@ -2,7 +2,9 @@
 
 The link swings about a point outside itself, and the robot leans to a side where there is nothing.
 Usually the pose of `<inertial>` refers to another frame, or is in millimetres. The centre of mass
-of a body cannot be outside the box around it.
+of a body cannot be outside the box around it. But shapes may leave out a part, such as a nut at the
+end of a rod or the battery above a skirt: among published robots, centres of mass up to 0.1 of the
+diagonal outside are of this kind, and those from 0.2 on are wrong.
 
 Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
 and inertia belong to the same part.
@@ -22,7 +24,7 @@ def check(
     masses: MassProperties,
     *,
     error_above: float = 0.5,
-    warning_above: float = 0.05,
+    warning_above: float = 0.15,
     share: float = 0.02,
 ) -> Findings:
     """Report centres of mass outside the box around a link's shapes, relative to its diagonal.
@@ -72,5 +74,5 @@ def _body(x: float, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ INE005 -->"
-GOOD = [_body(0), _body(0.29), _body(0.31)]
-BAD = [_body(0.4, _MARK), _body(0.9, _MARK)]
+GOOD = [_body(0), _body(0.29), _body(0.31), _body(0.37)]
+BAD = [_body(0.43, _MARK), _body(0.9, _MARK)]

@@ -6,7 +6,10 @@ of its way.
 
 Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
-visuals count as well. A mesh that is not closed counts as its convex hull. A whole link that is as
+visuals count as well. A mesh that is not closed counts as its convex hull. If the greatest volume
+is that of meshes, a heavy link is information: a mesh often draws a bracket or a cover, and the
+motor behind it is not drawn. In published robots none of the links that are heavier than steel in
+meshes has a wrong mass, and all that are so in simple shapes have one. A whole link that is as
 dense as solid steel is suspicious if the rest of the robot is hollow, as robots are.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
@@ -16,7 +19,7 @@ Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 8
 import math
 from collections.abc import Iterator
 
-from checker.model.components import Link
+from checker.model.components import Collision, Link, Visual
 from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -40,7 +43,7 @@ def check(
         lightest: Density in kg/m³, for the volume of the link's largest collision; less is a
             warning.
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
-            visuals if that is more; more is a warning.
+            visuals if that is more; more is a warning, or information if these are meshes.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
             because no metal is so dense, but for the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
@@ -70,20 +73,27 @@ def check(
         visuals = volume_bounds(masses.robot, link.visuals)
         if collisions is None or (visuals is None and link.visuals):
             continue
-        most = max(collisions[1], visuals[1] if visuals is not None else 0.0)
+        drawn = visuals[1] if visuals is not None else 0.0
+        most = max(collisions[1], drawn)
+        counted = link.visuals if drawn > collisions[1] else link.collisions
+        heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
         if most > 0.0 and inertia.mass / most > heaviest:
             grave = inertia.mass / most > impossible and not _stands(masses, inertia.link)
-            severity = Severity.ERROR if grave else Severity.WARNING
+            severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
             yield from _say(inertia, most, f"at most {heaviest:g}", severity)
         elif most > 0.0 and inertia.mass / most > max(metal, contrast * others.density(name)):
             rest = f"the other links have {others.density(name):.3g}"
-            yield from _say(inertia, most, f"at most {metal:g}: {rest}", Severity.WARNING)
+            yield from _say(inertia, most, f"at most {metal:g}: {rest}", heavy)
         elif (
             collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest and name not in carried
         ):
             # What a box or a ball of a world weighs is its author's choice.
             severity = Severity.INFO if masses.robot.is_prop else Severity.WARNING
             yield from _say(inertia, collisions[0], f"at least {lightest:g}", severity)
+
+
+def _is_mesh(shape: Collision | Visual) -> bool:
+    return shape.geometry.shape == "mesh"
 
 
 class _Others:

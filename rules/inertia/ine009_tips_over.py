@@ -3,7 +3,8 @@
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
-with their convex hull. A robot on wheels of two sizes leans a little, and stands on both.
+with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A
+URDF does not say how a robot stands on its legs: that is not checked.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
 wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
@@ -11,10 +12,19 @@ Source: statics: tip angle = atan(distance to the edge / height of the centre of
 """
 
 import math
+from collections.abc import Iterator, Mapping
 
 from checker.model.components import Link
+from checker.model.robot import Robot
+from checker.model.tree import Tie
 from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mass.mechanism import spanning_tree_of
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+
+_HINGES = 3
+"""Of a leg, such as two at the hip and one at the knee; a rocker-bogie suspension has two."""
+_UPRIGHT = 0.5
+"""Part along z of an axis that is nearer to upright than to level."""
 
 
 @rule("INE009", "tips-over", Severity.ERROR, Concern.ROBOT)
@@ -44,6 +54,9 @@ def check(
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
         return
+    if robot.format == "urdf" and _stands_on_legs(masses):
+        yield unchecked("the robot stands on legs, and a URDF does not state their pose")
+        return
     angle, centre, ground = masses.tip_angle, masses.centre, masses.support_height
     if angle is None or centre is None or ground is None:
         return
@@ -62,6 +75,28 @@ def check(
         f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
         severity=Severity.ERROR if grave else Severity.WARNING,
     )
+
+
+def _stands_on_legs(masses: MassProperties) -> bool:
+    """Whether all that touches the ground hangs on as many hinges as a leg has."""
+    above = spanning_tree_of(masses.robot).by
+    return bool(masses.standing) and all(
+        sum(_bends(masses.robot, tie) for tie in _chain(above, name)) >= _HINGES
+        for name in masses.standing
+    )
+
+
+def _chain(above: Mapping[str, Tie], name: str) -> Iterator[Tie]:
+    while (tie := above.get(name)) is not None:
+        yield tie
+        name = tie.parent
+
+
+def _bends(robot: Robot, tie: Tie) -> bool:
+    """Whether a joint is a hinge that is not upright, as a steering joint is."""
+    axes = tie.joint.axes if tie.joint.type.value == "revolute" else ()
+    axis = robot.axis_in_model(tie.joint, axes[0]) if axes else None
+    return axis is not None and abs(axis[2]) < _UPRIGHT
 
 
 def _heaviest(masses: MassProperties) -> Link:

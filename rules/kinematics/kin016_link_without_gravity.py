@@ -5,6 +5,9 @@ everything. Both are usually left over from debugging, or hide that a model is u
 default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. None of the accepted packages
 that we checked shows this.
 
+An arm without gravity may be meant so: springs balance it that the simulator does not have. For
+links that do not carry the robot, as base and wheels do, it is information.
+
 Fix: remove `<gravity>` and `<kinematic>` from the link.
 Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`; what
 gz-physics reads of a link (dartsim/src/SDFFeatures.cc).
@@ -16,13 +19,20 @@ from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 @rule("KIN016", "link-without-gravity", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
-    """Report links without gravity, and kinematic links."""
+    """Report links without gravity, and kinematic links.
+
+    Of a link that is neither of the base nor a wheel, nor between them, it is information.
+    """
+    carrying = _carrying(robot)
     for link in robot.links:
         if not link.gravity.value:
             stated = link.gravity.span.text
             name = link.name.value
-            message = f"no gravity acts on link {name!r}, by the value {stated}: remove the setting"
-            yield finding(link.gravity, message, key="gravity")
+            carries = link.scoped_name in carrying
+            severity = Severity.WARNING if carries else Severity.INFO
+            advice = "remove the setting" if carries else "expected only where springs balance it"
+            message = f"no gravity acts on link {name!r}, by the value {stated}: {advice}"
+            yield finding(link.gravity, message, severity=severity, key="gravity")
         if link.kinematic.value:
             ignored = "Gazebo's default engine ignores it, others let no force move it"
             message = (
@@ -32,11 +42,25 @@ def check(robot: Robot, context: Context) -> Findings:
             yield finding(link.kinematic, message, key="kinematic")
 
 
+def _carrying(robot: Robot) -> set[str]:
+    """Return the links of the base, the wheels, and those between them."""
+    found = {*robot.tree.base}
+    waiting = [link.scoped_name for link in robot.wheels]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += [tie.parent for tie in robot.tree.above.get(name, ())]
+    return found
+
+
 GOOD = [
     '<link name="mast"><gravity>1</gravity><kinematic>0</kinematic></link>',
     '<link name="mast"><gravity>true</gravity></link>',
 ]
+_BASE = '<link name="base_link"><gravity>0</gravity></link>  <!-- ^ KIN016 -->'
 BAD = [
+    f'<sdf version="1.6"><model name="acme_rover_sensor_config_1">{_BASE}</model></sdf>',
     '<link name="mast"><gravity>0</gravity></link>  <!-- ^ KIN016 -->',
     '<link name="mast"><kinematic>true</kinematic></link>  <!-- ^ KIN016 -->',
 ]
