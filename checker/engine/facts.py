@@ -211,15 +211,20 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
             if number in undriven:
                 known["not_driven"] = undriven[number]
     for known, robot in zip(facts, robots, strict=False):
-        if assumed := _assumed(subject, robot):
-            known["assumed"] = assumed
+        known.update(_arguments(subject, robot))
     return tuple(facts)
 
 
-def _assumed(subject: Subject, robot: Robot) -> str:
-    """Return the arguments of xacro that nobody gives, and the values that are taken for them."""
+def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield the values that are taken for arguments which nobody gives, and others that count."""
     files = subject.urdf.files if robot.document.root.tag == "robot" else None
-    return files.assumed.get(robot.document.source.file, "") if isinstance(files, UrdfFiles) else ""
+    if not isinstance(files, UrdfFiles):
+        return
+    file = robot.document.source.file
+    if assumed := files.assumed.get(file):
+        yield "assumed", assumed
+    if tried := ", ".join(other.values for other in files.others if other.file == file):
+        yield "also_tried", tried
 
 
 def _at(items: Sequence[_T], number: int) -> _T | None:

@@ -19,6 +19,7 @@ from checker.base.record import Record
 from checker.engine.facts import facts_of, trials_of
 from checker.engine.launched import launched_of
 from checker.engine.options import check_against_rules
+from checker.engine.other_robots import of_one_robot, only_new, other_descriptions
 from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
@@ -88,6 +89,10 @@ def run_and_set_aside(
     unloaded = subject.package.unloaded_files
     run = partial(run_rules, allowance=subject.allowance)
     outcome = run(first, subject, profile, settings, matcher, unloaded)
+    for description in other_descriptions(subject):
+        other = subject.with_only(description)
+        added = run(of_one_robot(first), other, profile, settings, matcher, unloaded)
+        outcome = joined(outcome, only_new(added, outcome, description))
     used = matcher.suppressions(_looked(outcome), settings.source)
     added = run(of_suppressions, _With(subject, used), profile, settings, matcher)
     outcome = joined(outcome, added)

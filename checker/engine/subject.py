@@ -81,6 +81,7 @@ class Subject(Record, eq=False, dict=True):
         processes: Processes that wait for something to do.
         xacro_args: Arguments for xacro, before those that launch files give.
         allowance: What each part, and each rule, may use.
+        description: The one robot that is judged; None for those that the package has.
     """
 
     package: Package
@@ -90,6 +91,7 @@ class Subject(Record, eq=False, dict=True):
     processes: StartedProcesses = NO_PROCESSES
     xacro_args: Mapping[str, str] = field(default_factory=dict)
     allowance: Allowance = field(default_factory=Allowance)
+    description: UrdfDescription | None = None
     _exceeding: dict[str, NotAvailable] = field(default_factory=dict)
     _provided: dict[str, Sequence[object]] = field(default_factory=dict)
 
@@ -197,6 +199,13 @@ class Subject(Record, eq=False, dict=True):
     def of(self, package: Package) -> Subject:
         """Return the same of another state of the package."""
         return replace(self, package=package, _provided={}, _exceeding={})
+
+    def with_only(self, description: UrdfDescription) -> Subject:
+        """Return the same with one robot, which another value of an argument makes."""
+        other = replace(self, description=description, _provided={}, _exceeding={})
+        shared = ("ros2_launch", "expander", "mesh_server", "paperwork")
+        vars(other).update({name: vars(self)[name] for name in shared if name in vars(self)})
+        return other
 
     def robots_of(self, other: Package) -> tuple[Robot, ...] | NotAvailable:
         """Return the robots of another package, to compare with."""

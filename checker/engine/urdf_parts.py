@@ -38,6 +38,8 @@ class UrdfParts(Record, eq=False, dict=True):
     @property
     def files(self) -> UrdfFiles | NotAvailable:
         """What became of the URDF files."""
+        if self.subject.description is not None:
+            return UrdfFiles((self.subject.description,))
         if not self.package_descriptions.applicable:
             return NotAvailable("no URDF file is a robot", applicable=False)
         return self.package_descriptions.files

@@ -192,6 +192,11 @@ _FACTS: Mapping[str, Any] = {
     "robot": {"type": "string"},
     "file": {"type": "string", "description": "Where several robots are in one package."},
     "not_driven": {"type": "string", "description": "Why one of several robots has no trial."},
+    "assumed": {"type": "string", "description": "Values of arguments that nobody gives."},
+    "also_tried": {
+        "type": "string",
+        "description": "Values of xacro's arguments that make other robots, which are judged too.",
+    },
     "mass_kg": {"type": "number"},
     "links": {"type": "integer"},
     "joints": {"type": "integer"},

@@ -2,7 +2,8 @@
 
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
-at launch: one that has no default, or an empty one that the file cannot do without.
+at launch: one that has no default, or an empty one that the file cannot do without. Further values
+that the file or a launch file names for an argument are tried as well.
 
 Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
 line. URD014 reports what only xacro of ROS Noetic and later refuses.
@@ -102,6 +103,7 @@ _MACROS = """
 <xacro:macro name="wheel" params="side"><link name="$(arg name)/${side}_wheel"/></xacro:macro>
 """
 _MODEL = '<xacro:arg name="model" default=""/>\n<xacro:include filename="$(arg model).xacro"/>'
+_LARGE = _MODEL.replace('""', '"large"')
 _STATE = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
              parameters=[{'robot_description': Command(
                  ['xacro ', in_package('urdf', 'arm.urdf.xacro'), ' model:=', @])}]),"""
@@ -144,4 +146,9 @@ BAD = [
     _chosen("'lagre'", _MARK),
     _loaded(f'<xacro:arg name="prefix" default=""/><xacro:wheel side="left"/>{_MARK}'),
     _loaded(f"{_MODEL}{_MARK}"),
+    {
+        "urdf/arm.urdf.xacro": f"{_HEAD}{_LARGE}</robot>",
+        "urdf/large.xacro": f'{_HEAD}<link name="base_link"/></robot>',
+        "urdf/small.xacro": f'{_HEAD}<link name="${{nmae}}"/>{_MARK}</robot>',
+    },
 ]

@@ -30,6 +30,7 @@ class LoadedDescription(Record, eq=False):
         load: The file, and the arguments that are known.
         unknown: Names of arguments whose values are only known at launch.
         choices: Of these, the values that the launch file allows; none where any text will do.
+        offered: The same of arguments that have the default of one of its own, by name.
         node: That is given it.
         parameter: By which it is given; None where it stands among the arguments.
         span: Where the file is named.
@@ -38,6 +39,7 @@ class LoadedDescription(Record, eq=False):
     load: Load
     unknown: tuple[str, ...]
     choices: Mapping[str, tuple[str, ...]]
+    offered: Mapping[str, tuple[str, ...]]
     node: Node
     parameter: Parameter | None
     span: Span
@@ -51,6 +53,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
         graph: Of its launch file.
     """
     allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}
+    defaults = {a.name: a for a in graph.arguments if a.choices and a.default is not None}
     for node in sorted(graph.nodes, key=lambda node: _RANKS[node.starts]):
         for text, parameter, span in _texts(node):
             for load, given in _described(package, text):
@@ -59,7 +62,12 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
                     for name, value in given.items()
                     if (variable := _ONE_WORD.fullmatch(value)) and variable[1] in allowed
                 }
-                yield LoadedDescription(load, tuple(given), choices, node, parameter, span)
+                offered = {
+                    name: own.choices
+                    for name, value in load.args.items()
+                    if (own := defaults.get(name)) and own.default and own.default.value == value
+                }
+                yield LoadedDescription(load, tuple(given), choices, offered, node, parameter, span)
 
 
 def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:

@@ -50,6 +50,12 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         numbers = dict.fromkeys(number for number, _ in self.answer["origins"])
         return tuple(str(files[number]) for number in numbers if 0 <= number < len(files))
 
+    @property
+    def read(self) -> tuple[XmlDocument, ...]:
+        """The files that were read to expand it."""
+        read = (self.gathered.documents.get(str(path)) for path in self.answer["files"])
+        return tuple(document for document in read if document is not None)
+
     def states_path(self, uri: str) -> bool:
         """Whether a `package://` URI stands for the path of a file, `file://$(find p)/x`."""
         path = f"file://{ROOT}/{uri.removeprefix('package://')}"

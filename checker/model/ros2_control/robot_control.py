@@ -89,6 +89,7 @@ class RobotControl(Record, eq=False, dict=True):
         files: Files of parameters that are about its controllers.
         faults: What is wrong with them as YAML.
         unread: Why parameters are not known, each the end of a sentence.
+        by_default: Whether the robot is the one that its file makes without further values.
     """
 
     robot: Robot
@@ -97,6 +98,7 @@ class RobotControl(Record, eq=False, dict=True):
     files: tuple[ControllerFile, ...] = ()
     faults: tuple[YamlFault, ...] = ()
     unread: tuple[str, ...] = ()
+    by_default: bool = True
 
     @property
     def is_named(self) -> bool:
@@ -165,7 +167,8 @@ class ControlReader:
         # A file that is named and not there is a fault of its own, and no other one stands for it.
         guesses = not any(manager.files for manager in managers)
         files = self._likely(mere.components) if guesses else named
-        return RobotControl(robot, hardware, managers, files, tuple(faults), tuple(unread))
+        left = tuple(faults), tuple(unread)
+        return RobotControl(robot, hardware, managers, files, *left, not description.values)
 
     def _manager(self, plugin: Plugin) -> GazeboManager:
         files = tuple(self._parameters_file(text) for text in plugin.at("parameters"))

@@ -35,6 +35,7 @@ class Candidate(Record):
         by_xacro: Whether xacro reads it, whatever it holds.
         missing: Arguments that whoever starts it must give, and the launch file that says so.
         choices: The values that it allows for these, where it names them.
+        offered: The values that it allows for arguments to which it gives one of them.
     """
 
     path: str
@@ -43,6 +44,7 @@ class Candidate(Record):
     by_xacro: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def assumed(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values that are taken for arguments which nobody gives.
@@ -64,6 +66,7 @@ class StartedLoad(Record):
     load: Load
     missing: Mapping[str, str] = field(default_factory=dict)
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def may_hold_description(package: Package) -> bool:
@@ -88,8 +91,8 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
         path = local_path(package, load.path)
         # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
-            choices = started.choices
-            candidate = Candidate(path, load.args, True, load.by_xacro, missing, choices)
+            allowed = started.choices, started.offered
+            candidate = Candidate(path, load.args, True, load.by_xacro, missing, *allowed)
             before = chosen.get(path, candidate)
             # Of several ways to start it, one that is known counts before one that is not.
             chosen[path] = candidate if before.missing and not missing else before

@@ -64,6 +64,7 @@ class UrdfDescription(Record, eq=False, dict=True):
         gazebo: In order.
         for_rviz: Whether it accompanies an SDF model, only to be looked at.
         call: Of the macro that makes the robot, where the file itself makes none.
+        values: Of arguments, where they are others than the file is read with: `model:=waffle`.
     """
 
     file: str
@@ -72,6 +73,7 @@ class UrdfDescription(Record, eq=False, dict=True):
     gazebo: tuple[GazeboTag, ...]
     for_rviz: bool
     call: MacroCall | None = None
+    values: str = ""
 
     @cached_property
     def robot(self) -> Robot:

@@ -21,6 +21,7 @@ class UrdfFiles(Record, eq=False):
         set_aside: The same of files beside an SDF model that no launch file loads.
         old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
         assumed: Arguments that nobody gives, with the choice that is taken, by file.
+        others: Of the files that make another robot with another value of an argument.
     """
 
     descriptions: tuple[UrdfDescription, ...] = ()
@@ -29,3 +30,4 @@ class UrdfFiles(Record, eq=False):
     set_aside: tuple[str, ...] = ()
     old: tuple[XacroFault, ...] = ()
     assumed: Mapping[str, str] = field(default_factory=dict)
+    others: tuple[UrdfDescription, ...] = ()

@@ -26,6 +26,7 @@ from checker.model.urdf.description import UrdfDescription, read_description
 from checker.model.urdf.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.model.urdf.files import UrdfFiles
 from checker.model.urdf.macro_calls import MacroCall, minimal_call
+from checker.model.urdf.other_robots import Made, other_robots
 from checker.model.urdf.started_loads import started_loads
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -77,6 +78,8 @@ class PackageDescriptions:
             if _needs_xacro(package, candidate)
         ]
         self._expansions = Expansions(package, self._wanted, expander) if self._wanted else None
+        self._taken = {wish.path: wish for wish in self._wanted}
+        self._with_others = not only and not self._for_rviz
 
     def _wish(self, candidate: Candidate, choice: int = 0) -> Wanted:
         """Return what to expand, with one of the choices for arguments that nobody gives."""
@@ -116,6 +119,8 @@ class PackageDescriptions:
                 unread.append((candidate, reason))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
+        others = [*self._others(expanded)] if self._with_others else []
+        faults += (it for it in others if isinstance(it, XacroFault))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
         if not self._for_rviz:
             holding = {description.file for description in descriptions}
@@ -134,7 +139,18 @@ class PackageDescriptions:
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
             assumed,
+            tuple(it for it in others if isinstance(it, UrdfDescription)),
         )
+
+    def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
+        """Yield the robots that other values of arguments make, and the faults that they meet."""
+        allowed = {it.path: {**it.choices, **it.offered} for it in self._candidates}
+        made = [
+            Made(self._taken[path], outcome, allowed[path])
+            for path, outcome in expanded.items()
+            if isinstance(outcome, XmlDocument) and outcome.root.tag == "robot"
+        ]
+        yield from other_robots(self._package, self._expander, made, self._args)
 
     def _called(self, holding: set[str]) -> Iterator[UrdfDescription]:
         """Yield the robots of macros that nobody calls: each is called with what it must have."""
@@ -217,6 +233,7 @@ class PackageDescriptions:
         for (candidate, number), outcome in zip(tried, outcomes, strict=True):
             if isinstance(outcome, XmlDocument) and (why := misfits.pop(candidate.path, "")):
                 expanded[candidate.path] = outcome
+                self._taken[candidate.path] = self._wish(candidate, number)
                 taken = _in_words(candidate.assumed(number, self._args))
                 unread.append((candidate, f"{why}; {taken} is taken instead"))
                 assumed[candidate.path] = taken
@@ -258,6 +275,7 @@ class PackageDescriptions:
         for wish, outcome in zip(again, expansions.outcomes(), strict=True):
             if isinstance(outcome, XmlDocument) and _refusal(outcome, wish.path) is None:
                 expanded[wish.path] = outcome
+                self._taken[wish.path] = wish
                 taken.append(refused[wish.path])
         return tuple(taken)
 

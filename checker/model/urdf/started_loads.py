@@ -39,7 +39,7 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
 
     for described in loaded_descriptions(package, graph):
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
-        yield StartedLoad(described.load, missing, described.choices)
+        yield StartedLoad(described.load, missing, described.choices, described.offered)
 
 
 def _classic_loads(package: Package) -> list[StartedLoad]:

@@ -1,0 +1,83 @@
+"""What is found in robots that other values of xacro's arguments make."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from checker.base.parts import NotAvailable
+from checker.engine.run import Outcome
+from checker.expand.xacro.expanded import ExpandedText
+from checker.finding import Place, fingerprint
+from checker.report.report import Cause, ReportedFinding
+from checker.rule import Rule
+
+if TYPE_CHECKING:
+    from checker.engine.subject import Subject
+    from checker.model.urdf.description import UrdfDescription
+
+_OF_A_ROBOT = frozenset(("Robot", "UrdfDescription", "RobotControl", "LinkInertias", "PluginHost"))
+_BESIDE = _OF_A_ROBOT | {"Package", "Paperwork", "Context", "KnownDevices"}
+
+
+def other_descriptions(subject: Subject) -> tuple[UrdfDescription, ...]:
+    """Return the robots that other values make, if files of the package make any robot."""
+    if isinstance(subject.model, NotAvailable) or subject.model.root.tag != "robot":
+        return ()
+    files = subject.urdf.files
+    return () if isinstance(files, NotAvailable) else files.others
+
+
+def of_one_robot(rules: Iterable[Rule]) -> list[Rule]:
+    """Return the rules that look at a robot, and at nothing that more robots may belong to."""
+    needs = ((rule, set(rule.needs.values())) for rule in rules)
+    return [rule for rule, kinds in needs if kinds & _OF_A_ROBOT and kinds <= _BESIDE]
+
+
+def only_new(added: Outcome, known: Outcome, description: UrdfDescription) -> Outcome:
+    """Return what was found in a robot and in none before it; each message names the values.
+
+    What could not be looked at is no reason to doubt the robot that the defaults make, and other
+    files than those that describe the robot may be meant for that one.
+
+    Args:
+        added: What was found.
+        known: What was found in the robots before it.
+        description: Of the robot.
+    """
+    findings = (*known.findings, *(it.finding for it in known.suppressed), *known.covered)
+    told = {_spot(finding, place) for finding in findings for place in finding.places}
+    new = partial(_untold, told, description)
+    aside = ((it, new(it.finding)) for it in added.suppressed)
+    return Outcome(
+        tuple(filter(None, map(new, added.findings))),
+        tuple(it for it in added.not_checked if it.cause is Cause.CRASHED),
+        suppressed=tuple(replace(it, finding=own) for it, own in aside if own is not None),
+    )
+
+
+_Spot = tuple[str, str, int, int]
+
+
+def _spot(finding: ReportedFinding, place: Place) -> _Spot:
+    return finding.rule, place.file, place.line, place.column
+
+
+def _untold(
+    told: set[_Spot], description: UrdfDescription, finding: ReportedFinding
+) -> ReportedFinding | None:
+    """Return a finding with the places that are new; None where its rule reports all of them."""
+    source = description.document.source
+    read = source.read if isinstance(source, ExpandedText) else ()
+    files = {document.source.file for document in read}
+    places = [it for it in finding.places if it.note or _spot(finding, it) not in told]
+    main = next((place for place in places if not place.note), None)
+    if main is None or main.file not in files:
+        return None
+    values = f"(with {description.values})"
+    own = fingerprint(finding.rule, main.file, main.element, f"{finding.fingerprint} {values}")
+    message = f"{main.message or finding.message} {values}"
+    return replace(finding, message=message, fingerprint=own, places=tuple(places))

@@ -1,0 +1,118 @@
+"""Robots that a xacro file makes with other values of its arguments than the defaults."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from checker.pipeline import check_package
+from checker.report.report import PackageReport
+from checker.settings import find_settings
+from tests.urdf.test_ros2_launch_arguments import PACKAGE
+
+HEAD = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
+HAND = """<link name="hand"/>
+<joint name="wrist" type="fixed"><parent link="base_link"/><child link="hadn"/></joint>"""
+CHOSEN = f"""{HEAD}
+  <xacro:arg name="tool" default="none"/>
+  <link name="base_link"/>
+  @
+</robot>
+"""
+TEST = f"<xacro:if value=\"${{'$(arg tool)' == 'hand'}}\">{HAND}</xacro:if>"
+INCLUDE = '<xacro:include filename="tools/$(arg tool).xacro"/>'
+LAUNCH = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+def generate_launch_description():
+    file = PathJoinSubstitution([FindPackageShare('acme_description'), 'urdf', 'r.urdf.xacro'])
+    return LaunchDescription([
+        DeclareLaunchArgument('tool', default_value='none', choices=['none', 'hand']),
+        Node(package='robot_state_publisher', executable='robot_state_publisher', parameters=[
+            {'robot_description': Command(['xacro ', file, ' tool:=', LaunchConfiguration('tool')])}
+        ]),
+    ])
+"""
+
+
+def judged(folder: Path, body: str, *others: tuple[str, str]) -> PackageReport:
+    files = [("package.xml", PACKAGE), ("urdf/r.urdf.xacro", CHOSEN.replace("@", body)), *others]
+    for path, text in files:
+        file = folder / "acme_description" / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    package = folder / "acme_description"
+    settings = find_settings([package]).overridden(trial=False, cache=False)
+    (report,) = check_package(package, settings).packages
+    return report
+
+
+def messages(report: PackageReport, rule: str) -> list[str]:
+    return [found.message for found in report.findings if found.rule == rule]
+
+
+PARTS = (
+    ("urdf/tools/none.xacro", f"{HEAD}</robot>"),
+    ("urdf/tools/hand.xacro", f"{HEAD}{HAND}</robot>"),
+)
+PROPERTY = "<xacro:property name='own' value='$(arg tool)'/>"
+COMPUTED = PROPERTY + INCLUDE.replace("$(arg tool)", "${own}")
+BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xacro:if>"
+
+
+@pytest.mark.parametrize(
+    ("body", "others"),
+    [
+        (TEST, ()),
+        (INCLUDE, PARTS),
+        (COMPUTED, PARTS),
+        (BY_PYTHON, [("launch/view.launch.py", LAUNCH)]),
+    ],
+    ids=["compared", "file name", "property in a file name", "choice of a launch file"],
+)
+def test_what_another_value_leads_to_is_judged(
+    tmp_path: Path, body: str, others: Sequence[tuple[str, str]]
+) -> None:
+    report = judged(tmp_path, body, *others)
+    (message,) = messages(report, "KIN001")
+    assert message.endswith("(with tool:=hand)")
+    assert report.facts["also_tried"] == "tool:=hand"
+    assert report.facts["links"] == 1
+
+
+def test_a_flag_is_tried_both_ways(tmp_path: Path) -> None:
+    flag = "<xacro:arg name='hand' default='false'/><xacro:if value='$(arg hand)'>"
+    report = judged(tmp_path, f"{flag}{HAND}</xacro:if>")
+    assert report.facts["also_tried"] == "hand:=true"
+    assert len(messages(report, "KIN001")) == 1
+
+
+def test_what_the_default_shows_too_is_told_once(tmp_path: Path) -> None:
+    lens = TEST.replace(HAND, '<link name="lens"/>')
+    report = judged(tmp_path, HAND + lens.replace("'hand'", "'lens'"))
+    assert report.facts["also_tried"] == "tool:=lens"
+    (message,) = messages(report, "KIN001")
+    assert "with" not in message.split()
+
+
+def test_a_value_that_the_user_gives_is_the_only_one(tmp_path: Path) -> None:
+    (tmp_path / "acme_description").mkdir()
+    (tmp_path / "acme_description/subt-check.toml").write_text('[xacro-args]\ntool = "none"\n')
+    report = judged(tmp_path, TEST)
+    assert "also_tried" not in report.facts
+    assert not messages(report, "KIN001")
+
+
+def test_a_suppression_of_what_another_value_leads_to_is_of_use(tmp_path: Path) -> None:
+    comment = "<!-- subt-check: ignore[KIN001] the file is being rewritten -->"
+    body = TEST.replace("<joint", f"{comment}<joint")
+    report = judged(tmp_path, body)
+    assert not messages(report, "KIN001")
+    assert [it.finding.message for it in report.suppressed]
+    assert not messages(report, "CFG002")
