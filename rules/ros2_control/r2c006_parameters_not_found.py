@@ -41,7 +41,9 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
             elif file.path is not None and not file.exists:
                 yield finding(file.text, f"{_shown(file)} does not exist (looked for {file.path})")
             elif file.path is not None and file.package:
-                left = left_out(package, *listed(package, file.path))
+                holder, path = listed(package, file.path)
+                # Under another path than in the source it was found because it is installed there.
+                left = left_out(package, holder, path) if path == _inside(file) else None
                 if left is not None:
                     message = f"{_shown(file)} is not installed: {left.instead}"
                     yield finding(file.text, message, key=left.around)
@@ -53,7 +55,7 @@ def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Fin
     if manifest is None or manifest.depends_on(file.package):
         yield unchecked(f"package {file.package} is not available")
         return
-    path = file.text.value.partition(f"{file.package}/")[2]
+    path = _inside(file)
     here = bool(path) and package.exists(path)
     yield finding(
         file.text,
@@ -61,6 +63,11 @@ def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Fin
         f"package.xml does not depend on{f'; {path} lies in this package' if here else ''}",
         severity=None if here else Severity.WARNING,
     )
+
+
+def _inside(file: ParametersFile) -> str:
+    """Return the path below the folder of the installed package."""
+    return file.text.value.partition(file.package)[2].lstrip(")/")
 
 
 def _shown(file: ParametersFile) -> str:
@@ -89,7 +96,15 @@ _BUILD = """project(acme_arm_description)
 install(DIRECTORY config/other urdf DESTINATION share/${PROJECT_NAME}/config)
 ament_package()
 """
-GOOD = [_arm(f"<parameters>{_HERE}</parameters>")]
+_MOVED = "install(DIRECTORY bringup/config urdf DESTINATION share/${PROJECT_NAME})"
+GOOD = [
+    _arm(f"<parameters>{_HERE}</parameters>"),
+    {
+        **_arm(f"<parameters>{_HERE.replace('control', 'arm')}</parameters>"),
+        "CMakeLists.txt": f"project(acme_arm_description)\n{_MOVED}\nament_package()\n",
+        "bringup/config/arm.yaml": "a: 1\n",
+    },
+]
 BAD = [
     {
         **_arm(f"<parameters>{_HERE}</parameters>{_MARK}"),
