@@ -8,6 +8,7 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
+from checker.model.ros.wiring.services import wanted
 from checker.model.ros.wiring.wiring import Wiring
 from checker.package.inputs import open_input
 from checker.rule_testing import write_example
@@ -154,3 +155,21 @@ def test_topics_of_costmaps_that_are_relative_are_not_known(tmp_path: Path) -> N
 )
 def test_what_parts_may_publish_unseen(nodes: str, why: str, tmp_path: Path) -> None:
     assert wiring(nodes, tmp_path).unknown_parts == why
+
+
+@pytest.mark.parametrize(
+    ("node", "names"),
+    [
+        ('parameters=[{"node_names": ["amcl", "r1/map_server"]}]', ["/amcl", "/r1/map_server"]),
+        ('namespace="r1", parameters=[{"node_names": ["amcl"]}]', ["/r1/amcl"]),
+        ('parameters=[{"node_names": LaunchConfiguration("x")}]', []),
+        ("parameters=[other()]", []),
+    ],
+)
+def test_the_nodes_that_a_lifecycle_manager_waits_for(
+    node: str, names: list[str], tmp_path: Path
+) -> None:
+    manager = f'Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", {node})'
+    launched = wiring(manager, tmp_path)
+
+    assert [it.name for it in wanted(launched.nodes[0])] == [f"{name}/get_state" for name in names]

@@ -25,6 +25,10 @@ class NodeFacts(Record):
         subscribes: Topics that it may read, each with its types.
         transforms: That it publishes, of those whose frames parameters decide.
         defaults: Of the parameters that decide topics and transforms.
+        offers: Services and actions of its own.
+        waits_for: Services and actions of others that it cannot do without; `{x}` is each item of
+            parameter x.
+        unless: Parameters with which it may wait for others.
     """
 
     name: str = ""
@@ -33,6 +37,9 @@ class NodeFacts(Record):
     subscribes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     transforms: tuple[TransformFact, ...] = ()
     defaults: Mapping[str, str] = field(default_factory=dict)
+    offers: tuple[str, ...] = ()
+    waits_for: tuple[str, ...] = ()
+    unless: tuple[str, ...] = ()
 
 
 @cache
