@@ -132,7 +132,7 @@ def _spawner(*words: str, mark: str = "") -> str:
     return f"Node(package='controller_manager', executable='spawner', arguments=[{inside}])"
 
 
-def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> object:
+def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> dict[str, object]:
     hardware = "gz_ros2_control/GazeboSimSystem" if gazebo else "mock_components/GenericSystem"
     started = ",\n        ".join(nodes)
     return {
@@ -141,7 +141,10 @@ def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> object:
         "launch/arm.launch.py": f"""import os
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
 from launch_ros.actions import Node
+
+CLASSIC = get_package_share_directory('gazebo_ros') + '/launch/gazebo.launch.py'
 
 
 def generate_launch_description():
@@ -154,15 +157,26 @@ def generate_launch_description():
     }
 
 
+def _in_classic(*nodes: str, more: str) -> object:
+    """Return an arm in Gazebo Classic, whose own launch file starts no controller manager."""
+    plugin = _GAZEBO.replace("gz_ros2_control-system", "libgazebo_ros2_control.so")
+    return {
+        **_arm("IncludeLaunchDescription(CLASSIC)", *nodes, more=more),
+        "@urdf": _HARDWARE.replace("@", "gazebo_ros2_control/GazeboSystem") + plugin,
+    }
+
+
 _MARK = "  # ^ R2C013"
 _BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
 GOOD = [
     _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
+    _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _arm(_NODE, _spawner("arm_controller")),
     _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
     _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
 ]
 BAD = [
+    _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
     _arm(_NODE, _spawner("grip_controller", mark=_MARK)),

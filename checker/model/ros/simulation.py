@@ -7,12 +7,11 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, shown
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.model.robot import Robot
 from checker.model.ros.servers import (
     GazeboServer,
     includes_classic,
-    is_gazebo,
     is_gazebo_include,
     read_servers,
     starts_classic,
@@ -25,6 +24,7 @@ from checker.model.ros.simulated_topics import (
 )
 from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
 from checker.model.ros.topics import comparable
+from checker.model.ros.unread import unread_parts
 from checker.model.sdf.world import World, systems_of
 from checker.package.package import Package
 
@@ -141,14 +141,7 @@ class Simulation(Record, eq=False, dict=True):
         """Why it may start more than is known; empty where all was read."""
         if self.graph is None:
             return "no launch file names it"
-        if any(not is_gazebo(process) for process in self.graph.processes):
-            return "a command may start anything"
-        reasons = [*self.bridges.unread, *(unread.reason for unread in self.graph.unread)]
-        reasons += [fault.message for fault in self.graph.faults]
-        for include in self.graph.includes:
-            if not include.path and not is_gazebo_include(include):
-                reasons.append(f"{shown(include.target.value)} is not read")
-        return next(iter(reasons), "")
+        return next(iter((*self.bridges.unread, *unread_parts(self.graph))), "")
 
 
 class Simulations(Record, eq=False):

@@ -8,6 +8,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import LaunchGraph, Node, ParameterFile, is_known
 from checker.expand.ros2_launch.package_files import local_file
+from checker.model.ros.unread import unread_parts
 from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros2_control.parameters import MANAGER
 from checker.model.ros2_control.robot_control import ControlReader, RobotControl
@@ -135,15 +136,9 @@ class LaunchedControl(Record, eq=False, dict=True):
 
     @property
     def is_complete(self) -> bool:
-        """Whether nothing that it starts is left to other files or to the machine that launches.
-
-        Launch files of Gazebo itself start no controller manager.
-        """
-        missing = [
-            i for i in self.graph.includes if i.is_unknown and "ros_gz_sim" not in i.target.value
-        ]
+        """Whether nothing that it starts is left to other files or to the machine that launches."""
         unsure = any(node.starts is None for node in self.graph.nodes)
-        return not (missing or self.graph.unread or unsure)
+        return not (unsure or any(unread_parts(self.graph)))
 
     @cached_property
     def listed(self) -> frozenset[str] | None:

@@ -7,20 +7,16 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
-    Include,
     LaunchGraph,
     Node,
-    Process,
     Ros2Launch,
     is_known,
-    share_path,
-    shown,
 )
 from checker.model.robot import Robot
-from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
 from checker.model.ros.simulated_topics import unknown_owner
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
+from checker.model.ros.unread import unread_parts
 from checker.model.ros.wiring.classic import of_classic, unknown_plugin
 from checker.model.ros.wiring.controllers import RunController, run_controllers
 from checker.model.ros.wiring.endpoints import Endpoint, of_bridges, of_node
@@ -28,11 +24,6 @@ from checker.model.ros.wiring.frames import of_joints, of_static
 from checker.model.ros.wiring.nodes import WiredNode, spawned_names, wired_node
 from checker.model.ros.wiring.transforms import Transform, transforms
 from checker.model.ros2_control.robot_control import ControlReader
-
-_QUIET_COMMANDS = tuple(
-    ("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")
-)
-"""Beginnings of commands that publish nothing."""
 
 
 class Wiring(Record, eq=False, dict=True):
@@ -131,29 +122,12 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def unread(self) -> tuple[str, ...]:
         """Why it may start more than its nodes."""
-        reasons = [unread.reason for unread in self.graph.unread]
-        reasons += [fault.message for fault in self.graph.faults]
-        if not all(map(_publishes_nothing, self.graph.processes)):
-            reasons.append("a command may start anything")
-        for include in self.graph.includes:
-            if include.is_unknown and not _is_of_gazebo(include):
-                reasons.append(f"{shown(include.target.value)} is not read")
-        return tuple(reasons)
+        return tuple(unread_parts(self.graph))
 
     @property
     def knows_nodes(self) -> bool:
         """Whether it starts no nodes but those whose names are known."""
         return not self.unread and all(node.full_name for node in self.every_node)
-
-
-def _is_of_gazebo(include: Include) -> bool:
-    target = share_path(include.target.value)
-    return is_gazebo_include(include) or (target is not None and target.package == CLASSIC_PACKAGE)
-
-
-def _publishes_nothing(process: Process) -> bool:
-    words = tuple(word.value for word in process.words[:2])
-    return is_gazebo(process) or words in _QUIET_COMMANDS
 
 
 def wirings(

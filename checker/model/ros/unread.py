@@ -1,0 +1,34 @@
+"""What a launch file may start besides the nodes that are known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import Include, LaunchGraph, Process, share_path, shown
+from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
+
+_QUIET_COMMANDS = tuple(
+    ("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")
+)
+"""Beginnings of commands that start no node and publish nothing."""
+
+
+def unread_parts(graph: LaunchGraph) -> Iterator[str]:
+    """Yield why a launch file may start more than its nodes and Gazebo; nothing if it does not."""
+    yield from (unread.reason for unread in graph.unread)
+    yield from (fault.message for fault in graph.faults)
+    if not all(map(_starts_no_node, graph.processes)):
+        yield "a command may start anything"
+    for include in graph.includes:
+        if include.is_unknown and not _is_of_gazebo(include):
+            yield f"{shown(include.target.value)} is not read"
+
+
+def _is_of_gazebo(include: Include) -> bool:
+    target = share_path(include.target.value)
+    return is_gazebo_include(include) or (target is not None and target.package == CLASSIC_PACKAGE)
+
+
+def _starts_no_node(process: Process) -> bool:
+    words = tuple(word.value for word in process.words[:2])
+    return is_gazebo(process) or words in _QUIET_COMMANDS
