@@ -204,5 +204,9 @@ MEASURES = (
         f"{_N}% of its view is filled by the robot itself",
         {"most": 10.0, "most_of_picture": 0.0}, _of_percent,
     ),
+    Measure(
+        "SEN029", "share of a planar lidar's rays", ("most",), f"in {_N}% of its rays",
+        {"most": 1.0}, _of_percent,
+    ),
 )  # fmt: skip
 """Values that can be measured part by part."""

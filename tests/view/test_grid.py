@@ -71,7 +71,13 @@ def test_a_lidar_has_its_own_rays_up_to_a_number() -> None:
     assert np.allclose(few.directions, [[math.cos(3.1), math.sin(3.1), 0.0]])
     many = lidar("<samples>1800</samples><min_angle>-3.14</min_angle><max_angle>3.14</max_angle>")
     assert many is not None
-    assert len(many.directions) == 72
+    assert len(many.directions) == 576
+    rows = lidar(
+        "<samples>1800</samples><min_angle>-3.14</min_angle><max_angle>3.14</max_angle>",
+        "<vertical><samples>64</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></vertical>",
+    )
+    assert rows is not None
+    assert (rows.across.number, rows.up.number) == (72, 8)
 
 
 @pytest.mark.parametrize(

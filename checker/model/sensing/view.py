@@ -8,6 +8,22 @@ from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted
 
 
+class Hit(Record, eq=False):
+    """A ray of a sensor that ends at a visual of its own robot.
+
+    Attributes:
+        share: Of the view that the ray stands for, 0 to 1.
+        metres: Along the ray.
+        azimuth: Of the ray, to the left of the sensor's x axis, radians.
+        by: The visual, and its link.
+    """
+
+    share: float
+    metres: float
+    azimuth: float
+    by: tuple[Link, Visual]
+
+
 class View(Record, eq=False):
     """What a camera or lidar sees of the robot that carries it, with all joints where they start.
 
@@ -15,24 +31,24 @@ class View(Record, eq=False):
     its housing sees through it.
 
     Attributes:
-        filled: Shares of the view that visuals fill, and the metres to each of them.
+        filled: Rays that end at visuals.
         cut: Share in which visuals stand nearer than the near clip, so that they are cut open.
         by: The visual that takes most, and its link; None where there is none in view.
     """
 
     mounted: Mounted
-    filled: tuple[tuple[float, float], ...]
+    filled: tuple[Hit, ...]
     cut: float
     by: tuple[Link, Visual] | None
 
     @property
     def hidden(self) -> float:
         """Share of the view that visuals fill, 0 to 1."""
-        return sum(share for share, _ in self.filled)
+        return sum(hit.share for hit in self.filled)
 
     def hidden_within(self, distance: float) -> float:
         """Return the share of the view that visuals nearer than a distance fill, metres."""
-        return sum(share for share, metres in self.filled if metres < distance)
+        return sum(hit.share for hit in self.filled if hit.metres < distance)
 
 
 class CoveredLight(Record, eq=False):

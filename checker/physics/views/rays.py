@@ -86,6 +86,11 @@ class Grid(Record, dict=True):
         flat = np.cos(elevation)
         return np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), np.sin(elevation)], axis=1)
 
+    @property
+    def azimuths(self) -> NDArray[float64]:
+        """Of each ray, radians."""
+        return self._angles[0]
+
     @cached_property
     def weights(self) -> NDArray[float64]:
         """Share of the view that each ray stands for; 0 for those beyond the picture's edge."""
@@ -160,7 +165,10 @@ def _of_camera(camera: Camera) -> Grid | None:
 
 def _of_lidar(lidar: Lidar) -> Grid | None:
     near, far = lidar.range_min.value, lidar.range_max.value
-    across, up = _scanned(lidar.horizontal, _LIDAR[0]), _scanned(lidar.vertical, _LIDAR[1])
+    # One row gets as many rays as eight: thin posts stand in it.
+    rows = int(min(max(lidar.vertical.samples.value, 1.0), _LIDAR[1]))
+    across = _scanned(lidar.horizontal, _LIDAR[0] * _LIDAR[1] // rows)
+    up = _scanned(lidar.vertical, _LIDAR[1])
     if across is None or up is None or not _is_range(near, far):
         return None
     return Grid(across, up, near, far)

@@ -14,7 +14,7 @@ from checker.base.output import Stages
 from checker.base.parts import WorkerFailed
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.model.sensing.view import CoveredLight, SensorViews, View
+from checker.model.sensing.view import CoveredLight, Hit, SensorViews, View
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.process import SIZE_LIMIT, mesh_work
 from checker.physics.mesh.uris import MeshFile
@@ -27,6 +27,8 @@ _SMALL = 1500
 _ROBOTS = 8
 """Of one file; a world with more of them is no submission."""
 
+_RAYS = ("shares", "reach", "across", "visual")
+"""What the worker says of each ray of a view."""
 _Answer = dict[str, Any]
 """What the worker says: `views` and `unread`."""
 
@@ -125,7 +127,8 @@ def _checked(answer: Any, request: ViewRequest) -> _Answer:
     if (
         len(views) == len(request.sensors)
         and all(-1 <= int(view["by"]) < len(request.visuals) for view in views)
-        and all(len(view["shares"]) == len(view["reach"]) for view in views)
+        and all(len({len(view[name]) for name in _RAYS}) == 1 for view in views)
+        and all(0 <= number < len(request.visuals) for view in views for number in view["visual"])
         and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
         and all(0 <= number < len(request.contents) and str(why) for number, why, _ in unread)
         and all(0 <= number < len(request.lights) for number, *_ in covered)
@@ -139,7 +142,12 @@ def _views_of(robot: Robot, request: ViewRequest, answer: dict[str, Any]) -> Sen
     views = tuple(
         View(
             mounted,
-            tuple(zip(view["shares"], view["reach"], strict=True)),
+            tuple(
+                Hit(share, metres, azimuth, request.visuals[visual])
+                for share, metres, azimuth, visual in zip(
+                    view["shares"], view["reach"], view["across"], view["visual"], strict=True
+                )
+            ),
             view["cut"],
             request.visuals[view["by"]] if view["by"] >= 0 else None,
         )

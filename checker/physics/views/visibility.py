@@ -51,8 +51,9 @@ def views_of(
         of_meshes: What is seen of each mesh (`seen_of_mesh`).
 
     Returns:
-        `views`: for each sensor `shares` of the view and the metres (`reach`) to what fills each of
-        them, the share that is `cut` off, and the visual that fills most (`by`; -1 for none).
+        `views`: for each sensor the rays that end at visuals, with `shares` of the view, the metres
+        (`reach`), the azimuth (`across`) and the `visual` of each; the share that is `cut` off, and
+        the visual that fills most (`by`; -1 for none).
         `unread`: numbers of files, why, and whether that lasts. `covered`: numbers of lights, and
         the shares of all directions and of its beam in which the mesh around each is in the way.
     """
@@ -86,10 +87,13 @@ def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:
 
     first = np.full(len(grid.weights), np.inf)
     cut = np.zeros(len(grid.weights), bool)
+    visual = np.full(len(grid.weights), -1)
     most = (0.0, -1)
     for hit in met:
-        rays = hit["rays"]
-        first[rays] = np.minimum(first[rays], hit["reach"])
+        rays, reach = np.array(hit["rays"], int), np.array(hit["reach"])
+        nearer = reach < first[rays]
+        first[rays[nearer]] = reach[nearer]
+        visual[rays[nearer]] = hit["visual"]
         cut[hit["cut"]] = True
         near = [*rays, *hit["cut"]]
         most = max(most, (float(grid.weights[near].sum()), hit["visual"]))
@@ -97,6 +101,8 @@ def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:
     return {
         "shares": grid.weights[filled].round(6).tolist(),
         "reach": first[filled].round(4).tolist(),
+        "across": grid.azimuths[filled].round(4).tolist(),
+        "visual": visual[filled].tolist(),
         "cut": float(grid.weights[cut].sum()),
         "by": most[1],
     }
