@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
@@ -26,6 +26,8 @@ from checker.report.report import (
 
 
 _REASON_LIMIT = 600
+_FILES = {"world": "world", "single_file": "file"}
+"""Kinds that are no packages, and what they are called."""
 
 
 class Sentence(Record):
@@ -170,9 +172,20 @@ def _row_in_markdown(package: PackageReport, columns: int) -> str:
 
 
 def ready_of_all(packages: Sequence[PackageReport]) -> str:
-    """Return `12 packages, 9 ready`."""
+    """Return `11 packages and 1 world, 9 ready`."""
     ready = sum(package.verdict is VerdictKind.READY for package in packages)
-    return f"{count(len(packages), 'package')}, {ready} ready"
+    return f"{what_was_checked(package.kind for package in packages)}, {ready} ready"
+
+
+def what_was_checked(kinds: Iterable[str]) -> str:
+    """Return how many packages, worlds and other single files there are: `2 packages and 1 world`.
+
+    Args:
+        kinds: Of each, as `PackageReport.kind` has it.
+    """
+    numbers = Counter(_FILES.get(kind, "package") for kind in kinds)
+    order = ("package", *_FILES.values())
+    return listed([count(numbers[noun], noun) for noun in order if numbers[noun]]) or "0 packages"
 
 
 def verdict_word(verdict: VerdictKind) -> str:

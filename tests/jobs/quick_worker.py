@@ -33,6 +33,7 @@ PACKAGE = {
     "warnings": 1,
     "infos": 2,
     "folder": "",
+    "kind": "robot",
 }
 WORDS = "Ready: no error"
 REFUSAL = "robot.zip is not an archive"

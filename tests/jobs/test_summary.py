@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from checker.finding import Concern, Severity
 from checker.report.report import (
@@ -20,7 +21,15 @@ from checker.service.jobs.exchange import read_summary, summary
 from checker.service.jobs.outcome import Checked
 
 FINDING = ReportedFinding("XML001", "odd", Severity.WARNING, Concern.ROBOT, "is odd", "f", ())
-PACKAGE = {"name": "a", "folder": "", "verdict": "ready", "errors": 0, "warnings": 1, "infos": 0}
+PACKAGE = {
+    "name": "a",
+    "folder": "",
+    "kind": "robot",
+    "verdict": "ready",
+    "errors": 0,
+    "warnings": 1,
+    "infos": 0,
+}
 SAID = {"packages": [PACKAGE], "words": "Ready"}
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.text(max_size=9),
@@ -48,6 +57,9 @@ def test_what_is_written_is_read(names: tuple[str, ...]) -> None:
 def test_the_words() -> None:
     assert summary(packages("a"))["words"] == "Ready: 1 warning"
     assert summary(packages("a", "b", "c"))["words"] == "3 packages: 3 ready"
+    robot, world = packages("a", "hall.sdf").packages
+    beside = Report((robot, replace(world, kind="world")), {})
+    assert summary(beside)["words"] == "1 package and 1 world: 2 ready"
 
 
 def test_a_rule_that_crashed() -> None:

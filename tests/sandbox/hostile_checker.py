@@ -27,6 +27,7 @@ _PACKAGE = {
     "warnings": 0,
     "infos": 0,
     "folder": "",
+    "kind": "robot",
 }
 
 
@@ -96,10 +97,9 @@ def _leftovers(_asked: Mapping[str, Any], _: Files) -> bytes:
     (place / "many").mkdir()
     for number in range(20_000):
         (place / "many" / str(number)).touch()
-    (place / "closed/inner").mkdir(parents=True)
+    for folder in ("closed", "closed/inner"):
+        (place / folder).mkdir(mode=0o300)  # to be written into, not to be listed
     (place / "closed/inner/file").touch()
-    for folder in ("closed/inner", "closed"):
-        (place / folder).chmod(0)
     for _number in range(5_100):
         os.mkdir("deep")  # noqa: PTH102 - the path has no bounds
         os.chdir("deep")

@@ -65,18 +65,19 @@ FORBIDDEN = (
     *("finit_module", "init_module", "ioperm", "iopl", "kexec_file_load", "kexec_load"),
     *("quotactl", "reboot", "setdomainname", "sethostname", "swapoff", "swapon", "syslog"),
     *("vhangup", "migrate_pages", "move_pages"),
+    # What is said of files: Landlock knows nothing of modes, owners, times and attributes.
+    *("chmod", "fchmod", "fchmodat", "fchmodat2", "chown", "fchown", "lchown", "fchownat"),
+    *("utime", "utimes", "futimesat", "utimensat", "setxattr", "fsetxattr", "lsetxattr"),
+    *("setxattrat", "removexattr", "fremovexattr", "lremovexattr", "removexattrat"),
+    "file_setattr",
 )
 """Calls that fail, whatever their arguments."""
 _OPENING = ("open", "openat", "openat2", "creat", "memfd_create")
 _CHANGING = (
     *("truncate", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir", "mkdirat"),
-    *("rmdir", "chmod", "fchmodat", "fchmodat2", "chown", "lchown", "fchownat", "utime", "utimes"),
-    *("futimesat", "utimensat", "setxattr", "lsetxattr", "setxattrat", "removexattr"),
-    *("lremovexattr", "removexattrat", "file_setattr", "fchmod", "fchown", "fsetxattr"),
-    *("fremovexattr",),
+    "rmdir",
 )
-"""Calls that change files by their names, or what is said of them: Landlock knows nothing of modes,
-owners and times."""
+"""Calls that change files by their names."""
 _OWN_PROCESS_ONLY = {
     "prlimit64": 0,
     "sched_setaffinity": 0,
@@ -131,7 +132,7 @@ def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = Tr
 
     Args:
         opens: Whether it may still open files.
-        changes: Whether it may still remove and rename files, and change who may do what with them.
+        changes: Whether it may still remove and rename files, and make folders.
         signals: Whether it may still send signals to other processes.
 
     Raises:

@@ -8,15 +8,14 @@ from typing import Any
 
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
-from checker.finding import Concern, Severity
+from checker.finding import Severity
 from checker.report.figures import NOT_JUDGED, Row, rows_of
 from checker.report.html.findings import anchor_of, in_order
-from checker.report.report import PackageReport, ReportedFinding, VerdictKind
+from checker.report.importance import importance
+from checker.report.report import PackageReport, VerdictKind
 
 FIRST = 3
 """Things to do that are named first."""
-_SOONEST = ("SDF", "URD", "KIN", "REF", "MSH", "INE", "GEO", "TRI")
-"""Groups of rules in the order in which a simulator fails: reading, joining, loading, weighing."""
 _TEXT_LIMIT = 300
 _ROWS_SHOWN = 3
 
@@ -48,7 +47,7 @@ def first_tasks(package: PackageReport) -> list[Task]:
 
 def _findings(package: PackageReport) -> Iterator[Task]:
     counting = [each for each in in_order(package.findings) if each.severity is not Severity.INFO]
-    counting.sort(key=_importance)
+    counting.sort(key=importance)
     number = Counter((each.severity, each.rule) for each in counting)
     for each in counting:
         if more := number.pop((each.severity, each.rule), 0):
@@ -60,13 +59,6 @@ def _findings(package: PackageReport) -> Iterator[Task]:
                 plain(f"{place.file}:{place.line}" if place.file else ""),
                 more - 1,
             )
-
-
-def _importance(finding: ReportedFinding) -> tuple[int, int, int]:
-    """Return what is less for a finding that is to be mended sooner."""
-    group = finding.rule.rstrip("0123456789")
-    rank = _SOONEST.index(group) if group in _SOONEST else len(_SOONEST)
-    return finding.severity.rank, list(Concern).index(finding.concern), rank
 
 
 def _unseen(package: PackageReport) -> Iterator[Task]:

@@ -23,7 +23,7 @@ from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
 from checker.report.sarif import to_sarif
-from checker.report.summary import has_suppressed, sentence
+from checker.report.summary import has_suppressed, sentence, what_was_checked
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -224,6 +224,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
         with_suppressed=has_suppressed(report.packages),
         with_pictures=any(each.display and each.display.pictures for each in report.packages),
         ready=sum(package.verdict is VerdictKind.READY for package in report.packages),
+        checked=what_was_checked(package.kind for package in report.packages),
         style=text_of("report.css"),
         script=script,
         script_hash=_hash(script),

@@ -18,7 +18,7 @@ from checker.base.words import listed, plain, shortened
 from checker.finding import Severity
 from checker.report.files import package_folders
 from checker.report.report import Report, VerdictKind
-from checker.report.summary import sentence
+from checker.report.summary import sentence, what_was_checked
 from checker.service.jobs.outcome import Checked
 
 # What the check of an upload may use.
@@ -64,7 +64,7 @@ def limit(limits: StageLimits) -> None:
 _PACKAGES_LIMIT = 5_000
 _TEXT_LIMIT = 1_000
 _HALVES = re.compile(r"[\ud800-\udfff]")
-_TEXTS, _NUMBERS = ("name", "folder"), ("errors", "warnings", "infos")
+_TEXTS, _NUMBERS = ("name", "folder", "kind"), ("errors", "warnings", "infos")
 
 
 def summary(report: Report) -> dict[str, Any]:
@@ -81,6 +81,7 @@ def summary(report: Report) -> dict[str, Any]:
             "warnings": package.count(Severity.WARNING),
             "infos": package.count(Severity.INFO),
             "folder": folder,
+            "kind": package.kind,
         }
         for package, folder in zip(report.packages, package_folders(report), strict=True)
     ]
@@ -94,7 +95,7 @@ def _words(report: Report) -> str:
         return str(sentence(report.packages[0]))
     kinds = Counter(package.verdict for package in report.packages)
     verdicts = [f"{kinds[kind]} {kind.replace('_', ' ')}" for kind in VerdictKind if kinds[kind]]
-    return f"{len(report.packages)} packages: {listed(verdicts)}"
+    return f"{what_was_checked(each.kind for each in report.packages)}: {listed(verdicts)}"
 
 
 def read_summary(key: str, data: Any) -> Checked | None:

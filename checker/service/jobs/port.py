@@ -74,7 +74,7 @@ class State(Record):
         ahead: Checks in front of it in the queue.
         created: Seconds since the epoch.
         result: Key of the stored report so far (static findings at first); empty before.
-        packages: Of each package so far: its "name", "verdict" (see `VerdictKind`),
+        packages: Of each package so far: its "name", "verdict" (see `VerdictKind`), "kind",
             "errors", "warnings", "infos" and the "folder" of its files in the result ("" for one).
         expires: When everything of it is deleted, seconds since the epoch.
     """

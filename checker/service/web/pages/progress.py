@@ -10,8 +10,10 @@ from typing import Any
 
 from checker.base.record import Record
 from checker.base.words import count, plain, shortened
+from checker.report.importance import importance
 from checker.report.json_report import report_from_json
 from checker.report.report import ReportedFinding, VerdictKind
+from checker.report.summary import what_was_checked
 from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.api.views import address_of
@@ -75,7 +77,7 @@ def _read(path: Path) -> Glance | None:
     findings = [
         (package.name, finding) for package in report.packages for finding in package.findings
     ]
-    findings.sort(key=lambda pair: pair[1].severity.rank)
+    findings.sort(key=lambda pair: importance(pair[1]))
     shown = tuple(_first(name, finding) for name, finding in findings[:SHOWN])
     return Glance(shown, len(findings) - len(shown))
 
@@ -143,6 +145,7 @@ class PackageLine(Record):
     """
 
     name: str
+    kind: str
     verdict: str
     lead: str
     errors: int
@@ -219,7 +222,8 @@ def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
         return Headline(only.lead, words.removeprefix(only.lead).lstrip(": "), only.verdict)
     ready = sum(package.verdict == "ready" for package in packages)
     mood = "ready" if packages and ready == len(packages) else "not_ready"
-    return Headline(f"{ready} of {count(len(packages), 'package')} ready", "", mood)
+    of_all = what_was_checked(package.kind for package in packages)
+    return Headline(f"{ready} of {of_all} ready", "", mood)
 
 
 def _so_far(packages: Sequence[PackageLine]) -> str:
@@ -248,6 +252,7 @@ def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> Pac
     verdict = str(package["verdict"])
     return PackageLine(
         name=plain(shortened(str(package["name"]), _TEXT_LIMIT)),
+        kind=str(package.get("kind", "")),  # older checks do not say it
         verdict=verdict,
         lead=VerdictKind(verdict).lead,
         errors=int(package["errors"]),
