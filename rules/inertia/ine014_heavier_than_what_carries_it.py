@@ -29,7 +29,7 @@ _SMALL = re.compile(
 """Names of fingers and sensors."""
 
 
-@rule("INE015", "heavier-than-what-carries-it", Severity.WARNING, Concern.ROBOT)
+@rule("INE014", "heavier-than-what-carries-it", Severity.WARNING, Concern.ROBOT)
 def check(
     masses: MassProperties, *, small: float = 1.0, other: float = 10.0, least: float = 0.05
 ) -> Findings:
@@ -117,7 +117,7 @@ def _robot(name: str, base: float, mass: float, mark: str = "", kind: str = "rev
 </model></sdf>"""
 
 
-_MARK = "  <!-- ^ INE015 -->"
+_MARK = "  <!-- ^ INE014 -->"
 GOOD = [
     _robot("left_wheel", 9.6, 5.0),
     _robot("shoulder_link", 0.63, 4.97),

@@ -1,0 +1,120 @@
+"""A launch file starts a program that the build of its package does not install.
+
+The launch ends with "executable 'x' not found on the libexec directory". A program of CMake needs
+`add_executable` and `install(TARGETS x DESTINATION lib/${PROJECT_NAME})`; a script in Python
+`install(PROGRAMS …)`, or an entry of `console_scripts` in setup.py, and keeps the name of its file:
+`x.py` is not `x`. Packages whose build files include others, or pick files by a pattern, are not
+judged.
+
+Fix: install the program, or write the name that it is installed by.
+Source: ros2launch, `Node`: programs are looked up in `lib/<package>` of the installed package.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import LaunchGraph, Node, NodeKind, Ros2Launch, is_known
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import SourceText
+
+_CMAKE = re.compile(
+    r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject|\bFetchContent",
+    re.IGNORECASE,
+)
+_SETUP = re.compile(r"[\"']lib/")
+_NOT_PLAIN = {
+    "CMakeLists.txt": _CMAKE,
+    "setup.py": _SETUP,
+    "setup.cfg": None,
+    "pyproject.toml": None,
+}
+"""Build files, and what in them may install programs whose names they do not say."""
+
+
+@rule("LCH018", "program-not-installed", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch, package: Package) -> Findings:
+    """Report programs of packages at hand that their build files do not name."""
+    for graph in launch.entries:
+        for node in _own(graph):
+            holder = package.workspace.package(node.package.value)
+            build = _build_file(holder) if holder is not None else None
+            missing = _missing(node.executable.value, build) if build is not None else ""
+            if missing:
+                yield finding(
+                    node.executable,
+                    f"{node.package.value} has no program {node.executable.value!r}: {missing}",
+                    severity=None if node.starts is True else Severity.WARNING,
+                    key=f"{node.package.value}/{node.executable.value}",
+                )
+
+
+def _own(graph: LaunchGraph) -> Iterator[Node]:
+    """Yield nodes whose package and program are known."""
+    for node in graph.nodes:
+        named = is_known(node.package.value) and is_known(node.executable.value)
+        if named and node.executable.value and node.kind is not NodeKind.COMPONENT:
+            yield node
+
+
+def _build_file(holder: Package) -> SourceText | None:
+    """Return the file that says what is installed; None where it does not say all."""
+    sources = []
+    for name, not_plain in _NOT_PLAIN.items():
+        source = holder.read(name) if holder.exists(name) else None
+        if isinstance(source, SourceText):
+            if not_plain is not None and not_plain.search(source.text):
+                return None
+            sources.append(source)
+    text = "\n".join(source.text for source in sources)
+    return SourceText(sources[0].file, text) if sources else None
+
+
+def _missing(program: str, build: SourceText) -> str:
+    """Return why a build file does not install a program; empty where it may."""
+    name = re.escape(program)
+    if re.search(rf"(?<![\w.]){name}(?![\w]|\.py\b)", build.text):
+        return ""
+    if re.search(rf"(?<![\w.]){name}\.py\b", build.text):
+        return f"{build.file} installs {program}.py, with the ending of the file"
+    return f"nothing in {build.file} builds or installs it"
+
+
+def _node(executable: str, build: str, mark: str = "", package: str = "acme_arm_bringup") -> object:
+    return {
+        "@ros2": f"        Node(package='{package}', executable='{executable}'),{mark}",
+        "@profile": "ros2",
+        "CMakeLists.txt": f"project(acme_arm_bringup)\n{build}\nament_package()\n",
+    }
+
+
+_SETUP_PY = """from glob import glob
+from setuptools import setup
+setup(name='acme_nodes', data_files=[('share/acme_nodes/launch', glob('launch/*'))],
+      entry_points={'console_scripts': ['watch = acme_nodes.watch:main']})
+"""
+
+
+def _python(executable: str, mark: str = "") -> object:
+    return {
+        "@ros2": f"        Node(package='acme_nodes', executable='{executable}'),{mark}",
+        "@profile": "ros2",
+        "../acme_nodes/package.xml": "<package><name>acme_nodes</name></package>",
+        "../acme_nodes/setup.py": _SETUP_PY,
+    }
+
+
+_MARK = "  # ^ LCH018"
+_TARGET = "add_executable(driver src/a.cpp)\ninstall(TARGETS driver DESTINATION lib/x)"
+GOOD = [
+    _node("driver", _TARGET),
+    _node("watch.py", "install(PROGRAMS scripts/watch.py DESTINATION lib/x)"),
+    _node("watch", "file(GLOB scripts scripts/*)\ninstall(PROGRAMS ${scripts} DESTINATION lib/x)"),
+    _node("driver", "", package="acme_driver"),
+    _python("watch"),
+]
+BAD = [
+    _python("watcher", _MARK),
+    _node("drivr", _TARGET, _MARK),
+    _node("watch", "install(PROGRAMS scripts/watch.py DESTINATION lib/x)", _MARK),
+]
