@@ -1,0 +1,58 @@
+"""A continuous joint states limits of its angle, which nobody keeps.
+
+Readers of URDF ignore `lower` and `upper` of a continuous joint: simulators and planners let it
+turn for ever. Limits of a whole turn and more are harmless, and so are two zeros; none is reported.
+
+Fix: write `type="revolute"` if the joint has an end, else remove `lower` and `upper`.
+Source: URDF specification, joint: a continuous joint has no limits; what libsdformat 12 makes of
+such a joint.
+"""
+
+import math
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.values import parse_number
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_TURN = 2 * math.pi
+_NEARLY = 0.999
+"""Limits are written with few digits."""
+
+
+@rule("URD029", "limits-of-continuous-joint", Severity.WARNING, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report limits of less than a turn."""
+    for joint in description.robot.joints:
+        limit = joint.element.child("limit")
+        if joint.type.value != "continuous" or limit is None:
+            continue
+        ends = [parse_number((limit.get(name) or "0").strip()) for name in ("lower", "upper")]
+        if None in ends:
+            continue
+        lower, upper = (end or 0.0 for end in ends)
+        if 0.0 < upper - lower < _NEARLY * _TURN:
+            yield finding(
+                limit,
+                f"joint {joint.name.value!r} turns beyond its limits {lower:g} and {upper:g} rad: "
+                "a continuous joint has none, expected a revolute one",
+                key="limits of a continuous joint",
+            )
+
+
+def _wheel(kind: str, limits: str, mark: str = "") -> dict[str, str]:
+    return {
+        "@urdf": f"""<link name="hand"/>
+<joint name="wrist" type="{kind}"><parent link="upper_arm"/><child link="hand"/>
+<axis xyz="0 0 1"/>
+<limit {limits} effort="1" velocity="1"/>{mark}
+</joint>"""
+    }
+
+
+GOOD = [
+    _wheel("continuous", 'lower="0" upper="0"'),
+    _wheel("continuous", 'lower="-6.28" upper="6.28"'),
+    _wheel("continuous", ""),
+    _wheel("revolute", 'lower="-1" upper="1"'),
+]
+BAD = [_wheel("continuous", 'lower="-1.57" upper="1.57"', "  <!-- ^ URD029 -->")]
