@@ -309,6 +309,17 @@ def test_no_is_said_in_one_shape(client: TestClient, method: str, path: str, sta
     assert all(text.endswith(".") for text in said.values())
 
 
+def test_a_browser_gets_a_page_that_says_why(client: TestClient) -> None:
+    opened = client.get("/api/checks/nobody/report.html", headers={"accept": "text/html,*/*"})
+    assert opened.status_code == 404
+    assert opened.headers["content-type"].startswith("text/html")
+    assert "accept" in opened.headers["vary"].lower()
+    asked = client.get("/api/checks/nobody/report.html", headers={"accept": "*/*"})
+    assert asked.headers["content-type"] == "application/json"
+    sent = client.post("/api/checks", headers={"accept": "text/html"})
+    assert sent.headers["content-type"] == "application/json"
+
+
 def test_the_description_names_every_route_and_its_refusals(client: TestClient) -> None:
     paths = client.get("/api/openapi.json").json()["paths"]
     assert {f"/api/checks/{{id}}{each}" for each in ("", "/events", "/report.json")} <= set(paths)

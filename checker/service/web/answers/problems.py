@@ -42,14 +42,21 @@ def refusal_answer(request: Request, refused: Refused) -> Response:
     """Return the answer that says no."""
     request.scope.setdefault("state", {})[CAUSE] = refused.cause
     answer: Response
-    if request.scope["path"].startswith(_FOR_PROGRAMS):
+    if request.scope["path"].startswith(_FOR_PROGRAMS) and not _is_read_by_people(request):
         problem = Problem(error=refused.error, advice=refused.advice)
         answer = JSONResponse(problem.model_dump(), refused.status)
     else:
         status, error, advice = refused.status, refused.error, refused.advice
         answer = html("error.html.j2", status=status, sentence=error, advice=advice)
     answer.headers.update(refused.headers)
+    answer.headers.setdefault("vary", "Accept")
     return answer
+
+
+def _is_read_by_people(request: Request) -> bool:
+    """Whether a browser opens an address of the API, such as that of a report."""
+    opens = request.scope["method"] in ("GET", "HEAD")
+    return opens and "text/html" in request.headers.get("accept", "")
 
 
 def say_no_by(app: FastAPI) -> None:
