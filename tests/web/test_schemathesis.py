@@ -39,7 +39,14 @@ DESCRIPTION = schemathesis.openapi.from_asgi(
 # A form may be right by its schema, which knows no archives, and be refused all the same.
 WITHOUT = [checks.positive_data_acceptance]
 MODEL = b"<sdf version='1.6'/>"
-PACKAGE = {"name": "rover", "verdict": "ready", "errors": 0, "warnings": 0, "infos": 0}
+PACKAGE = {
+    "name": "rover",
+    "kind": "robot",
+    "verdict": "ready",
+    "errors": 0,
+    "warnings": 0,
+    "infos": 0,
+}
 REPORTS = ("report.json", "report.sarif", "report.html", "robot.glb")
 
 
