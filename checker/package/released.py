@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
+from itertools import takewhile
 from types import MappingProxyType
 
 from checker.base.resources import table
@@ -20,10 +21,45 @@ def is_of_system(name: str) -> bool:
     return name in _system()
 
 
-def released_names(distro: str) -> Suggestions:
-    """Return what a dependency may name in a distribution, to look for misspelt names in."""
-    own = [name for name, having in _released().items() if distro in having]
-    return Suggestions([*own, *_system()])
+_SHORTEST = 8
+"""Characters; shorter names are near to many others."""
+_PREFIX = 3
+"""Characters that are the same: the beginning of a name often tells whose package it is."""
+
+
+class ReleasedNames:
+    """What a dependency may name in a distribution; misspelt names are looked up in it."""
+
+    def __init__(self, distro: str) -> None:
+        own = [name for name, having in _released().items() if distro in having]
+        self._known = {*own, *_system()}
+        self._suggestions = Suggestions(sorted(self._known))
+
+    def meant(self, name: str) -> str | None:
+        """Return the name that another is a slip of the pen for; None where it may be its own.
+
+        Names of packages that are not available are near to others by chance: one letter may be
+        wrong, missing, too many or in the place of its neighbour, or `-` and `_` are confused.
+        """
+        for spelled in (name.replace("-", "_"), name.replace("_", "-")):
+            if spelled != name and spelled in self._known:
+                return spelled
+        near = self._suggestions.sure(name) if len(name) >= _SHORTEST else None
+        alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)
+        return near if alike else None
+
+
+def _shared(one: str, other: str) -> int:
+    """Return with how many characters two words begin alike."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
+
+
+def _is_one_slip(name: str, known: str) -> bool:
+    begin = _shared(name, known)
+    end = _shared(name[begin:][::-1], known[begin:][::-1])
+    rest = name[begin : len(name) - end], known[begin : len(known) - end]
+    is_swap = len(rest[0]) == 2 and rest[0] == rest[1][::-1]
+    return is_swap or max(map(len, rest)) <= 1
 
 
 @cache

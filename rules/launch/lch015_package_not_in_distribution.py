@@ -14,10 +14,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.base.resources import table
-from checker.base.words import Suggestions
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, is_known, share_path
 from checker.package.package import Package
-from checker.package.released import distributions_with, released_names
+from checker.package.released import ReleasedNames, distributions_with
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -25,7 +24,7 @@ from checker.source.text import Located
 @rule("LCH015", "package-not-in-distribution", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
     """Report names that are known to be missing in the distribution."""
-    released = released_names(context.distro)
+    released = ReleasedNames(context.distro)
     for graph in launch.entries:
         for name, program in _started(graph):
             if package.workspace.package(name.value) is None and is_known(name.value):
@@ -34,7 +33,7 @@ def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
 
 
 def _missing(
-    name: str, program: str, distro: str, released: Suggestions
+    name: str, program: str, distro: str, released: ReleasedNames
 ) -> Iterator[tuple[str, str]]:
     """Yield what a distribution does not have, the package or its program, and what to write."""
     removed: Mapping[str, Any] = table("removed_packages")["names"]
@@ -44,7 +43,7 @@ def _missing(
         shown = f"program {executable!r} in {what!r}" if executable else f"package {what!r}"
         instead = removed[key]["instead"]
         yield key, f"{distro.capitalize()} has no {shown}: expected {instead}"
-    elif key is None and not distributions_with(name) and (meant := released.sure(name)):
+    elif key is None and not distributions_with(name) and (meant := released.meant(name)):
         yield name, f"there is no package {name!r}; did you mean {meant!r}?"
 
 

@@ -22,7 +22,10 @@ _CMAKE = re.compile(
     r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject|\bFetchContent",
     re.IGNORECASE,
 )
-_SETUP = re.compile(r"[\"']lib/")
+_COMPUTED = re.compile(r"\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{")
+"""A call of CMake with a variable, beside the name of the project."""
+_PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
+_SETUP = re.compile(r"[\"']lib/|\bf[\"']|\.format\(|\bfor\b")
 _NOT_PLAIN = {
     "CMakeLists.txt": _CMAKE,
     "setup.py": _SETUP,
@@ -63,9 +66,12 @@ def _build_file(holder: Package) -> SourceText | None:
     for name, not_plain in _NOT_PLAIN.items():
         source = holder.read(name) if holder.exists(name) else None
         if isinstance(source, SourceText):
-            if not_plain is not None and not_plain.search(source.text):
+            plain = _PROJECT.sub(holder.declared_name, source.text)
+            if not_plain is not None and not_plain.search(plain):
                 return None
-            sources.append(source)
+            if name == "CMakeLists.txt" and _COMPUTED.search(plain):
+                return None
+            sources.append(SourceText(name, plain))
     text = "\n".join(source.text for source in sources)
     return SourceText(sources[0].file, text) if sources else None
 
@@ -111,6 +117,8 @@ GOOD = [
     _node("watch.py", "install(PROGRAMS scripts/watch.py DESTINATION lib/x)"),
     _node("watch", "file(GLOB scripts scripts/*)\ninstall(PROGRAMS ${scripts} DESTINATION lib/x)"),
     _node("driver", "", package="acme_driver"),
+    _node("acme_arm_bringup_node", "add_executable(${PROJECT_NAME}_node a.cpp)"),
+    _node("driver", "set(name driver_2)\nadd_executable(${name} a.cpp)"),
     _python("watch"),
 ]
 BAD = [

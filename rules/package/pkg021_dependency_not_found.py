@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.base.resources import table
 from checker.package.manifests import Dependency, Paperwork
 from checker.package.package import Package
-from checker.package.released import distributions_with, is_of_system, released_names
+from checker.package.released import ReleasedNames, distributions_with, is_of_system
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
@@ -28,13 +28,13 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         for dependency in paperwork.manifest.dependencies
         if not dependency.is_conditional and not _is_found(package, dependency, context.distro)
     ]
-    names, seen, others = released_names(context.distro), set[str](), list[Dependency]()
+    names, seen, others = ReleasedNames(context.distro), set[str](), list[Dependency]()
     for dependency in absent:
         name = dependency.package.value
         if name in seen:
             continue
         seen.add(name)
-        meant = None if distributions_with(name) else names.sure(name)
+        meant = None if distributions_with(name) else names.meant(name)
         if meant is None:
             others.append(dependency)
         else:

@@ -1,0 +1,32 @@
+"""Names that ROS distributions have released, and slips of the pen for them."""
+
+from __future__ import annotations
+
+import pytest
+
+from checker.package.released import ReleasedNames, distributions_with, is_of_system
+
+
+def test_who_has_a_package() -> None:
+    assert "jazzy" in distributions_with("robot_state_publisher")
+    assert "jazzy" not in distributions_with("gazebo_ros")
+    assert "humble" in distributions_with("gazebo_ros")
+    assert distributions_with("acme_rover_bringup") == ()
+    assert is_of_system("eigen")
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("robot_state_publsher", "robot_state_publisher"),
+        ("robot_state_publihser", "robot_state_publisher"),
+        ("pcl-ros", "pcl_ros"),
+        ("nav2_bringups", "nav2_bringup"),
+        # Packages of a team's own are near to others by chance.
+        ("arx_msgs", None),
+        ("tb_msgs", None),
+        ("acme_rover_bringup", None),
+    ],
+)
+def test_a_slip_of_the_pen(name: str, meant: str | None) -> None:
+    assert ReleasedNames("jazzy").meant(name) == meant
