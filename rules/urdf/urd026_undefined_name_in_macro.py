@@ -25,7 +25,8 @@ from checker.source.xml import Element, XmlDocument
 _XACRO = "xacro:"
 _MACRO, _PROPERTY, _INCLUDE = "xacro:macro", "xacro:property", "xacro:include"
 _EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
-_TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"")
+_TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"|\$\([^()]{0,200}\)")
+"""Quoted text, and `$(arg …)`, which is replaced before anything is evaluated."""
 _NAME = re.compile(r"(?<![\w.])([A-Za-z_]\w{0,100})(?!\w|\s{0,8}=[^=])")
 _BINDS = re.compile(r"\bfor\b|\blambda\b")
 _PARAMETER = re.compile(r"(?:^|\s)\*{0,2}([A-Za-z_]\w{0,100})(?=\s|$|:?=)")
@@ -156,6 +157,7 @@ GOOD = [
     _arm('<link name="${prefix}finger"/><link name="${width * pi}"/>'),
     _arm("<link name=\"${'left' if prefix == 'l' else 'right'}\"/>"),
     _arm('<link name="${max(width, 2)} {other}"/>'),
+    _arm('<link name="${$(arg size) * width}"/>'),
     _arm('<link name="${sum([x for x in sizes])}"/>'),
 ]
 BAD = [

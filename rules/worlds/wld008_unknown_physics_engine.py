@@ -9,6 +9,8 @@ Fix: write what the message names, or remove `<engine>` for the default, DART.
 Source: gz-sim, Physics.cc; gz-physics, libraries of its releases (`physics_engines.json`).
 """
 
+import re
+
 from checker.base.words import Suggestions
 from checker.model.physics_engine import engine_name, libraries_of
 from checker.model.plugin_library import library_stem, release_label
@@ -17,6 +19,7 @@ from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
+_NUMBERED = re.compile(r"-physics\d+-")
 _IN_PLACE = "static://"
 """An engine that is linked into the program."""
 
@@ -28,7 +31,7 @@ def check(world: World, package: Package, context: Context) -> Findings:
     known = libraries_of(context.release)
     if name is None or not context.of_gazebo_sim or name.value.startswith(_IN_PLACE):
         return
-    stem = library_stem(name.value)
+    stem = _NUMBERED.sub("-physics-", library_stem(name.value))
     if stem in known or stem in lenders_of(package).libraries():
         return
     hint = Suggestions(known).hint(stem) or f"; expected one of {', '.join(known)}"
@@ -54,7 +57,7 @@ def _world(engine: str, mark: str = "", profile: str = "gazebo-harmonic") -> dic
 _MARK = "  <!-- ^ WLD008 -->"
 GOOD = [
     _world("gz-physics-bullet-featherstone-plugin"),
-    _world("libgz-physics-tpe-plugin.so"),
+    _world("libgz-physics7-tpe-plugin.so"),
     _world("ignition-physics-dartsim-plugin"),
     _world("static://gz::physics::dartsim::Plugin"),
     _world("ignition-physics-tpe-plugin", profile="gazebo-fortress"),
