@@ -3,8 +3,8 @@
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
-with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot of
-URDF that stands on legs is not judged: its controller decides how it stands.
+with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot
+of URDF that stands on legs is not judged: its controller decides how it stands.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
 wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
