@@ -61,7 +61,8 @@ async function start(more = {}) {
 }
 
 function received(method) {
-  const lines = fs.existsSync(process.env.RECORD) ? fs.readFileSync(process.env.RECORD, "utf8").trim().split("\n") : [];
+  const text = fs.existsSync(process.env.RECORD) ? fs.readFileSync(process.env.RECORD, "utf8") : "";
+  const lines = text.split("\n").slice(0, -1); // the last one may be under way
   return lines.map((line) => JSON.parse(line)).filter((message) => message.method === method);
 }
 
