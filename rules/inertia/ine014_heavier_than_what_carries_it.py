@@ -17,6 +17,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.record import Record
+from checker.model.components import Link
 from checker.model.tree import WORLD
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import spanning_tree_of
@@ -42,7 +43,7 @@ def check(
         least: Mass in kg; lighter bases may be placeholders, and nothing is compared with them.
     """
     robot = masses.robot
-    if robot.is_static or robot.is_prop:
+    if robot.is_static or robot.is_prop or any(map(_has_no_mass, robot.links)):
         return
     wheels = {wheel.scoped_name for wheel in robot.wheels}
     for part in _parts(masses):
@@ -51,6 +52,11 @@ def check(
         counts = is_small or not part.is_fixed
         if counts and part.carrying >= least and part.mass > ratio * part.carrying:
             yield from _say(masses, part, ratio)
+
+
+def _has_no_mass(link: Link) -> bool:
+    """Whether a link states a mass that is none: what it carries weighs more by that alone."""
+    return link.inertial is not None and link.inertial.mass.value <= 0.0
 
 
 def _is_small(name: str) -> bool:

@@ -22,6 +22,7 @@ _CMAKE = re.compile(
     r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject|\bFetchContent",
     re.IGNORECASE,
 )
+_WORD = re.compile(r"[\w.-]+")
 _COMPUTED = re.compile(r"\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{")
 """A call of CMake with a variable, beside the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
@@ -78,10 +79,10 @@ def _build_file(holder: Package) -> SourceText | None:
 
 def _missing(program: str, build: SourceText) -> str:
     """Return why a build file does not install a program; empty where it may."""
-    name = re.escape(program)
-    if re.search(rf"(?<![\w.]){name}(?![\w]|\.py\b)", build.text):
+    words = set(_WORD.findall(build.text))
+    if program in words:
         return ""
-    if re.search(rf"(?<![\w.]){name}\.py\b", build.text):
+    if f"{program}.py" in words:
         return f"{build.file} installs {program}.py, with the ending of the file"
     return f"nothing in {build.file} builds or installs it"
 

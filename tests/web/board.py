@@ -24,7 +24,7 @@ SECRET = "only-the-sender-has-it"  # noqa: S105
 SENDER = {"Subt-Check-Secret": SECRET, "Cookie": f"subt-check-secret={SECRET}"}
 """What a program and a browser send of a check that they have ordered."""
 COUNTS = {"errors": 5, "warnings": 1, "infos": 0}
-ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", "kind": "robot", **COUNTS}
+ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", **COUNTS}
 QUEUED = State(ID, Order("b" * 64, "rover.zip"), Stage.QUEUED, expires=2e9)
 WORDS = "Not ready: 5 errors to fix"
 DONE = replace(QUEUED, stage=Stage.DONE, result=KEY, packages=(ROVER,), words=WORDS)

@@ -14,6 +14,7 @@ from checker.expand.xacro.files import named_path, path_of
 from checker.package.package import Package
 from checker.source.xml import Element, XmlDocument
 
+_VALUE = re.compile(r"[\w-]{1,100}")
 _ARGUMENT = re.compile(r"\$\(arg\s{1,8}([\w.-]{1,100})\s{0,8}\)")
 _WHOLE = re.compile(r"\$\{\s{0,8}(?:not\s{1,8})?([A-Za-z_]\w{0,100})\s{0,8}\}")
 _COMPARED = re.compile(
@@ -100,8 +101,9 @@ def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str
     path = named_path(folder, _ARGUMENT.sub(mark, name))
     if path is None:
         return
-    before, *_, after = re.escape(path).split(mark)
-    pattern = re.compile(rf"{before}([\w-]{{1,100}}){after}")
+    before, after = path.partition(mark)[0], path.rpartition(mark)[2]
     for file in package.index.with_suffix(".xacro", ".urdf"):
-        if match := pattern.fullmatch(path_of(package, file.path)):
-            yield arguments.copy().pop(), match[1]
+        whole = path_of(package, file.path)
+        value = whole.removeprefix(before).removesuffix(after)
+        if whole == f"{before}{value}{after}" and _VALUE.fullmatch(value):
+            yield arguments.copy().pop(), value
