@@ -131,10 +131,8 @@ class Plugin(Part):
 
     def at(self, path: str) -> Iterator[Located[str]]:
         """Yield what stands at a path below: `a/b` in nested elements, `a/@x` in an attribute."""
-        *steps, last = path.split("/")
-        holders = [self.element]
-        for step in steps:
-            holders = [child for holder in holders for child in holder.all(step)]
+        around, _, last = path.rpartition("/")
+        holders = self.element.at(around) if around else [self.element]
         for holder in holders:
             if last.startswith("@"):
                 attribute = holder.attribute(last[1:])

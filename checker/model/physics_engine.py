@@ -14,7 +14,8 @@ from checker.source.text import Located
 if TYPE_CHECKING:
     from checker.model.sdf.world import World
 
-_LIBRARY = re.compile(r"(?:gz|ignition)-physics\d*-([\w-]+)-plugin")
+_LIBRARY = re.compile(r"(?:gz|ignition)-physics-([\w-]+)-plugin")
+_NUMBERED = re.compile(r"-physics\d+-")
 
 
 class PhysicsEngine(Record):
@@ -32,12 +33,12 @@ class PhysicsEngine(Record):
 
     def has_mimic(self, release: str) -> bool:
         """Whether `<mimic>` couples joints in a Gazebo release."""
-        return release in _entry(self.key)["mimic"]
+        return release in _engines()[self.key]["mimic"]
 
     @property
     def lacks(self) -> Mapping[str, Any]:
         """What it cannot simulate, by kind."""
-        lacking: Mapping[str, Any] = _entry(self.key)["lacks"]
+        lacking: Mapping[str, Any] = _engines()[self.key]["lacks"]
         return lacking
 
 
@@ -52,8 +53,13 @@ def engine_of(world: World | None, told: str = "") -> PhysicsEngine | None:
     name = told or (named.value if named is not None else "")
     if not name:
         return _engine(table("physics_engines")["default"], is_default=True)
-    match = _LIBRARY.fullmatch(library_stem(name))
+    match = _LIBRARY.fullmatch(engine_library(name))
     return _engine(match[1], is_default=False) if match else None
+
+
+def engine_library(filename: str) -> str:
+    """Return what identifies the library of an engine: its stem, without the release's number."""
+    return _NUMBERED.sub("-physics-", library_stem(filename))
 
 
 def libraries_of(release: str) -> list[str]:
@@ -66,11 +72,6 @@ def libraries_of(release: str) -> list[str]:
 def _engines() -> Mapping[str, Any]:
     engines: Mapping[str, Any] = table("physics_engines")["engines"]
     return engines
-
-
-def _entry(key: str) -> Mapping[str, Any]:
-    entry: Mapping[str, Any] = _engines()[key]
-    return entry
 
 
 def _engine(key: str, *, is_default: bool) -> PhysicsEngine | None:

@@ -15,7 +15,7 @@ from checker.package.kind import (
     holds_loose_models,
     looks_like_package,
 )
-from checker.package.no_package import found_in, said_of_file
+from checker.package.no_package import WHAT_TO_GIVE, found_in, said_of_file
 from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
 from checker.package.workspace import Workspace
@@ -30,7 +30,6 @@ SUBMISSIONS = "submitted_models"
 FILE_LEVELS = 6
 # Archives of a repository wrap everything in a folder, sometimes in two.
 MAX_WRAPPERS = 3
-_WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
 
 
 class Skipped(Record):
@@ -105,7 +104,7 @@ def _resolved(path: Path) -> Path:
 
 def _unpack(path: Path, real: Path, target: Path, shown: str, limits: ArchiveLimits | None) -> None:
     if not real.is_file():
-        raise UnreadableInput(path, "is not a regular file", _WHAT_TO_GIVE)
+        raise UnreadableInput(path, "is not a regular file", WHAT_TO_GIVE)
     from checker.package.archives.archive import unpack_archive
 
     try:
@@ -139,7 +138,7 @@ def _unwrapped(folder: Path) -> Path:
 def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened:
     try:
         if not any(folder.iterdir()):
-            raise UnreadableInput(path, "is an empty folder", _WHAT_TO_GIVE)
+            raise UnreadableInput(path, "is an empty folder", WHAT_TO_GIVE)
     except OSError as error:
         reason = f"cannot be listed: {error.strerror}"
         raise UnreadableInput(path, reason, "check its permissions") from None
@@ -152,7 +151,7 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
         skipped = tuple(_skipped(folder, found)) if around else ()
         return _opened(found, folder, skipped, within)
     enclosing = enclosing_package(folder)
-    advice = f"give the package folder {enclosing}" if enclosing else _WHAT_TO_GIVE
+    advice = f"give the package folder {enclosing}" if enclosing else WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
         missing = f"contains no package outside of what {found.ignored[0]} leaves out"

@@ -32,7 +32,7 @@ _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
     _CAD: ("a CAD file", "export the robot as URDF or SDF, and give that with its meshes"),
 }
 """What files are by the ends of their names, the kind that explains most first."""
-_WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
+WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
 
 
 class Instead(Record):
@@ -53,7 +53,7 @@ def said_of_file(name: str) -> tuple[str, str]:
     """Return why a file that is neither archive nor model is not checked, and what to give."""
     found = _of([name])
     if found is None:
-        return "is not a package, archive or model file", _WHAT_TO_GIVE
+        return "is not a package, archive or model file", WHAT_TO_GIVE
     return f"is {found.kind}, not a package, archive or model file", found.advice
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, cached_property
 from itertools import takewhile
 from types import MappingProxyType
 
@@ -31,9 +31,16 @@ class ReleasedNames:
     """What a dependency may name in a distribution; misspelt names are looked up in it."""
 
     def __init__(self, distro: str) -> None:
-        own = [name for name, having in _released().items() if distro in having]
-        self._known = {*own, *_system()}
-        self._suggestions = Suggestions(sorted(self._known))
+        self._distro = distro
+
+    @cached_property
+    def _suggestions(self) -> Suggestions:
+        """Those of one check: their effort is bounded. Most packages need none."""
+        own = [name for name, having in _released().items() if self._distro in having]
+        return Suggestions(sorted({*own, *_system()}))
+
+    def _has(self, name: str) -> bool:
+        return self._distro in distributions_with(name) or is_of_system(name)
 
     def meant(self, name: str) -> str | None:
         """Return the name that another is a slip of the pen for; None where it may be its own.
@@ -42,7 +49,7 @@ class ReleasedNames:
         wrong, missing, too many or in the place of its neighbour, or `-` and `_` are confused.
         """
         for spelled in (name.replace("-", "_"), name.replace("_", "-")):
-            if spelled != name and spelled in self._known:
+            if spelled != name and self._has(spelled):
                 return spelled
         near = self._suggestions.sure(name) if len(name) >= _SHORTEST else None
         alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)

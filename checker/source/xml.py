@@ -208,6 +208,13 @@ class Element(Record, eq=False, dict=True):
             element = next((c for c in element.children if c.tag == tag), None) if element else None
         return element
 
+    def at(self, path: str) -> list[Element]:
+        """Return all elements at a path below: `a/b`, for each `a` each of its `b`."""
+        found = [self]
+        for tag in path.split("/"):
+            found = [child for element in found for child in element.all(tag)]
+        return found
+
     def descendants(self, tag: str | None = None) -> Iterator[Element]:
         """Yield the elements below this one, in document order."""
         for node in self.node.iterdescendants(etree.Element):

@@ -77,7 +77,7 @@ def check(
 
 
 def _stands_on_legs(masses: MassProperties) -> bool:
-    """Whether all that touches the ground hangs on as many hinges as a leg has."""
+    """Whether each part on the ground is connected to the base by as many hinges as a leg has."""
     above = spanning_tree_of(masses.robot).by
     return bool(masses.standing) and all(
         sum(_bends(masses.robot, tie) for tie in _chain(above, name)) >= _HINGES

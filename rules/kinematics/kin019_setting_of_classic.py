@@ -38,13 +38,11 @@ def check(robot: Robot, context: Context) -> Findings:
 def _found(robot: Robot, paths: list[str]) -> Iterator[Element]:
     """Yield the elements at the paths, which start at `<model>` or `<robot>`."""
     for path in paths:
-        *steps, last = path.split("/")
-        holders = [robot.element]
-        for step in steps:
-            holders = [child for holder in holders for child in holder.all(step)]
-        for holder in holders:
-            if robot.format == "sdf" or holder.get("reference"):
-                yield from (it for it in holder.all(last) if it.value.strip() not in _FALSE)
+        for element in robot.element.at(path):
+            holder = element.parent
+            counts = robot.format == "sdf" or (holder is not None and holder.get("reference"))
+            if counts and element.value.strip() not in _FALSE:
+                yield element
 
 
 def _arm(contact: str = "", joint: str = "", link: str = "") -> str:

@@ -18,13 +18,13 @@ from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText
 
-_CMAKE = re.compile(
-    r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject|\bFetchContent",
-    re.IGNORECASE,
-)
 _WORD = re.compile(r"[\w.-]+")
-_COMPUTED = re.compile(r"\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{")
-"""A call of CMake with a variable, beside the name of the project."""
+_CMAKE = re.compile(
+    r"(?i:\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject"
+    r"|\bFetchContent)"
+    r"|\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{"
+)
+"""Among others a call with a variable, beside the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
 _SETUP = re.compile(r"[\"']lib/|\bf[\"']|\.format\(|\bfor\b")
 _NOT_PLAIN = {
@@ -69,8 +69,6 @@ def _build_file(holder: Package) -> SourceText | None:
         if isinstance(source, SourceText):
             plain = _PROJECT.sub(holder.declared_name, source.text)
             if not_plain is not None and not_plain.search(plain):
-                return None
-            if name == "CMakeLists.txt" and _COMPUTED.search(plain):
                 return None
             sources.append(SourceText(name, plain))
     text = "\n".join(source.text for source in sources)

@@ -11,13 +11,13 @@ Source: general knowledge; what `${prefix}` comes to is not known before somebod
 import re
 from collections.abc import Iterator
 
+from checker.model.urdf.macro_calls import macro_around
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 _PREFIXED = re.compile(r"(\$\{\w{0,40}prefix\}|\$\(arg \w{0,40}prefix\))(.{1,200})", re.DOTALL)
-_MACRO = "xacro:macro"
 _CONTROL = ("ros2_control", "transmission")
 _ATTRIBUTES = (("mimic", "joint"), ("gazebo", "reference"), ("parent", "link"), ("child", "link"))
 _TEXTS = ("frame_id", "frameName", "joint", "Joint", "joint_name", "jointName", "bodyName")
@@ -41,7 +41,7 @@ def check(package: Package) -> Findings:
     for document in documents:
         scopes: dict[Element | None, list[Element]] = {}
         for element in document.elements:
-            scopes.setdefault(_macro_of(element), []).append(element)
+            scopes.setdefault(macro_around(element), []).append(element)
         for elements in scopes.values():
             yield from _lacking(elements, plain)
 
@@ -88,14 +88,6 @@ def _named(element: Element) -> Iterator[Located[str]]:
             yield name
     elif not element.children and element.tag.endswith(_TEXTS):
         yield element.text
-
-
-def _macro_of(element: Element) -> Element | None:
-    """Return the macro around an element."""
-    around = element.parent
-    while around is not None and around.tag != _MACRO:
-        around = around.parent
-    return around
 
 
 def _gripper(inside: str, more: str = "") -> object:

@@ -1,9 +1,9 @@
 """A name in the expressions of a macro that nothing defines.
 
-No robot here calls the macro, so nobody sees it: xacro ends with "name 'x' is not defined" as soon
-as somebody does. A name counts as defined where any file at hand makes it: a property, or a
-parameter of any macro, since a macro sees the names of whoever calls it. Packages that include
-files which are not available are not judged. Names in braces without a dollar sign, such as
+No available file calls the macro, so the fault does not show: xacro ends with "name 'x' is not
+defined" when the macro is called. A name counts as defined where any available file has a property
+of that name, or a macro with such a parameter: a macro sees the names of its caller. Packages that
+include files which are not available are not judged. Names in braces without a dollar sign, such as
 `{prefix}`, are kept as text, and so end up in the name of a link.
 
 Fix: define the property, correct the name, or write `${prefix}`.
@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator
 
 from checker.base.words import Suggestions
 from checker.expand.xacro.files import local_path, named_path, path_of
+from checker.model.urdf.macro_calls import macro_around
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element, XmlDocument
@@ -78,7 +79,8 @@ def _called(documents: Iterable[XmlDocument]) -> set[str]:
     for document in documents:
         for element in document.elements:
             if element.tag.startswith(_XACRO):
-                around = _macro_around(element)
+                macro = macro_around(element)
+                around = _name(macro) if macro is not None else ""
                 calls.setdefault(around, set()).add(element.tag.removeprefix(_XACRO))
     called, waiting = set[str](), [""]
     while waiting:
@@ -86,14 +88,6 @@ def _called(documents: Iterable[XmlDocument]) -> set[str]:
         called |= new
         waiting += new
     return called
-
-
-def _macro_around(element: Element) -> str:
-    """Return the name of the macro that an element stands in; empty outside of macros."""
-    around = element.parent
-    while around is not None and around.tag != _MACRO:
-        around = around.parent
-    return _name(around) if around is not None else ""
 
 
 def _name(macro: Element) -> str:
@@ -119,7 +113,7 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
             for name in _names(_EXPRESSION.findall(value)) - defined - _SYMBOLS:
                 yield finding(
                     place,
-                    f"{name!r} {where} is not defined: xacro ends as soon as somebody calls it"
+                    f"{name!r} {where} is not defined: xacro ends when it is called"
                     f"{suggestions.hint(name)}",
                     key=name,
                 )

@@ -9,17 +9,14 @@ Fix: write what the message names, or remove `<engine>` for the default, DART.
 Source: gz-sim, Physics.cc; gz-physics, libraries of its releases (`physics_engines.json`).
 """
 
-import re
-
 from checker.base.words import Suggestions
-from checker.model.physics_engine import engine_name, libraries_of
-from checker.model.plugin_library import library_stem, release_label
+from checker.model.physics_engine import engine_library, engine_name, libraries_of
+from checker.model.plugin_library import release_label
 from checker.model.sdf.world import World
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
-_NUMBERED = re.compile(r"-physics\d+-")
 _IN_PLACE = "static://"
 """An engine that is linked into the program."""
 
@@ -31,7 +28,7 @@ def check(world: World, package: Package, context: Context) -> Findings:
     known = libraries_of(context.release)
     if name is None or not context.of_gazebo_sim or name.value.startswith(_IN_PLACE):
         return
-    stem = _NUMBERED.sub("-physics-", library_stem(name.value))
+    stem = engine_library(name.value)
     if stem in known or stem in lenders_of(package).libraries():
         return
     hint = Suggestions(known).hint(stem) or f"; expected one of {', '.join(known)}"

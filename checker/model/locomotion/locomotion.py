@@ -136,6 +136,11 @@ class WheelDrive(Record, eq=False):
         """What tells its plugin from others of the robot."""
         return self.plugin.path if isinstance(self.plugin, Controller) else self.plugin.element.path
 
+    @property
+    def axis(self) -> Vector | None:
+        """Direction of the first wheel's axis that is known; None where none is."""
+        return next((wheel.axis for wheel in self.wheels if wheel.axis is not None), None)
+
     def on(self, side: Side) -> tuple[Wheel, ...]:
         """Return the wheels that the plugin says are on one side."""
         return tuple(wheel for wheel in self.wheels if wheel.side is side)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _MIDDLE = 0.1
 """Share of the robot's width within which a wheel is in its middle: a caster."""
-_FARTHEST = 1e6
+FARTHEST = 1e6
 """Metres; numbers beyond are no places."""
 
 
@@ -80,7 +80,7 @@ def _feet(robot: Robot, wheels: Sequence[RollingPart]) -> Iterator[Foot]:
         along, beside = _dot(part.box.centre, forward), at - (left + right) / 2
         in_middle = abs(beside) <= _MIDDLE * (left - right)
         side = 0 if in_middle else 1 if beside > 0 else -1
-        if abs(along) < _FARTHEST:
+        if abs(along) < FARTHEST:
             yield Foot(part, along, side, part.box.low[2])
 
 
@@ -173,7 +173,7 @@ def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
 
 
 def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
-    axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
+    axis = drive.axis
     left, right = ([middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
     true = _apart(left, right, axis) if axis is not None else None
     if true is not None and drive.separation_tag:

@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
-from checker.model.locomotion.wheel_positions import middle_of
+from checker.model.locomotion.wheel_positions import FARTHEST, middle_of
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
-
-_FARTHEST = 1e6
-"""Metres; numbers beyond are no places."""
 
 
 class OutOfLine(Record, eq=False):
@@ -46,7 +43,7 @@ def wheels_out_of_line(robot: Robot, tolerance: float) -> Iterator[OutOfLine]:
     next one of its side; a step that both sides have is meant so.
     """
     for drive in robot.locomotion.wheel_drives:
-        left, right = (list(_in_order(robot, drive, side)) for side in Side)
+        left, right = (_in_order(robot, drive, side) for side in Side)
         if len(left) != len(right) or len(left) != len(drive.on(Side.LEFT)):
             continue
         for pair in zip(pairwise(left), pairwise(right), strict=True):
@@ -59,15 +56,15 @@ def wheels_out_of_line(robot: Robot, tolerance: float) -> Iterator[OutOfLine]:
                 yield OutOfLine(far.wheel, near.wheel, step, other)
 
 
-def _in_order(robot: Robot, drive: WheelDrive, side: Side) -> Iterator[_Placed]:
-    """Yield the wheels of a side whose place is known, along the robot."""
-    axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
+def _in_order(robot: Robot, drive: WheelDrive, side: Side) -> list[_Placed]:
+    """Return the wheels of a side whose place is known, along the robot."""
+    if (axis := drive.axis) is None:
+        return []
     placed = []
-    for wheel in drive.on(side) if axis is not None else ():
-        middle = middle_of(robot, wheel)
-        if axis is not None and middle is not None:
+    for wheel in drive.on(side):
+        if (middle := middle_of(robot, wheel)) is not None:
             across = middle[0] * axis[0] + middle[1] * axis[1]
             along = middle[0] * axis[1] - middle[1] * axis[0]
-            if max(abs(across), abs(along)) < _FARTHEST:
+            if max(abs(across), abs(along)) < FARTHEST:
                 placed.append(_Placed(wheel, along, across if side is Side.LEFT else -across))
-    yield from sorted(placed, key=lambda each: each.along)
+    return sorted(placed, key=lambda each: each.along)

@@ -96,7 +96,7 @@ def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str
     arguments = set(_ARGUMENT.findall(name))
     if len(arguments) != 1:
         return
-    mark = "@@"
+    argument, mark = arguments.pop(), "@@"
     folder = posixpath.dirname(path_of(package, element.source.file))
     path = named_path(folder, _ARGUMENT.sub(mark, name))
     if path is None:
@@ -106,4 +106,4 @@ def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str
         whole = path_of(package, file.path)
         value = whole.removeprefix(before).removesuffix(after)
         if whole == f"{before}{value}{after}" and _VALUE.fullmatch(value):
-            yield arguments.copy().pop(), value
+            yield argument, value

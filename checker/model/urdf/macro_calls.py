@@ -28,6 +28,14 @@ WORLD = "world"
 _GIVEN = {"parent": WORLD, "parent_link": WORLD, "prefix": "", "tf_prefix": ""}
 
 
+def macro_around(element: Element) -> Element | None:
+    """Return the macro that an element stands in; None outside of macros."""
+    around = element.parent
+    while around is not None and around.tag != _MACRO:
+        around = around.parent
+    return around
+
+
 class MacroCall(Record, eq=False):
     """A call that gives a macro nothing but what it must have.
 
