@@ -2,7 +2,7 @@
 
 The robot does not move: a topic connects publishers and readers of one type only. Drive controllers
 read `TwistStamped` alone from Jazzy on, while teleop_twist_keyboard, teleop_twist_joy and Nav2 of
-Jazzy publish `Twist` unless a parameter is set; a bridge to Gazebo reads what it is told.
+Jazzy publish `Twist` unless a parameter is set; a bridge to Gazebo reads the type that it is given.
 
 It is reported where no known node of the launch reads the type that is published. Where the launch
 starts nodes that are not known, it is a warning: one of them may read it.
