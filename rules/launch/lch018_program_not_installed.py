@@ -20,9 +20,9 @@ from checker.source.text import SourceText
 
 _WORD = re.compile(r"[\w.-]+")
 _CMAKE = re.compile(
-    r"(?i:\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject"
-    r"|\bFetchContent)"
-    r"|\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{"
+    r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject"
+    r"|\bFetchContent|\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{",
+    re.IGNORECASE,
 )
 """Among others a call with a variable, beside the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
@@ -118,6 +118,7 @@ GOOD = [
     _node("driver", "", package="acme_driver"),
     _node("acme_arm_bringup_node", "add_executable(${PROJECT_NAME}_node a.cpp)"),
     _node("driver", "set(name driver_2)\nadd_executable(${name} a.cpp)"),
+    _node("driver", "SET(name driver_2)\nADD_EXECUTABLE(${name} a.cpp)"),
     _python("watch"),
 ]
 BAD = [
