@@ -15,10 +15,9 @@ from collections.abc import Iterator
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.components import Plugin
-from checker.model.ros.simulation import Simulation, Simulations
-from checker.model.ros.spawned import SpawnedRobot
+from checker.model.ros.simulation import Simulation
+from checker.model.ros.wiring.wiring import Wiring
 from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.launched import spawner_of
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _CHILD_FRAMES = {
@@ -29,60 +28,36 @@ _CHILD_FRAMES = {
     "OdometryPublisher": "robot_base_frame",
 }
 """Classes that report odometry, each with the parameter that names the frame of the base."""
-_CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
-"""Those whose transforms go to /tf itself; others publish them on a topic of their own."""
 _TOPIC = "/odom"
 
 
 @rule("BRG010", "odometry-from-two-sources", Severity.WARNING, Concern.INTERFACE)
-def check(simulations: Simulations) -> Findings:
-    """Report bridges of odometry whose base a controller of the same robot moves in /tf, too."""
-    for simulation in simulations.launched:
-        for spawned in simulation.robots:
-            for controller in _publishing(simulation, spawned):
-                stated = next(iter(controller.texts("base_frame_id")), None)
-                base = stated.value if stated is not None else "base_link"
-                for entry, plugin in _bridged(simulation, spawned, base):
-                    yield finding(
-                        entry.passed.gz_topic,
-                        f"{plugin.class_name} reports the odometry of {base!r}, bridged to "
-                        f"{_TOPIC}, while {controller.called} publishes the transform of that "
-                        "frame",
-                        key=controller.name,
-                        related=[(plugin, "reports odometry"), (controller, "publishes it, too")],
-                    )
+def check(wiring: Wiring) -> Findings:
+    """Report bridges of odometry whose base a controller of ros2_control moves in /tf, too."""
+    for transform in wiring.transforms:
+        controller = transform.source
+        if isinstance(controller, Controller) and wiring.simulation is not None:
+            for entry, plugin in _bridged(wiring.simulation, transform.child):
+                yield finding(
+                    entry.passed.gz_topic,
+                    f"{plugin.class_name} reports the odometry of {transform.child!r}, bridged to "
+                    f"{_TOPIC}, while {controller.called} publishes the transform of that frame",
+                    key=controller.name,
+                    related=[(plugin, "reports odometry"), (controller, "publishes it, too")],
+                )
 
 
-def _publishing(simulation: Simulation, spawned: SpawnedRobot) -> Iterator[Controller]:
-    """Yield the controllers of a robot that are spawned and publish odometry in /tf."""
-    control = spawned.control
-    if control is None or any(it.namespace.value != "/" for it in control.managers):
-        return
-    nodes = simulation.graph.nodes if simulation.graph is not None else ()
-    spawners = [spawner_of(node) for node in nodes if node.starts is not False]
-    names = {name.value for spawner in spawners if spawner for name in spawner.names}
-    for controller in control.controllers:
-        if controller.class_name not in _CONTROLLERS or controller.name not in names:
-            continue
-        prefixed = "tf_frame_prefix" in controller.parameters
-        if controller.flag("enable_odom_tf", default=True) and not prefixed:
-            yield controller
-
-
-def _bridged(
-    simulation: Simulation, spawned: SpawnedRobot, base: str
-) -> Iterator[tuple[BridgeEntry, Plugin]]:
+def _bridged(simulation: Simulation, base: str) -> Iterator[tuple[BridgeEntry, Plugin]]:
     """Yield the bridges to /odom from plugins that report odometry of a frame."""
     for entry in simulation.entries:
         if entry.direction is Direction.TO_IGN or entry.ros_topic != _TOPIC:
             continue
         for topic in simulation.topics_of(entry):
             owner = topic.owner
-            if not isinstance(owner, Plugin) or owner not in spawned.robot.plugins:
-                continue
-            frames = [text.value for text in owner.at(_CHILD_FRAMES.get(owner.class_name, ""))]
-            if frames[:1] == [base]:
-                yield entry, owner
+            if isinstance(owner, Plugin):
+                frames = [text.value for text in owner.at(_CHILD_FRAMES.get(owner.class_name, ""))]
+                if frames[:1] == [base]:
+                    yield entry, owner
 
 
 _CONTROL = """

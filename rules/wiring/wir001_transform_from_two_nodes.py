@@ -125,6 +125,22 @@ def _controlled(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, objec
     }
 
 
+_MANAGER = """        Node(package="controller_manager", executable="ros2_control_node",{}
+             parameters=[os.path.join(HERE, "config", "base.yaml")]),
+"""
+
+
+def _on_hardware(settings: str, mark: str = "", manager: str = "") -> dict[str, object]:
+    """Return a rover whose drive is run by ros2_control_node, beside a filter."""
+    nodes = _EKF.format("", "").partition("\n")[2]
+    return {
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _SPAWNER + nodes + _MANAGER.format(manager)},
+        "config/base.yaml": _YAML.replace("@", "true").replace("%", mark),
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}\n",
+    }
+
+
 _CLASSIC = """<launch>
   <include file="$(find-pkg-share gazebo_ros)/launch/gazebo.launch.py"/>
   <node pkg="robot_state_publisher" exec="robot_state_publisher">
@@ -248,6 +264,8 @@ GOOD = [
     },
     _filter("publish_tf: false", name=' name="ekf_filter_node",'),
     _controlled("false"),
+    _on_hardware("publish_tf: false"),
+    _on_hardware("publish_tf: true", manager=' namespace="r1",'),
     _classic('filename="libgazebo_ros_diff_drive.so">'),
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
@@ -262,6 +280,7 @@ BAD = [
     _filter("odom_frame: map, world_frame: map", _MARK),
     _filter("publish_tf: false", _MARK, name=' name="ekf",'),
     _controlled("true", _MARK),
+    _on_hardware("publish_tf: true", _MARK),
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("true")}{_XML_MARK}'),
     _classic(f'filename="libgazebo_ros_planar_move.so">{_XML_MARK}'),
     {

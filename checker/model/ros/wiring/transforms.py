@@ -10,9 +10,8 @@ from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.ros.simulation import Simulation
-from checker.model.ros.spawned import SpawnedRobot
-from checker.model.ros.wiring.nodes import WiredNode, spawned_names
-from checker.model.ros2_control.controllers import Controller
+from checker.model.ros.wiring.controllers import RunController
+from checker.model.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
 TOPIC = "/tf"
@@ -66,7 +65,10 @@ class Transform(Record, eq=False):
 
 
 def transforms(
-    nodes: tuple[WiredNode, ...], simulation: Simulation | None, in_classic: tuple[Robot, ...]
+    nodes: tuple[WiredNode, ...],
+    simulation: Simulation | None,
+    in_classic: tuple[Robot, ...],
+    controllers: tuple[RunController, ...],
 ) -> Iterator[Transform]:
     """Yield the transforms of odometry and localisation that a launch publishes for certain.
 
@@ -74,13 +76,14 @@ def transforms(
         nodes: That are started.
         simulation: What the launch file simulates.
         in_classic: Robots that it puts into Gazebo Classic.
+        controllers: That its controller managers may run.
     """
     for plugin in (plugin for robot in in_classic for plugin in robot.plugins):
         yield from _of_classic(plugin)
     if simulation is not None:
         yield from _bridged(simulation)
-        for spawned in simulation.robots:
-            yield from _of_controllers(nodes, spawned)
+    for run in controllers:
+        yield from _of_controller(run)
     for node in nodes:
         yield from _of_node(node)
 
@@ -121,26 +124,18 @@ def _of_classic(plugin: Plugin) -> Iterator[Transform]:
         yield Transform(parent, child, TOPIC, span, by, cure, plugin)
 
 
-def _of_controllers(nodes: tuple[WiredNode, ...], spawned: SpawnedRobot) -> Iterator[Transform]:
-    control = spawned.control
-    if control is None or any(it.namespace.value != "/" for it in control.managers):
-        return
-    started = spawned_names(nodes)
-    for controller in control.controllers:
-        if controller.class_name in _CONTROLLERS and controller.name in started:
-            yield from _of_controller(controller)
-
-
-def _of_controller(controller: Controller) -> Iterator[Transform]:
-    flag = controller.flag("enable_odom_tf", default=True)
-    if not flag or "tf_frame_prefix" in controller.parameters:
+def _of_controller(run: RunController) -> Iterator[Transform]:
+    controller, topic = run.controller, run.resolve(TOPIC)
+    publishes = controller.class_name in _CONTROLLERS and run.started and topic
+    prefixed = run.namespace != "/" or "tf_frame_prefix" in controller.parameters
+    if not publishes or prefixed or not controller.flag("enable_odom_tf", default=True):
         return
     parent, child = (
         next((text.value for text in controller.texts(name)), default)
         for name, default in (("odom_frame_id", "odom"), ("base_frame_id", "base_link"))
     )
     cure = f"state `enable_odom_tf: false` for {controller.called}"
-    yield Transform(parent, child, TOPIC, controller.span, controller.called, cure, controller)
+    yield Transform(parent, child, topic, controller.span, controller.called, cure, controller)
 
 
 def _of_node(node: WiredNode) -> Iterator[Transform]:

@@ -68,7 +68,7 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
         """Transforms that it publishes for certain, those of the robot's joints last."""
-        found = [*transforms(self.nodes, self.simulation, self.in_classic)]
+        found = [*transforms(self.nodes, self.simulation, self.in_classic, self.controllers)]
         found += [each for node in self.nodes for each in of_static(node)]
         found += [each for node, robot in self.described for each in of_joints(node, robot)]
         return tuple(found)
