@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
 from checker.expand.xacro.files import Gathered, path_of
+from checker.expand.xacro.names import MacroParameter, parameters_of
 from checker.package.package import Package
 from checker.source.xml import Element, XmlDocument
 
@@ -18,40 +18,6 @@ TAGS = (
 )
 """xacro's own tags, without the prefix."""
 _SUFFIXES = (".xacro", ".urdf", ".xml")
-_PARAMETER = re.compile(
-    r"""(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})
-    (?::?=(?P<default>(?:\^\|?)?(?:'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{0,500})))?""",
-    re.VERBOSE,
-)
-_PARAMETERS_LIMIT = 10_000
-"""Characters; real macros have a fiftieth of that."""
-_FROM_OUTSIDE = "^"
-
-
-class MacroParameter(Record):
-    """A parameter of a macro.
-
-    Attributes:
-        name: Without its stars.
-        default: As written; None for a parameter that a call has to state.
-        block: `*` for an element that the call contains, `**` for its content; else empty.
-    """
-
-    name: str
-    default: str | None
-    block: str
-
-    @property
-    def words(self) -> str:
-        """What a call may leave out, or has to give."""
-        if self.block:
-            return "an element inside the call"
-        if self.default is None:
-            return "required"
-        if self.default.startswith(_FROM_OUTSIDE):
-            rest = self.default[1:].removeprefix("|")
-            return "the property of the caller" + (f", else {rest}" if rest else "")
-        return f"default {self.default}"
 
 
 class Macro(Record, eq=False):
@@ -136,14 +102,6 @@ def xacro_names(package: Package, path: str) -> XacroNames:
     others = (entry.path for entry in package.index.with_suffix(*_SUFFIXES) if entry.is_file)
     gathered.follow([path_of(package, other) for other in others])
     return XacroNames(tuple(gathered.documents.values()))
-
-
-def parameters_of(text: str) -> tuple[MacroParameter, ...]:
-    """Return the parameters that the attribute `params` of a macro names."""
-    return tuple(
-        MacroParameter(match["name"], match["default"], match["block"])
-        for match in _PARAMETER.finditer(text[:_PARAMETERS_LIMIT])
-    )
 
 
 def macro_around(element: Element) -> Macro | None:

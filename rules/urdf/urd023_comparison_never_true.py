@@ -11,11 +11,11 @@ Source: xacro, `Table._eval_literal`, since version 1.13 (ROS Noetic and ROS 2).
 import re
 from collections.abc import Iterator
 
+from checker.expand.xacro.names import EXPRESSION
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element, XmlDocument
 
-_EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
 _NAME = r"(?<![\w.\])'\"])([A-Za-z_]\w{0,80})"
 _TRUTH = "(?:true|True|false|False)"
 _COMPARISON = re.compile(
@@ -36,7 +36,7 @@ def check(package: Package) -> Findings:
 
 def _compared(element: Element) -> Iterator[Finding]:
     for attribute, value in element.attributes.items():
-        for expression in _EXPRESSION.finditer(value):
+        for expression in EXPRESSION.finditer(value):
             for found in _COMPARISON.finditer(expression[1]):
                 operator, name = found[2] or found[5], found[1] or found[6]
                 result = "false" if operator == "==" else "true"

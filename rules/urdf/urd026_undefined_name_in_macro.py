@@ -11,13 +11,13 @@ Source: xacro, `eval_text` and `handle_macro_call`.
 """
 
 import builtins
-import keyword
 import math
 import re
 from collections.abc import Iterable, Iterator
 
 from checker.base.words import Suggestions
 from checker.expand.xacro.files import local_path, named_path, path_of
+from checker.expand.xacro.names import EXPRESSION, names_in, parameters_of
 from checker.model.urdf.macro_calls import macro_around
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -25,12 +25,7 @@ from checker.source.xml import Element, XmlDocument
 
 _XACRO = "xacro:"
 _MACRO, _PROPERTY, _INCLUDE = "xacro:macro", "xacro:property", "xacro:include"
-_EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
-_TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"|\$\([^()]{0,200}\)")
-"""Quoted text, and `$(arg …)`, which is replaced before anything is evaluated."""
-_NAME = re.compile(r"(?<![\w.])([A-Za-z_]\w{0,100})(?!\w|\s{0,8}=[^=])")
 _BINDS = re.compile(r"\bfor\b|\blambda\b")
-_PARAMETER = re.compile(r"(?:^|\s)\*{0,2}([A-Za-z_]\w{0,100})(?=\s|$|:?=)")
 _SYMBOLS = {*dir(math), *dir(builtins), "math", "python", "xacro", "load_yaml", "dotify"}
 _BRACES = re.compile(r"(?<![$\\])\{([A-Za-z_]\w{0,100})\}")
 
@@ -99,7 +94,7 @@ def _defined(document: XmlDocument) -> Iterator[str]:
         if element.tag == _PROPERTY:
             yield element.get("name") or ""
         elif element.tag == _MACRO:
-            yield from _PARAMETER.findall(element.get("params") or "")
+            yield from (it.name for it in parameters_of(element.get("params") or ""))
         elif element.tag == _INCLUDE and element.get("ns"):
             yield element.get("ns") or ""
 
@@ -110,14 +105,14 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
         for attribute, value in element.attributes.items():
             place = element.attribute(attribute) or element
             where = f"in macro {macro.get('name')!r}"
-            for name in _names(_EXPRESSION.findall(value)) - defined - _SYMBOLS:
+            for name in _names(EXPRESSION.findall(value)) - defined - _SYMBOLS:
                 yield finding(
                     place,
                     f"{name!r} {where} is not defined: xacro ends when it is called"
                     f"{suggestions.hint(name)}",
                     key=name,
                 )
-            for name in _BRACES.findall(_EXPRESSION.sub("", value)):
+            for name in _BRACES.findall(EXPRESSION.sub("", value)):
                 if name in defined:
                     yield finding(
                         place,
@@ -127,9 +122,7 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
 
 
 def _names(expressions: Iterable[str]) -> set[str]:
-    plain = (_TEXT.sub("", it) for it in expressions if not _BINDS.search(it))
-    names = {name for expression in plain for name in _NAME.findall(expression)}
-    return {name for name in names if not keyword.iskeyword(name)}
+    return {name for it in expressions if not _BINDS.search(it) for name in names_in(it)}
 
 
 def _arm(inside: str, more: str = "") -> object:

@@ -52,6 +52,7 @@ def described(files: dict[str, object], folder: Path) -> list[UrdfDescription]:
         ("prefix", {"prefix": ""}, ()),
         ("parent tf_prefix *origin", {"parent": "world", "tf_prefix": ""}, ("origin",)),
         ("a:=1 b:='two words' c:=${d} *mount_origin", {}, ("mount_origin",)),
+        ("a:=${b + 1} c:='d'_e", {}, ()),
         ('a:="it is" b:=^|c d=e parent_link', {"parent_link": "world"}, ()),
     ],
 )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import posixpath
-import re
 from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
 from checker.expand.xacro.files import local_path, named_path, path_of
+from checker.expand.xacro.names import EXPRESSION, names_in, parameters_of
 from checker.package.package import Package
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
@@ -15,9 +15,6 @@ from checker.source.xml import Element, XmlDocument
 _STEPS = 20_000
 """Elements of which one robot's files are followed."""
 _DEEPEST = 30
-_EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
-_NAME = re.compile(r"(?<![\w.'\"])[A-Za-z_]\w{0,100}")
-_PARAMETER = re.compile(r"(?<!\S)\*{0,2}([A-Za-z_]\w{0,100})")
 _CONDITIONS = ("xacro:if", "xacro:unless")
 
 
@@ -120,7 +117,7 @@ class _Walk:
         inside = [*macro.element.descendants()]
         self._left -= len(inside)
         local = {it.get("name") or "" for it in inside if it.tag == "xacro:property"}
-        local.update(_PARAMETER.findall(macro.element.get("params") or ""))
+        local.update(it.name for it in parameters_of(macro.element.get("params") or ""))
         for read in _names(inside) - local:
             own, other = self._own.get((macro.file, read)), self._current.get(read)
             if own is not None and other is not None and self._clash(read, own, other):
@@ -142,8 +139,8 @@ class _Walk:
 def _names(elements: Sequence[Element]) -> set[str]:
     """Return the names in the expressions of some elements."""
     texts = (text for it in elements for text in (*it.attributes.values(), it.value))
-    expressions = (match[1] for text in texts for match in _EXPRESSION.finditer(text))
-    return {name for expression in expressions for name in _NAME.findall(expression)}
+    expressions = (it for text in texts for it in EXPRESSION.findall(text))
+    return {name for expression in expressions for name in names_in(expression)}
 
 
 def shared_properties(package: Package, file: str) -> Iterator[SharedProperty]:

@@ -7,21 +7,15 @@ from collections.abc import Mapping
 from html import escape
 
 from checker.base.record import Record
+from checker.expand.xacro.names import FROM_OUTSIDE, PARAMETER, parameters_of
 from checker.package.package import Package
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 
 _MACRO = "xacro:macro"
 _NAME = re.compile(r"[A-Za-z_][\w.-]{0,100}")
-_PARAMETER = re.compile(
-    r"""(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})
-    (?::?=(?P<default>(?:\^\|)?(?:'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{1,500})))?(?:\s+|\Z)""",
-    re.VERBOSE,
-)
 _PARAMETERS_LIMIT = 5000
 """Characters; real macros have a tenth of that."""
-_FROM_OUTSIDE = "^"
-"""In place of a default: the property of whoever calls."""
 _ORIGIN = "origin"
 WORLD = "world"
 """The link that a macro is hung on; Gazebo holds it in its place."""
@@ -100,18 +94,15 @@ def _call(macro: Element, number: int) -> MacroCall | None:
     """Return the call of a macro; None when it needs what only its user can know."""
     arguments: dict[str, str] = {}
     blocks: list[str] = []
-    text, at = (macro.get("params") or "").strip(), 0
-    while at < len(text) <= _PARAMETERS_LIMIT:
-        parameter = _PARAMETER.match(text, at)
-        if parameter is None:
-            return None
-        at, name, default = parameter.end(), parameter["name"], parameter["default"]
-        if parameter["block"] and name.endswith(_ORIGIN) and default is None:
-            blocks.append(name)
-        elif default is None and name in _GIVEN and not parameter["block"]:
-            arguments[name] = _GIVEN[name]
-        elif default is None or default == _FROM_OUTSIDE:
-            return None
-    if at < len(text):
+    text = macro.get("params") or ""
+    if len(text) > _PARAMETERS_LIMIT or PARAMETER.sub("", text).strip():
         return None
+    for parameter in parameters_of(text):
+        name, default = parameter.name, parameter.default
+        if parameter.block and name.endswith(_ORIGIN) and default is None:
+            blocks.append(name)
+        elif default is None and name in _GIVEN and not parameter.block:
+            arguments[name] = _GIVEN[name]
+        elif default is None or default == FROM_OUTSIDE:
+            return None
     return MacroCall(_name(macro), arguments, tuple(blocks), number, macro.span)
