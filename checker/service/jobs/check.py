@@ -12,7 +12,7 @@ import secrets
 import signal
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 from shutil import disk_usage
 from typing import Any
@@ -160,7 +160,7 @@ def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome
             return Died(f"{UNFINISHED}: its report is too large or damaged")
         # Without them, the next check takes longer.
         with suppress(OSError):
-            _keep_parts(store, order.upload, ended.files, place / "part")
+            _keep_parts(store, order.upload, ended.files, place / "parts")
     return checked
 
 
@@ -197,17 +197,15 @@ def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
             yield name, read_bytes(path, name, RESULT_LIMIT)
 
 
-def _keep_parts(store: Store, upload: str, files: Files, work: Path) -> None:
+def _keep_parts(store: Store, upload: str, files: Files, folder: Path) -> None:
     """Keep what a check has worked out, for later checks of the same upload alone."""
-    folder = store.parts(upload)
-    kept = 0 if folder is None else sum(1 for _ in folder.rglob("*.json"))
-    for name in filter(is_part, files.names):
-        kept += 1
-        if folder is not None and kept < _PARTS_LIMIT:
-            make_folder((folder / name).parent)
-            with work.open("wb") as file:
-                files.copy(name, file)
-            work.replace(folder / name)
+    known = store.parts(upload)
+    left = _PARTS_LIMIT - (sum(1 for _ in known.rglob("*.json")) if known else 0)
+    for name in islice(filter(is_part, files.names), max(0, left)):
+        make_folder((folder / name).parent)
+        with (folder / name).open("wb") as file:
+            files.copy(name, file)
+    store.add_parts(upload, folder)
 
 
 def _read(path: Path) -> Any:

@@ -1,40 +1,24 @@
-"""Uploads and results on disk, by hash and key: whole or not at all, whoever dies meanwhile.
+"""Uploads and results by hash and key: whole or not at all, whoever dies meanwhile.
 
-    uploads/ab/<hash>          what was uploaded, once however often
-    results/ab/<key>/…         reports; a key depends on all that a report depends on
-    incoming/<random>…         work in progress
-    parts/ab/abcd…/            what checks of an upload have worked out (`checker.base.cache`)
-
-Many processes use it at once, on several machines where they share the folder.
+Work in progress lies in the folder `incoming/` of this machine; what is kept lies behind a port
+(`checker.service.store.objects`). Many processes use it at once, on any number of machines.
 """
 
 from __future__ import annotations
 
-import fcntl
-import os
 import re
-import shutil
 import stat
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from checker.base.files import tighten, tighten_below
+from checker.base.files import make_folder, tighten, tighten_below
 from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
+from checker.service.store.folder import FolderObjects
+from checker.service.store.objects import Kind, Objects
 from checker.service.store.place import DATABASE
-from checker.service.store.workplace import (
-    Incoming,
-    TooLarge,
-    move,
-    rename,
-    settle,
-    settle_below,
-    settle_name,
-    sweep,
-    work_file,
-    workplace,
-)
+from checker.service.store.workplace import Incoming, TooLarge, sweep, work_file, workplace
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
 
@@ -55,15 +39,23 @@ class Store(Record):
     """What was uploaded and what was found out about it.
 
     Attributes:
-        folder: Where all of it lies; made when something comes.
+        folder: Of work in progress on this machine, and of all that is kept unless `shared` keeps
+            it; made when something comes.
+        shared: Keeps uploads and results for several machines.
     """
 
     folder: Path
+    shared: Objects | None = None
+
+    @property
+    def objects(self) -> Objects:
+        """What keeps uploads and results."""
+        return self.shared or FolderObjects(self.folder)
 
     @contextmanager
     def incoming(self, limit: int = DEFAULT_UPLOAD_LIMIT) -> Iterator[Incoming]:
         """Take an upload of at most `limit` bytes; without its `finish`, nothing of it is left."""
-        self._make()
+        make_folder(self.folder)
         with work_file(self.folder / "incoming") as (path, descriptor):
             yield Incoming(path, descriptor, limit, self.admit)
 
@@ -74,38 +66,33 @@ class Store(Record):
             file: Of `Incoming`; it is gone after.
             hash: Of its content, as `Incoming.finish` says it.
         """
-        settle(file)
-        place = self.folder / "uploads" / hash[:2] / hash
-        with self._alone():
-            rename(file, place)
-        settle_name(place)
+        self.objects.put(Kind.UPLOAD, hash, file)
 
     @contextmanager
     def workplace(self) -> Iterator[Path]:
         """Make a folder for work in progress; it goes at the end, or by `sweep` if we die."""
-        self._make()
+        make_folder(self.folder)
         with workplace(self.folder / "incoming") as place:
             yield place
 
     def parts(self, hash: str) -> Path | None:
-        """Return the folder of what checks of an upload have worked out, for others of the same."""
-        return self._place("parts", hash)
+        """Return the folder of what checks of an upload have worked out; None if there is none."""
+        return self._find(Kind.PARTS, hash)
+
+    def add_parts(self, hash: str, folder: Path) -> None:
+        """Keep what a check of an upload has worked out, for others of the same."""
+        self.objects.add(Kind.PARTS, hash, folder)
 
     def upload(self, hash: str) -> Path | None:
         """Return the file of an upload; None if it is not there."""
-        place = self._place("uploads", hash)
-        return place if place is not None and place.is_file() else None
+        return self._find(Kind.UPLOAD, hash)
 
     def has(self, key: str) -> bool:
         """Whether a result is there; it counts as used now, so that it does not expire soon."""
-        place = self._place("results", key)
-        if place is None or not place.exists():  # most are new: nobody waits for these
-            return False
-        with self._alone():
-            return _touched(place)
+        return _KEY.fullmatch(key) is not None and self.objects.use(Kind.RESULT, key)
 
     def keep(self, key: str, folder: Path) -> None:
-        """Move a finished folder of artefacts into place; the first one of a key wins.
+        """Keep a finished folder of artefacts; the first one of a key wins.
 
         Args:
             key: Of the result, 64 hexadecimal digits.
@@ -114,20 +101,15 @@ class Store(Record):
         Raises:
             ValueError: The key is none, or the folder holds what no result does.
         """
-        place = self._place("results", key)
-        if place is None:
+        if not _KEY.fullmatch(key):
             raise ValueError(f"{key!r} is not the key of a result")
         _check_result(folder)
-        settle_below(folder)
-        with self._alone():
-            if not _touched(place):
-                move(folder, place)
-        shutil.rmtree(folder, ignore_errors=True)
+        self.objects.put(Kind.RESULT, key, folder)
 
     def file(self, key: str, name: str) -> Path | None:
         """Return a file of a result by its name, such as `pkg/robot.glb`; None if there is none."""
-        place = self._place("results", key)
-        if place is None or not _is_of_result(name):
+        place = self._find(Kind.RESULT, key) if _is_of_result(name) else None
+        if place is None:
             return None
         path = place / name
         try:
@@ -137,7 +119,7 @@ class Store(Record):
 
     def names(self, key: str) -> tuple[str, ...]:
         """Return the names of a result's files that are for people and programs, sorted."""
-        place = self._place("results", key)
+        place = self._find(Kind.RESULT, key)
         if place is None:
             return ()
         try:
@@ -153,16 +135,12 @@ class Store(Record):
             before: Seconds since the epoch; what was used later stays.
             still_used: Hashes and keys that stay whatever their age.
         """
-        with self.workplace() as place:
-            for kind in ("uploads", "results"):
-                for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*"):
-                    if path.name not in still_used:
-                        self._expire_one(path, before, place)
-            for path in (self.folder / "parts").glob("[0-9a-f][0-9a-f]/*"):
-                self._expire_one(path, before - CACHE_SECONDS, place)
-            # 0.1.0 shared what it had worked out between uploads.
-            with suppress(FileNotFoundError):
-                (self.folder / "cache").rename(place / "cache")
+        for kind in (Kind.UPLOAD, Kind.RESULT):
+            self.objects.expire(kind, before, still_used)
+        self.objects.expire(Kind.PARTS, before - CACHE_SECONDS, ())
+        # 0.1.0 shared what it had worked out between uploads.
+        with self.workplace() as place, suppress(FileNotFoundError):
+            (self.folder / "cache").rename(place / "cache")
 
     @property
     def workers(self) -> Path:
@@ -170,8 +148,9 @@ class Store(Record):
         return self.folder / "workers"
 
     def sweep(self) -> None:
-        """Remove the temporary files of processes that have died."""
+        """Remove the temporary files of processes that have died, and copies of no use."""
         sweep(self.folder / "incoming")
+        self.objects.sweep()
 
     def tighten(self) -> None:
         """Take from other users what an older version, or a copy, has left them of all this.
@@ -181,45 +160,16 @@ class Store(Record):
         for name in _OURS:
             tighten_below(self.folder / name)
         with suppress(FileNotFoundError):
-            names = os.listdir(self.folder)  # noqa: PTH208 - names are all that is asked for
+            names = [path.name for path in self.folder.iterdir()]
             if all(name in _OURS or name.startswith(DATABASE) for name in names):
                 tighten(self.folder)
 
-    def _expire_one(self, path: Path, before: float, place: Path) -> None:
-        with self._alone(), suppress(FileNotFoundError):
-            if path.stat().st_mtime < before:
-                # A folder goes at once; its files go when the workplace does.
-                path.rename(place / path.name)
-
-    def _place(self, kind: str, key: str) -> Path | None:
-        return self.folder / kind / key[:2] / key if _KEY.fullmatch(key) else None
-
-    def _make(self) -> None:
-        """Make the folder, for its owner alone, where it is not there yet."""
-        self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-
-    @contextmanager
-    def _alone(self) -> Iterator[None]:
-        """Keep others from removing what is just being used again, for a moment."""
-        self._make()
-        lock = os.open(self.folder / "lock", os.O_RDWR | os.O_CREAT, 0o600)
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield
-        finally:
-            os.close(lock)
+    def _find(self, kind: Kind, key: str) -> Path | None:
+        return self.objects.find(kind, key) if _KEY.fullmatch(key) else None
 
 
 def _is_of_result(name: str) -> bool:
     return name == SUMMARY or ARTEFACT_NAME.fullmatch(name) is not None
-
-
-def _touched(place: Path) -> bool:
-    try:
-        os.utime(place)
-    except FileNotFoundError:
-        return False
-    return True
 
 
 def _check_result(folder: Path) -> None:

@@ -1,0 +1,59 @@
+"""What is kept of uploads and results: the port, with a folder and S3 behind it."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Collection
+from enum import StrEnum
+from pathlib import Path
+from typing import Protocol
+
+
+class Kind(StrEnum):
+    """What an object is; it lies under this name.
+
+    Uploads are files as received; results and parts of checks are folders of files.
+    """
+
+    UPLOAD = "uploads"
+    RESULT = "results"
+    PARTS = "parts"
+
+
+class StoreUnreachable(OSError):
+    """The object store does not answer, or refuses."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(errno.EIO, reason)
+
+
+class Objects(Protocol):
+    """Files and folders by kind and key, each there as a whole or not at all.
+
+    A key has 64 hexadecimal digits; whoever asks has made sure. Any number of processes use it at
+    once. Each call raises OSError where the disk, the system or the object store fails.
+    """
+
+    def find(self, kind: Kind, key: str) -> Path | None:
+        """Return where an object lies on this machine, brought here if need be; None without."""
+
+    def use(self, kind: Kind, key: str) -> bool:
+        """Whether an object is there; it counts as used now."""
+
+    def put(self, kind: Kind, key: str, source: Path) -> None:
+        """Keep a file or folder, which is gone after; of several folders of a key one is kept.
+
+        Args:
+            kind: What it is.
+            key: Of the object.
+            source: On the file system of the store's folder.
+        """
+
+    def add(self, kind: Kind, key: str, source: Path) -> None:
+        """Move the files of a folder into the folder of that key, one by one."""
+
+    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> None:
+        """Remove objects that were last used before a time, unless their key is still used."""
+
+    def sweep(self) -> None:
+        """Remove copies on this machine that were not used lately."""
