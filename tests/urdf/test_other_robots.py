@@ -86,6 +86,21 @@ def test_what_another_value_leads_to_is_judged(
     assert report.facts["links"] == 1
 
 
+def test_a_file_that_a_choice_leads_to_gets_the_arguments(tmp_path: Path) -> None:
+    launch = LAUNCH.replace("'r.urdf.xacro'", "[LaunchConfiguration('tool'), '.urdf.xacro']")
+    launch = launch.replace("' tool:=', LaunchConfiguration('tool')", "' side:=left'")
+    robot = f"{HEAD}<link name='base_link'/><link name='$(arg side)_arm'/>@</robot>"
+    files = [
+        ("launch/view.launch.py", launch),
+        ("urdf/none.urdf.xacro", robot.replace("@", "")),
+        ("urdf/hand.urdf.xacro", robot.replace("@", HAND)),
+    ]
+    report = judged(tmp_path, "", *files)
+    (found,) = (it for it in report.findings if it.rule == "KIN001")
+    assert found.places[0].file == "urdf/hand.urdf.xacro"
+    assert not any(it.rule == "URD001" for it in report.findings)
+
+
 def test_a_flag_is_tried_both_ways(tmp_path: Path) -> None:
     flag = "<xacro:arg name='hand' default='false'/><xacro:if value='$(arg hand)'>"
     report = judged(tmp_path, f"{flag}{HAND}</xacro:if>")
