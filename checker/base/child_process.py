@@ -138,6 +138,11 @@ class Child:
         finally:
             self.stop()
 
+    @property
+    def given(self) -> int:
+        """Bytes of its request, with the files that went with it."""
+        return os.fstat(self._request.fileno()).st_size
+
     def ends(self, seconds: float) -> bool:
         """Wait for its end; False if it goes on after so many seconds."""
         if self._stopped:

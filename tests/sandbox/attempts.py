@@ -574,6 +574,12 @@ def many_processes(_: Assets) -> object:
 
 
 @attempt
+def leave_group(_: Assets) -> object:
+    """Each in a process of its own, which is no first one of a session or group."""
+    return LIBC.setpgid(0, 0) == 0 or LIBC.setsid() > 0 or 1 / 0
+
+
+@attempt
 def outlive(assets: Assets) -> object:
     """Leave session, group and parent, and go on."""
     if os.fork() == 0:

@@ -6,14 +6,17 @@ Such an upload holds `HOSTILE`, then JSON with a `deed` and what it needs. All o
 from __future__ import annotations
 
 import json
+import mmap
 import os
 import re
 import stat
+import time
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
-from attempts import ATTEMPTS, tried
+from attempts import ATTEMPTS, LIBC, tried
 
 from checker.base.sandbox.files import Files
 from checker.base.sandbox.task import Answer
@@ -103,6 +106,45 @@ def _leftovers(_asked: Mapping[str, Any], _: Files) -> bytes:
     for _number in range(5_100):
         os.mkdir("deep")  # noqa: PTH102 - the path has no bounds
         os.chdir("deep")
+    time.sleep(_asked.get("seconds", 0))
+    return _summary()
+
+
+def _holds(asked: Mapping[str, Any], _: Files) -> bytes:
+    """Hold memory that processes share, by several that each hold little."""
+    for _number in range(4):
+        if os.fork() == 0:
+            held = mmap.mmap(-1, asked["bytes"] // 4)
+            for _piece in range(asked["bytes"] // 4_000_000):
+                held.write(bytes(1_000_000))
+            time.sleep(60)
+    time.sleep(asked["seconds"])
+    return _summary()
+
+
+def _fills(asked: Mapping[str, Any], _: Files) -> bytes:
+    """Fill the disk by files without names."""
+    for number in range(4):
+        file = Path(str(number)).open("wb", buffering=0)  # noqa: SIM115 - held until the end
+        Path(str(number)).unlink()
+        for _piece in range(asked["bytes"] // 4_000_000):
+            file.write(bytes(1_000_000))
+        globals()[f"held{number}"] = file
+    time.sleep(asked["seconds"])
+    return _summary()
+
+
+def _multiplies(asked: Mapping[str, Any], _: Files) -> bytes:
+    """Start processes that start processes, each in a session of its own if it can."""
+    if os.fork() == 0:
+        LIBC.prctl(15, asked["mark"].encode(), 0, 0, 0)  # PR_SET_NAME
+        ends = time.monotonic() + 30
+        while time.monotonic() < ends:
+            with suppress(OSError):
+                if os.fork() == 0:
+                    LIBC.prctl(1, 0, 0, 0, 0)  # PR_SET_PDEATHSIG
+                    os.setsid()
+    time.sleep(asked["seconds"])
     return _summary()
 
 
@@ -130,5 +172,6 @@ DEEDS = {
     deed.__name__.strip("_"): deed
     for deed in (
         *(_attempts, _names, _many, _large, _table, _answer, _lies, _seen, _leftovers, _dies),
+        *(_holds, _fills, _multiplies),
     )
 }

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.launcher import OwnLauncher
@@ -205,5 +206,33 @@ def _part(key: str) -> str:
 
 
 def test_whatever_is_left_behind_is_removed(store: Store) -> None:
-    assert isinstance(checked(store, told(deed="leftovers")), Checked)
+    # If it is looked at meanwhile, folders that cannot be listed are too much.
+    assert isinstance(checked(store, told(deed="leftovers")), Checked | Died)
     assert not list((store.folder / "incoming").iterdir())
+
+
+@pytest.mark.parametrize(
+    ("asked", "most", "words"),
+    [
+        ({"deed": "holds", "bytes": 1_000_000_000}, {"memory": 500_000_000}, "0.5 GB of memory"),
+        ({"deed": "fills", "bytes": 400_000_000}, {"disk": 100_000_000}, "0.1 GB of disk space"),
+        ({"deed": "multiplies"}, {"processes": 20}, "20 processes"),
+        ({"deed": "leftovers"}, {"files": 1_000}, "1000 files"),
+    ],
+    ids=lambda value: value.get("deed") if isinstance(value, dict) else None,
+)
+def test_what_all_of_its_processes_use_is_bounded(
+    asked: dict[str, Any],
+    most: dict[str, int],
+    words: str,
+    store: Store,
+    outside: Outside,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Limits of the system hold each of them alone."""
+    monkeypatch.setattr(children, "MOST", replace(children.MOST, **most))
+    outcome = checked(store, told(**asked, seconds=30, mark=outside.given["mark"]))
+    assert isinstance(outcome, Died), outcome
+    assert words in outcome.reason
+    assert not outside.survivors()
+    still_checks(store)

@@ -99,6 +99,7 @@ MATRIX = {
     "raise_limits": "B A",
     "dump_core": "B A",
     "many_processes": "A",
+    "leave_group": "S",
     "outlive": "*",
 }
 """By attempt, what holds it alone.

@@ -27,6 +27,7 @@ from checker.base.sandbox.account import free_account
 from checker.base.sandbox.layers import Layer, Sandbox
 from checker.base.sandbox.program_files import program_paths
 from checker.base.sandbox.task import DEBUG
+from checker.base.sandbox.usage import Usage, usage_below
 
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
@@ -133,7 +134,7 @@ class OwnLauncher(Launcher):
             niceness: By how much its processes stand back behind others, as `nice` counts it.
             loaded: Module that all of its processes need; it is loaded and prepared once for all.
         """
-        wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
+        wrapped = self._wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
         sandbox = Sandbox(
             tuple(names),
             wrapped,
@@ -178,13 +179,18 @@ class OwnLauncher(Launcher):
             self._control.settimeout(None)
         return tuple(Layer(*load) for load in json.loads(data))
 
+    def usage(self, folder: Path, most: Usage) -> Usage:
+        """Return what all that was started uses together; see `usage_below`."""
+        return usage_below(self._process.pid, folder, most)
+
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""
         super().close()
+        if self._wrapped:
+            namespaces.end(self._process.pid)
         try:
             self._process.wait(_ENDS_SECONDS)
         except subprocess.TimeoutExpired:
-            namespaces.end(self._process.pid)
             self._process.kill()
             self._process.wait()
 

@@ -26,7 +26,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.base.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
+from checker.base.sandbox.layers import ACCOUNT, NAMESPACES, Layer, Sandbox, enter
 from checker.base.sandbox.task import prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
@@ -64,8 +64,8 @@ class Orphans:
             if not orphans:
                 return
             for id in orphans:
+                _end(id)
                 with suppress(OSError):
-                    os.kill(id, signal.SIGKILL)
                     os.waitpid(id, 0)
 
     def _children(self) -> list[int]:
@@ -116,7 +116,7 @@ class LauncherProcess:
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
         self._orphans = Orphans()
         layers = enter(sandbox)
-        _limit_processes(layers, sandbox)
+        _limit_processes(layers)
         data = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
         control.sendall(data.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
@@ -201,9 +201,14 @@ class LauncherProcess:
             self._poll.unregister(input)
         for process in self._processes.values():
             if process.input == input:
-                for end in (os.killpg, os.kill):
-                    with suppress(OSError):
-                        end(process.id, signal.SIGKILL)
+                _end(process.id)
+
+
+def _end(process: int) -> None:
+    """End a child, and all in its group at once: none of them can start one that goes on."""
+    for end in (os.killpg, os.kill):
+        with suppress(OSError):
+            end(process, signal.SIGKILL)
 
 
 def _tell(pipe: int, code: int) -> None:
@@ -241,12 +246,13 @@ def _close_all_but(kept: set[int]) -> None:
     os.closerange(last + 1, min(max(os.sysconf("SC_OPEN_MAX"), last + 1), _MOST_DESCRIPTORS))
 
 
-def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
+def _limit_processes(layers: Sequence[Layer]) -> None:
     """Keep processes from starting too many, where only they count for their user."""
-    account = any(layer.name == ACCOUNT and layer.held for layer in layers)
+    held = {layer.name for layer in layers if layer.held}
     # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
     version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
-    if account or (sandbox.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):
+    counts = NAMESPACES in held and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE
+    if ACCOUNT in held or counts:
         resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
 
 

@@ -78,6 +78,9 @@ _CHANGING = (
     "rmdir",
 )
 """Calls that change files by their names."""
+_LEAVING = ("setpgid", "setsid")
+"""Calls by which a process leaves the group that is ended at once. In a session of its own, each
+would also have as much of the processors as all of another one (sched(7))."""
 _OWN_PROCESS_ONLY = {
     "prlimit64": 0,
     "sched_setaffinity": 0,
@@ -198,10 +201,15 @@ def _partly(machine: Architecture) -> Iterator[Step]:
 
 
 def _own(machine: Architecture, signals: bool) -> Iterator[Step]:
-    """Yield the steps that refuse calls about other processes; signals to them only if asked to."""
+    """Yield the steps that refuse calls about other processes.
+
+    Without signals, a process can also not leave the group that the launcher has put it into.
+    """
     own = os.getpid()
     for name, argument in _OWN_PROCESS_ONLY.items():
         yield from _on(name, machine, _refused_unless(argument, (0, own)))
+    if not signals:
+        yield from _refused(machine, _LEAVING)
     for name in () if signals else _SIGNALS:
         yield from _on(name, machine, _refused_unless(0, (own,)))
 

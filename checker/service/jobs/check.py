@@ -138,7 +138,7 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
             if checked is not None:
                 return _kept(store, order, checked, ended)
     last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
-    how = "overdue" if ended.overdue else f"code {ended.code}"
+    how = "overdue" if ended.overdue else ended.exceeded or f"code {ended.code}"
     _LOG.error("the child process ended (%s) with the output: %s", how, last_words)
     failed = failure(ended, limits)
     # Libraries have words of their own for a disk that is full.
@@ -225,6 +225,8 @@ def failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
     """Say what has ended a process: its own work, or somebody from outside."""
     if ended.overdue:
         return Disturbed(f"the service had no time for it within {limits.clock_seconds:g} s")
+    if ended.exceeded:
+        return _needs_more(ended.exceeded)
     if ended.code in _FROM_OUTSIDE:
         return Disturbed(_FROM_OUTSIDE[ended.code])
     too_much = {
@@ -232,9 +234,12 @@ def failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
         OUT_OF_MEMORY: f"{limits.memory / 1e9:g} GB of memory",
     }
     if ended.code in too_much:
-        limit = f"it needs more than {too_much[ended.code]}"
-        return Died(f"{UNFINISHED}: {limit}; check fewer packages at a time")
+        return _needs_more(too_much[ended.code])
     return Died(FAILED_INSIDE)
+
+
+def _needs_more(than: str) -> Died:
+    return Died(f"{UNFINISHED}: it needs more than {than}; check fewer packages at a time")
 
 
 _FROM_OUTSIDE: Mapping[int | None, str] = {

@@ -10,11 +10,14 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
 from time import monotonic
 
+from msgspec.structs import replace
+
 from checker.base.child_process import Child, Limits
 from checker.base.record import Record
 from checker.base.sandbox.files import NO_FILES, Content, Files
 from checker.base.sandbox.launcher import OwnLauncher
-from checker.service.jobs.exchange import NICENESS, StageLimits
+from checker.base.sandbox.usage import Usage
+from checker.service.jobs.exchange import MOST, NICENESS, StageLimits
 from checker.service.store.store import Store
 
 MODULE = f"{__package__}.check_child"
@@ -22,6 +25,8 @@ ANSWER_LIMIT = 5_000_000
 """Bytes of the answer, besides the files of the result."""
 _LOOK = 0.2
 """Seconds between questions whether a check is still wanted."""
+_MEASURE, _REST = 0.5, 20
+"""Seconds from one look at what a check uses to the next, and how many times as long as a look."""
 
 
 class Ended(Record):
@@ -33,6 +38,7 @@ class Ended(Record):
         files: What it has made.
         overdue: It took too long and was stopped.
         cancelled: It was no longer wanted and was stopped.
+        exceeded: What it needed more of than all of its processes may have; empty for nothing.
     """
 
     code: int | None
@@ -40,6 +46,7 @@ class Ended(Record):
     files: Files = NO_FILES
     overdue: bool = False
     cancelled: bool = False
+    exceeded: str = ""
 
 
 class _Place:
@@ -51,7 +58,8 @@ class _Place:
             folder = held.enter_context(store.workplace())
             starter = OwnLauncher(folder, niceness=NICENESS)
             held.enter_context(closing(starter))
-            self._starter = starter
+            self._starter, self._folder = starter, folder
+            self._next_look = 0.0
             self.child = Child(
                 MODULE, None, limits, starter=starter, works=True, folder=folder.parent
             )
@@ -62,6 +70,16 @@ class _Place:
     def alive(self) -> bool:
         """Whether it can still check."""
         return self._starter.alive and self.child.alive
+
+    def exceeded(self, most: Usage) -> str:
+        """Return what its processes use too much of, looked at now and then; else nothing."""
+        begin = monotonic()
+        if begin < self._next_look:
+            return ""
+        used = self._starter.usage(self._folder, most)
+        took = monotonic() - begin
+        self._next_look = monotonic() + max(_MEASURE, _REST * took)
+        return used.beyond(most)
 
     def close(self) -> None:
         """End all of its processes, and remove its folder."""
@@ -107,7 +125,7 @@ class Children:
         place = self._take()
         try:
             place.child.give(request, contents)
-            yield _watched(place.child, seconds, cancelled)
+            yield _watched(place, seconds, cancelled)
         finally:
             place.close()
             # Not before: the next one would take processors from this one.
@@ -148,13 +166,16 @@ _PROCESSOR_SECONDS = 3600.0
 """More than any stage has: its own limit comes with the request."""
 
 
-def _watched(child: Child, seconds: float, cancelled: Callable[[], bool]) -> Ended:
+def _watched(place: _Place, seconds: float, cancelled: Callable[[], bool]) -> Ended:
     """Wait for a process, and return how it ended."""
-    deadline = monotonic() + seconds
+    child, deadline = place.child, monotonic() + seconds
+    most = replace(MOST, disk=MOST.disk + 2 * child.given)
     unwanted = cancelled()
     while not child.ends(min(_LOOK, max(0.0, deadline - monotonic()))):
         unwanted = unwanted or cancelled()
         if unwanted or monotonic() >= deadline:
             return Ended(None, overdue=not unwanted, cancelled=unwanted)
+        if exceeded := place.exceeded(most):
+            return Ended(None, exceeded=exceeded)
     answered = child.answered(ANSWER_LIMIT)
     return Ended(child.code, *answered) if isinstance(answered, tuple) else Ended(child.code)

@@ -14,6 +14,7 @@ from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import hold_files_to, tighten
+from checker.base.sandbox.usage import Usage
 from checker.base.words import listed, plain, shortened
 from checker.finding import Severity
 from checker.report.files import package_folders
@@ -26,6 +27,11 @@ from checker.service.jobs.outcome import Checked
 
 NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
+
+
+MOST = Usage(memory=3_000_000_000, disk=2_000_000_000, files=200_000, processes=64)
+"""What all processes of a check may use together, besides two copies of the upload. Of an archive
+are unpacked 500 MB at most; no check was seen to use more than 1 GB of memory or 8 processes."""
 
 
 class StageLimits(Record):
