@@ -7,7 +7,7 @@ that moves along. A visual that is nearer than the near clip looks cut open in t
 The rule casts rays over the view at the robot's visuals, both boxes and meshes, with all joints in
 their initial position. Simulators draw only the outer side of a surface, beyond the near clip or
 the minimum range, so a sensor in its own closed housing sees through it. Transparent parts do not
-count.
+count. A lidar of Gazebo Classic without GPU (`type="ray"`) meets collisions in place of visuals.
 
 Fix: move the sensor to the front of its housing, where the real lens is, or move the visual away;
 for a lidar increase `<range><min>` above the radius of its own housing.
@@ -44,11 +44,12 @@ def check(
         if fault is None:
             continue
         sensor = view.mounted.sensor
-        by = f"; mainly visual {view.by[1].name.value!r}" if view.by is not None else ""
+        tag = view.by[1].element.tag if view.by is not None else ""
+        by = f"; mainly {tag} {view.by[1].name.value!r}" if view.by is not None else ""
         yield finding(
             sensor.pose,
             f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {fault}{by}",
-            related=[(view.by[1], "this visual")] if view.by is not None else (),
+            related=[(view.by[1], f"this {tag}")] if view.by is not None else (),
         )
     if seen.robot.missing_parts:
         yield unchecked(seen.robot.missing_parts)

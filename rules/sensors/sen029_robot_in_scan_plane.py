@@ -7,12 +7,12 @@ no reading. No planar lidar of the accepted packages that we checked sees its ow
 several rows often do, and what uses them filters it.
 
 The rule casts up to 576 rays over the scan at the robot's visuals, with all joints in their initial
-position. A lidar of Gazebo Classic without GPU meets collisions, and is not checked.
+position; those of a lidar of Gazebo Classic without GPU (`type="ray"`) at its collisions.
 
 Fix: move the lidar above or below the part, narrow `<horizontal>` so that the scan leaves it out,
 or set `<range><min>` beyond it.
-Source: Gazebo renders a GPU lidar from the robot's visuals; costmap_2d, obstacle layer: each
-reading within its range marks an obstacle.
+Source: Gazebo renders a GPU lidar from the robot's visuals, and Classic's `RaySensor` asks the
+physics engine; costmap_2d, obstacle layer: each reading within its range marks an obstacle.
 """
 
 import math
@@ -20,14 +20,14 @@ from collections.abc import Iterator
 
 from checker.model.sensing.lidar import Lidar
 from checker.model.sensing.view import Hit, SensorViews, View
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _SINGLE = 1
 """Horizontal samples of a range finder, such as a cliff sensor."""
 
 
 @rule("SEN029", "robot-in-scan-plane", Severity.WARNING, Concern.INTERFACE)
-def check(seen: SensorViews, context: Context, *, most: float = 0.3) -> Findings:
+def check(seen: SensorViews, *, most: float = 0.3) -> Findings:
     """Report lidars of one row with rays that end at the robot.
 
     Options:
@@ -35,12 +35,7 @@ def check(seen: SensorViews, context: Context, *, most: float = 0.3) -> Findings
     """
     planar = [view for view in seen.views if _is_planar(view.mounted.sensor.lidar)]
     for view in planar:
-        sensor = view.mounted.sensor
-        if context.release == "classic" and sensor.type.value == "ray":
-            yield unchecked(
-                f"lidar {sensor.name.value!r} meets collisions, and only visuals are looked at"
-            )
-        elif view.filled and view.hidden <= most:
+        if view.filled and view.hidden <= most:
             yield _finding(view)
     if planar and seen.unseen:
         yield unchecked(seen.unseen[0])
@@ -60,7 +55,7 @@ def _finding(view: View) -> Finding:
         sensor.pose,
         f"lidar {sensor.name.value!r} sees the robot itself in {view.hidden:.1%} of its rays, "
         f"expected none: {parts}",
-        related=[(nearest.by[1], "this visual")],
+        related=[(nearest.by[1], f"this {nearest.by[1].element.tag}")],
     )
 
 
@@ -101,10 +96,25 @@ def _robot(post: str, minimum: float = 0.1, rows: int = 1, mark: str = "") -> st
 
 
 _MARK = "  <!-- ^ SEN029 -->"
+
+
+def _classic(shape: str, mark: str = "") -> object:
+    robot = _robot("0.2 0.1 0.2", mark=mark).replace("visual", shape)
+    ray = (
+        robot.replace("gpu_lidar", "ray").replace("<lidar>", "<ray>").replace("</lidar>", "</ray>")
+    )
+    return {"@profile": "gazebo-classic", "@fragment": ray}
+
+
 GOOD = [
+    _classic("visual"),
     # Below the plane, nearer than the range, and a lidar of many rows.
     _robot("0.2 0.1 -0.2"),
     _robot("0.2 0.1 0.2", minimum=0.3),
     _robot("0.2 0.1 0.2", rows=16),
 ]
-BAD = [_robot("0.2 0.1 0.2", mark=_MARK), _robot("-0.3 0 0.2", mark=_MARK)]
+BAD = [
+    _robot("0.2 0.1 0.2", mark=_MARK),
+    _robot("-0.3 0 0.2", mark=_MARK),
+    _classic("collision", _MARK),
+]

@@ -3,51 +3,52 @@
 from __future__ import annotations
 
 from checker.base.record import Record
-from checker.model.components import Light, Link, Visual
+from checker.model.components import Collision, Light, Link, Visual
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted
 
 
 class Hit(Record, eq=False):
-    """A ray of a sensor that ends at a visual of its own robot.
+    """A ray of a sensor that ends at a shape of its own robot.
 
     Attributes:
         share: Of the view that the ray stands for, 0 to 1.
         metres: Along the ray.
         azimuth: Of the ray, to the left of the sensor's x axis, radians.
-        by: The visual, and its link.
+        by: The shape, and its link.
     """
 
     share: float
     metres: float
     azimuth: float
-    by: tuple[Link, Visual]
+    by: tuple[Link, Visual | Collision]
 
 
 class View(Record, eq=False):
     """What a camera or lidar sees of the robot that carries it, with all joints where they start.
 
     Simulators draw the outer side of a surface only, and only beyond the near clip: a sensor inside
-    its housing sees through it.
+    its housing sees through it. A lidar of type `ray`, which Gazebo Classic alone simulates, meets
+    collisions in place of visuals.
 
     Attributes:
-        filled: Rays that end at visuals.
-        cut: Share in which visuals stand nearer than the near clip, so that they are cut open.
-        by: The visual that takes most, and its link; None where there is none in view.
+        filled: Rays that end at visuals, or at collisions.
+        cut: Share in which these stand nearer than the near clip, so that they are cut open.
+        by: The shape that takes most, and its link; None where there is none in view.
     """
 
     mounted: Mounted
     filled: tuple[Hit, ...]
     cut: float
-    by: tuple[Link, Visual] | None
+    by: tuple[Link, Visual | Collision] | None
 
     @property
     def hidden(self) -> float:
-        """Share of the view that visuals fill, 0 to 1."""
+        """Share of the view that shapes fill, 0 to 1."""
         return sum(hit.share for hit in self.filled)
 
     def hidden_within(self, distance: float) -> float:
-        """Return the share of the view that visuals nearer than a distance fill, metres."""
+        """Return the share of the view that shapes nearer than a distance fill, metres."""
         return sum(hit.share for hit in self.filled if hit.metres < distance)
 
 

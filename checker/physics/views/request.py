@@ -1,4 +1,4 @@
-"""What is asked of the worker: a robot's sensors, lights and visuals as JSON."""
+"""What is asked of the worker: a robot's sensors, lights and shapes as JSON."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from itertools import islice
 from typing import Any
 
 from checker.base.record import Record
-from checker.model.components import Light, Link, Visual
+from checker.model.components import Collision, Light, Link, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.interpenetration import is_convex
 from checker.model.geometry.placed_shapes import placed
+from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform
 from checker.model.mesh import MeshFault, picked_part
 from checker.model.robot import Robot
@@ -21,7 +22,7 @@ from checker.physics.views.obstacles import SOLIDS
 from checker.physics.views.rays import grid_of
 from checker.source.text import Located
 
-SENSORS, VISUALS = 60, 3000
+SENSORS, SHAPES = 60, 3000
 """The most that are looked at; a robot has a dozen sensors and a hundred visuals."""
 LIGHTS = 60
 """Pairs of a light and a mesh around it that are looked at."""
@@ -37,7 +38,7 @@ class ViewRequest(Record, eq=False):
         item: For the worker.
         contents: A hash of each mesh file, in the order of the request.
         sensors: In the order of the request.
-        visuals: By their numbers.
+        shapes: Visuals, then collisions if a sensor meets these, by their numbers.
         lights: With the visual around each, in the order of the request.
         unseen: What is left out, and why, as ends of sentences.
     """
@@ -45,7 +46,7 @@ class ViewRequest(Record, eq=False):
     item: dict[str, Any]
     contents: tuple[str, ...]
     sensors: tuple[Mounted, ...]
-    visuals: tuple[tuple[Link, Visual], ...]
+    shapes: tuple[tuple[Link, Visual | Collision], ...]
     lights: tuple[tuple[Light, Visual], ...]
     unseen: tuple[str, ...]
 
@@ -57,8 +58,8 @@ class ViewRequest(Record, eq=False):
 
     @property
     def work(self) -> int:
-        """How many pairs of sensor and visual are looked at."""
-        return len(self.sensors) * len(self.visuals)
+        """How many pairs of sensor and shape are looked at."""
+        return len(self.sensors) * len(self.shapes)
 
 
 def view_request(robot: Robot, content: Content) -> ViewRequest:
@@ -67,20 +68,29 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
         (sensor, grid) for sensor in mounted_sensors(robot) if (grid := grid_of(sensor.sensor))
     ]
     visuals = [(link, visual) for link in robot.links for visual in link.visuals]
+    touching = any(_meets_collisions(mount) for mount, _ in looking)
+    collisions = [(link, it) for link in robot.links if touching for it in link.collisions]
     unseen: list[str] = []
-    if len(looking) > SENSORS or len(visuals) > VISUALS:
-        unseen.append(f"at most {SENSORS} sensors and {VISUALS} visuals are checked")
-        looking, visuals = looking[:SENSORS], visuals[:VISUALS]
+    if len(looking) > SENSORS or max(len(visuals), len(collisions)) > SHAPES:
+        unseen.append(f"at most {SENSORS} sensors, {SHAPES} visuals and collisions are checked")
+        looking, visuals, collisions = looking[:SENSORS], visuals[:SHAPES], collisions[:SHAPES]
     lights = list(islice(_covered_lights(robot, visuals), LIGHTS))
     around = {visual for _, visual, _ in lights}
     scene = _Scene({}, {}, unseen)
-    for number, (link, visual) in enumerate(visuals):
-        if looking or visual in around:
-            scene.add(number, visual, robot.pose_of_part(link, visual.pose), content)
+    shapes: tuple[tuple[Link, Visual | Collision], ...] = (*visuals, *collisions)
+    for number, (link, shape) in enumerate(shapes):
+        if looking or shape in around:
+            scene.add(number, shape, robot.pose_of_part(link, shape.pose), content)
     item = {
         "sensors": [
-            {"pose": _numbers(mount.pose), "grid": grid.as_json()} for mount, grid in looking
+            {
+                "pose": _numbers(mount.pose),
+                "grid": grid.as_json(),
+                "collisions": _meets_collisions(mount),
+            }
+            for mount, grid in looking
         ],
+        "visuals": len(visuals),
         "solids": scene.solids,
         "meshes": list(scene.meshes.values()),
     }
@@ -91,7 +101,12 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
     seen = tuple(mount for mount, _ in looking)
     pairs = tuple((light, visual) for light, visual, _ in lights)
     left_out = tuple(dict.fromkeys(scene.unseen))
-    return ViewRequest(item, contents, seen, tuple(visuals), pairs, left_out)
+    return ViewRequest(item, contents, seen, shapes, pairs, left_out)
+
+
+def _meets_collisions(mounted: Mounted) -> bool:
+    """Whether a sensor's rays are physics: those of Gazebo Classic without GPU."""
+    return mounted.sensor.type.value == "ray"
 
 
 def _covered_lights(
@@ -127,7 +142,7 @@ def _shining(light: Light, pose: Transform, visual: int) -> dict[str, Any]:
 
 
 class _Scene(Record, eq=False):
-    """The visuals of a request, as they are collected.
+    """The shapes of a request, as they are collected.
 
     Attributes:
         solids: By kind.
@@ -139,44 +154,46 @@ class _Scene(Record, eq=False):
     meshes: dict[tuple[str, str, bool], dict[str, Any]]
     unseen: list[str]
 
-    def add(self, number: int, visual: Visual, pose: Transform | None, content: Content) -> None:
-        """Add a visual, or say why it cannot be looked at."""
-        geometry = visual.geometry
-        if visual.is_see_through or geometry.shape in ("", "empty"):
+    def add(
+        self, number: int, shape: Visual | Collision, pose: Transform | None, content: Content
+    ) -> None:
+        """Add a shape, or say why it cannot be looked at."""
+        geometry, kind = shape.geometry, "visual" if isinstance(shape, Visual) else "collision"
+        see_through = isinstance(shape, Visual) and shape.is_see_through
+        if see_through or geometry.shape in ("", "empty"):
             return
         if pose is None or not all(map(math.isfinite, _numbers(pose))):
-            self.unseen.append(f"the place of visual {visual.name.value!r} is not known")
+            self.unseen.append(f"the place of {kind} {shape.name.value!r} is not known")
         elif geometry.shape == "mesh" and geometry.uri is not None:
-            self._add_mesh(number, visual, pose, content(geometry.uri))
+            self._add_mesh(number, geometry, pose, content(geometry.uri))
         elif geometry.shape in SOLIDS:
             names = SOLIDS[geometry.shape][0]
             sizes = [size.value for name in names for size in geometry.sizes.get(name, ())]
             # A shape without extent is not drawn.
             if sizes and all(0.0 < size < math.inf for size in sizes):
-                kind: dict[str, list[Any]] = {"visuals": [], "sizes": [], "poses": []}
-                group = self.solids.setdefault(geometry.shape, kind)
+                empty: dict[str, list[Any]] = {"visuals": [], "sizes": [], "poses": []}
+                group = self.solids.setdefault(geometry.shape, empty)
                 group["visuals"].append(number)
                 group["sizes"].append(sizes)
                 group["poses"].append(_numbers(pose))
         else:
-            message = f"a visual of kind {geometry.shape} is not checked"
-            self.unseen.append(message)
+            self.unseen.append(f"a {kind} of kind {geometry.shape} is not checked")
 
     def _add_mesh(
         self,
         number: int,
-        visual: Visual,
+        geometry: Geometry,
         pose: Transform,
         found: tuple[MeshFile, str] | MeshFault,
     ) -> None:
-        uri = visual.geometry.uri
+        uri = geometry.uri
         named = uri.value if uri is not None else ""
         if isinstance(found, MeshFault):
             self.unseen.append(f"{named} {found.reason}")
             return
-        picked = picked_part(visual.geometry)
+        picked = picked_part(geometry)
         part, centred = picked or ("", False)
-        scale = [factor.value for factor in visual.geometry.sizes.get("scale", ())]
+        scale = [factor.value for factor in geometry.sizes.get("scale", ())]
         if (picked and not part) or len(scale) != 3 or not all(map(math.isfinite, scale)):
             self.unseen.append(f"{named} is only partly used (<submesh>)")
             return

@@ -126,9 +126,9 @@ def _checked(answer: Any, request: ViewRequest) -> _Answer:
     views, unread, covered = (list(answer[name]) for name in ("views", "unread", "covered"))
     if (
         len(views) == len(request.sensors)
-        and all(-1 <= int(view["by"]) < len(request.visuals) for view in views)
+        and all(-1 <= int(view["by"]) < len(request.shapes) for view in views)
         and all(len({len(view[name]) for name in _RAYS}) == 1 for view in views)
-        and all(0 <= number < len(request.visuals) for view in views for number in view["visual"])
+        and all(0 <= number < len(request.shapes) for view in views for number in view["visual"])
         and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
         and all(0 <= number < len(request.contents) and str(why) for number, why, _ in unread)
         and all(0 <= number < len(request.lights) for number, *_ in covered)
@@ -143,13 +143,13 @@ def _views_of(robot: Robot, request: ViewRequest, answer: dict[str, Any]) -> Sen
         View(
             mounted,
             tuple(
-                Hit(share, metres, azimuth, request.visuals[visual])
+                Hit(share, metres, azimuth, request.shapes[visual])
                 for share, metres, azimuth, visual in zip(
                     view["shares"], view["reach"], view["across"], view["visual"], strict=True
                 )
             ),
             view["cut"],
-            request.visuals[view["by"]] if view["by"] >= 0 else None,
+            request.shapes[view["by"]] if view["by"] >= 0 else None,
         )
         for mounted, view in zip(request.sensors, answer["views"], strict=True)
     )

@@ -1,9 +1,10 @@
 """Casts the rays of sensors at visuals, and those of lights at meshes around them.
 
-What is asked holds `sensors` (pose and grid), `solids` (visuals of one kind, with their sizes),
-`meshes` (files, with the visuals that show them) and, if there are any, `lights` (see `covered`),
-each with the `visual` that it may stand inside. Poses are 12 numbers in the robot's frame: the
-rotation row by row, then the place.
+What is asked holds `sensors` (pose, grid, and whether they meet `collisions` instead of visuals),
+`solids` (shapes of one kind, with their sizes), `meshes` (files, with the shapes that show them)
+and, if there are any, `lights` (see `covered`), each with the `visual` that it may stand inside.
+Of the shapes, those numbered from `visuals` on are collisions. Poses are 12 numbers in the robot's
+frame: the rotation row by row, then the place.
 """
 
 from __future__ import annotations
@@ -66,9 +67,18 @@ def views_of(
         else:
             hits += seen["met"]
             lights += seen["covered"]
+    first_collision = item["visuals"]
     views = [
-        _view(grid, [hit for hit in hits if hit["sensor"] == number])
-        for number, (_, grid) in enumerate(sensors)
+        _view(
+            grid,
+            [
+                hit
+                for hit in hits
+                if hit["sensor"] == number
+                if (hit["visual"] >= first_collision) == asked["collisions"]
+            ],
+        )
+        for number, ((_, grid), asked) in enumerate(zip(sensors, item["sensors"], strict=True))
     ]
     return {"views": views, "unread": unread, "covered": lights}
 
