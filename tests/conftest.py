@@ -12,6 +12,7 @@ import pytest
 from hypothesis import settings
 
 from tests.browser import chromium  # noqa: F401 (a fixture)
+from tests.bucket import bucket_url, object_store  # noqa: F401 (fixtures)
 from tests.effort import THOROUGH
 from tests.postgres import postgres_url  # noqa: F401 (a fixture)
 from tests.real_packages import CORPUS, needed_folder, not_judged

@@ -27,6 +27,7 @@ MARKS: Mapping[str, str] = {
 BY_FIXTURE: Mapping[str, str] = {
     "chromium": "browser",
     "postgres_url": "service",
+    "bucket_url": "service",
     "serve": "service",
     "start_service": "service",
     "outside": "service",

@@ -84,6 +84,8 @@ SERVICE = Extra(
     ),
 )
 """Serves checks, and sends packages to such a service."""
+S3 = Extra("s3", ("obstore",))
+"""Keeps uploads and results of a service in S3, for several machines."""
 EDITOR = Extra("editor", ("lsprotocol", "pygls"))
 """Tells editors of faults while a package is written."""
 

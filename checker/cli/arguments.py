@@ -27,13 +27,22 @@ def add_exit_codes(parser: argparse.ArgumentParser) -> None:
 
 
 def add_data(parser: argparse.ArgumentParser) -> None:
-    """Add the folder of a service."""
+    """Add the folder of a service, and what several machines share."""
     parser.add_argument(
         "--data",
         metavar="DIR",
         default="",
         help=(
             "folder for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)"
+        ),
+    )
+    parser.add_argument(
+        "--store",
+        metavar="URL",
+        default="",
+        help=(
+            "bucket for uploads and reports of several machines, such as s3://bucket/prefix; "
+            "DIR then holds copies (default: SUBT_CHECK_STORE, else none)"
         ),
     )
 

@@ -180,10 +180,9 @@ def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.service.jobs.durable.worker`."""
     from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
-    from checker.service.store.place import data_folder
-    from checker.service.store.store import Store
+    from checker.service.store.store import opened
 
-    work(WorkerOptions(database_url(), Store(data_folder()), name))
+    work(WorkerOptions(database_url(), opened(), name))
 
 
 def main(arguments: Sequence[str]) -> int:

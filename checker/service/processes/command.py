@@ -104,10 +104,12 @@ def _data_made(options: argparse.Namespace) -> Store:
     Raises:
         CheckerError: It cannot be made or written.
     """
-    from checker.service.store.store import Store
+    from checker.service.store.store import opened
 
     if options.data:
         os.environ["SUBT_CHECK_DATA"] = str(Path(options.data).absolute())
+    if options.store:
+        os.environ["SUBT_CHECK_STORE"] = options.store
     folder = data_folder()
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -119,7 +121,7 @@ def _data_made(options: argparse.Namespace) -> Store:
             f"{folder} cannot be used for the service's data ({problem}); choose another with "
             "--data"
         )
-    store = Store(folder)
+    store = opened()
     store.tighten()
     return store
 

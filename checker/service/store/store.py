@@ -6,6 +6,7 @@ Work in progress lies in the folder `incoming/` of this machine; what is kept li
 
 from __future__ import annotations
 
+import os
 import re
 import stat
 from collections.abc import Collection, Iterator
@@ -17,10 +18,10 @@ from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
 from checker.service.store.folder import FolderObjects
 from checker.service.store.objects import Kind, Objects
-from checker.service.store.place import DATABASE
+from checker.service.store.place import DATABASE, data_folder
 from checker.service.store.workplace import Incoming, TooLarge, sweep, work_file, workplace
 
-__all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
+__all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge", "opened"]
 
 DEFAULT_UPLOAD_LIMIT = 100_000_000
 """Bytes."""
@@ -166,6 +167,20 @@ class Store(Record):
 
     def _find(self, kind: Kind, key: str) -> Path | None:
         return self.objects.find(kind, key) if _KEY.fullmatch(key) else None
+
+
+def opened() -> Store:
+    """Return the store of this machine; `SUBT_CHECK_STORE` says what it shares with others.
+
+    Raises:
+        CheckerError: The address of the bucket is none, or there is no place for data.
+    """
+    folder, shared = data_folder(), os.environ.get("SUBT_CHECK_STORE", "")
+    if not shared:
+        return Store(folder)
+    from checker.service.store.s3 import s3_objects
+
+    return Store(folder, s3_objects(shared, folder))
 
 
 def _is_of_result(name: str) -> bool:

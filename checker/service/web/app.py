@@ -16,8 +16,7 @@ from checker.engine.report_cache import program_parts
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.port import Jobs
-from checker.service.store.place import data_folder
-from checker.service.store.store import Store
+from checker.service.store.store import Store, opened
 from checker.service.web import health
 from checker.service.web.answers.bodies import Heads
 from checker.service.web.answers.compression import Compression
@@ -131,7 +130,7 @@ def app_from_environment() -> FastAPI:
     """
     config = config_from()
     log_to_stderr()
-    store = Store(data_folder())
+    store = opened()
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
     indexes = ArchiveIndexes()

@@ -16,12 +16,17 @@ from checker.base.record import Record
 from checker.base.sandbox.layers import hides_files
 from checker.service.exposure import is_loopback
 from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
+from checker.service.store.objects import StoreUnreachable
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused, not_found
 from checker.service.web.services import Services
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
+
+
+_NO_KEY = "0" * 64
+"""Of no result; asked for to see whether there is an answer."""
 
 
 class Well(BaseModel):
@@ -136,6 +141,9 @@ class Health(Record):
         try:
             with store.incoming() as incoming:  # what is not finished is not kept
                 incoming.write(b"written to see whether it can be")
+            store.has(_NO_KEY)
+        except StoreUnreachable:
+            yield "The object store does not answer."
         except OSError as error:
             yield f"The data folder cannot be written: {error.strerror or 'it fails'}."
 

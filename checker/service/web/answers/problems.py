@@ -13,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from checker.service.jobs.port import JobsUnreachable
+from checker.service.store.objects import StoreUnreachable
 from checker.service.web.answers.refusal import Refused, not_found
 from checker.service.web.logs import LOGGER
 from checker.service.web.pages.site import html
@@ -66,7 +67,7 @@ def say_no_by(app: FastAPI) -> None:
     async def say_no(request: Request, error: Exception) -> Response:
         return refusal_answer(request, _refusal_of(error))
 
-    for kind in (Refused, JobsUnreachable, HTTPException, RequestValidationError):
+    for kind in (Refused, JobsUnreachable, StoreUnreachable, HTTPException, RequestValidationError):
         app.add_exception_handler(kind, say_no)
 
 
@@ -78,7 +79,9 @@ def _refusal_of(error: Exception) -> Refused:
             return error
         case JobsUnreachable():
             _LOG.warning("the job engine does not answer (%s)", error, exc_info=error)
-            return _engine_away()
+            return _away("database", "engine")
+        case StoreUnreachable():
+            return _away("object store", "store")
         case HTTPException():
             return _of_framework(error)
         case RequestValidationError():
@@ -87,9 +90,9 @@ def _refusal_of(error: Exception) -> Refused:
             raise error
 
 
-def _engine_away() -> Refused:
-    error, advice = "The service cannot reach its database.", "Try again in a few seconds."
-    return Refused(503, error, advice, "engine", {"Retry-After": "5"})
+def _away(what: str, cause: str) -> Refused:
+    error, advice = f"The service cannot reach its {what}.", "Try again in a few seconds."
+    return Refused(503, error, advice, cause, {"Retry-After": "5"})
 
 
 def _of_framework(error: HTTPException) -> Refused:
