@@ -82,7 +82,17 @@ ARM = """
 <joint name="j" type="revolute"><parent>base_link</parent><child>arm</child></joint>
 """
 
+CONTROLLED = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+<xacro:arg name="gazebo" default="false"/>
+<link name="base_link"/>
+<ros2_control name="arm" type="system">
+  <hardware><xacro:if value="$(arg gazebo)"><plugin>a/B</plugin></xacro:if></hardware>
+</ros2_control>
+</robot>
+"""
+CHOSEN = {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": CONTROLLED}
 CASES: list[tuple[str, Example, str]] = [
+    ("R2C003", CHOSEN, "warning"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
     ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),

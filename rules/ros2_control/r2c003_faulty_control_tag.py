@@ -12,6 +12,7 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resour
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
+from checker.expand.xacro.expanded import ExpandedText
 from checker.model.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,
@@ -21,13 +22,15 @@ from checker.model.ros2_control.hardware import (
 )
 from checker.model.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.xml import Element
 
 
 @rule("R2C003", "faulty-control-tag", Severity.ERROR, Concern.INTERFACE)
 def check(control: RobotControl) -> Findings:
     """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there.
 
-    A joint that stands twice in a tag is a warning.
+    A joint that stands twice in a tag is a warning, and so is a plugin that a condition of xacro
+    leaves out: the robot may be meant to be shown alone then.
     """
     for hardware in control.hardware:
         yield from _missing(hardware)
@@ -46,8 +49,24 @@ def _missing(hardware: Hardware) -> Iterator[Finding]:
         says = f"is of type {kind.value!r}" if kind.stated else "has no type"
         yield finding(kind, f"{called} {says}, expected system, actuator or sensor")
     if not hardware.plugin.value:
-        lacks = "<plugin>" if hardware.element.child("hardware") is not None else "<hardware>"
-        yield finding(hardware.plugin, f"{called} has no {lacks}, so no hardware is loaded")
+        inside = hardware.element.child("hardware")
+        chosen = inside is not None and _has_plugin_elsewhere(inside)
+        lacks = "<plugin>" if inside is not None else "<hardware>"
+        where = " with these arguments" if chosen else ""
+        yield finding(
+            hardware.plugin,
+            f"{called} has no {lacks}{where}, so no hardware is loaded",
+            severity=Severity.WARNING if chosen else None,
+        )
+
+
+def _has_plugin_elsewhere(hardware: Element) -> bool:
+    """Whether xacro leaves out a plugin with the values that its arguments have here."""
+    if not isinstance(hardware.source, ExpandedText):
+        return False
+    pairs = zip(hardware.document.elements, hardware.source.origins, strict=True)
+    origin = next((written for it, written in pairs if it.node is hardware.node), None)
+    return origin is not None and next(origin.descendants("plugin"), None) is not None
 
 
 def _strange(hardware: Hardware) -> Iterator[Finding]:
@@ -101,9 +120,29 @@ def _arm(attributes: str = _NAMED + _TYPED, inside: str = _HARDWARE, mark: str =
     }
 
 
+def _conditional(mark: str) -> object:
+    robot = f"""<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+<link name="base_link"/><link name="upper_arm"/>
+<joint name="shoulder" type="revolute">
+  <parent link="base_link"/><child link="upper_arm"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="10" velocity="1"/>
+</joint>
+<xacro:arg name="gazebo" default="false"/>
+<ros2_control name="arm" type="system">
+  <hardware>{mark}
+    <xacro:if value="$(arg gazebo)">{_PLUGIN}</xacro:if>
+  </hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+</robot>
+"""
+    return {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": robot}
+
+
 _SENSOR = '<sensor name="imu"><state_interface name="orientation.x"/></sensor>'
 GOOD = [_arm(), _arm(inside=_HARDWARE + _SENSOR)]
 BAD = [
+    _conditional(_MARK),
     _arm(_TYPED, mark=_MARK),
     _arm(_NAMED, mark=_MARK),
     _arm(_NAMED + ' type="robot"', mark=_MARK),
