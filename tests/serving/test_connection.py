@@ -20,6 +20,8 @@ from tests.serving.conftest import Serve
 
 SIZE = 40_000_000
 """Bytes that no system buffers for a client that does not read."""
+SLOW = 50_000
+"""Bytes that a slow client takes ten times a second: fewer than the system asks for at a time."""
 HELLO = b"GET /hello HTTP/1.1\r\nHost: localhost\r\n\r\n"
 UNREAD = HELLO.replace(b"Host", b"Content-Length: 9999\r\nHost")
 LARGE = b"GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n"
@@ -124,6 +126,17 @@ def test_a_client_that_takes_its_time_gets_all() -> None:
     with server(Quick) as port, connected(port) as connection:
         connection.sendall(LARGE.replace(b"Host", b"Connection: close\r\nHost"))
         assert received_from(connection, pause=0.05) > SIZE
+
+
+def test_a_client_that_takes_little_at_a_time_is_not_sent_away() -> None:
+    """The system holds megabytes for it, so that for long the server is asked for no more."""
+    with server(Quick) as port, connected(port) as connection:
+        connection.sendall(LARGE.replace(b"Host", b"Connection: close\r\nHost"))
+        ends = monotonic() + 3 * Quick.reading_seconds
+        while monotonic() < ends:
+            assert connection.recv(SLOW)
+            sleep(0.1)
+        assert received_from(connection) > SIZE / 2
 
 
 def test_one_client_leaves_room_for_nobody_of_its_own() -> None:

@@ -7,10 +7,12 @@
 from __future__ import annotations
 
 import asyncio
+import fcntl
 import os
 import signal
 import socket
 import sys
+import termios
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -58,14 +60,13 @@ class Connection(H11Protocol):
 
     Attributes:
         head_seconds: That the head of a request may take.
-        reading_seconds: That a client may take nothing of an answer that waits for it. Systems
-            buffer hundreds of kilobytes before they ask for more, and modems need as long for them.
+        reading_seconds: That a client may take nothing of an answer that waits for it.
         per_client: Connections of one address or IPv6 network; 0 for any number.
         network: Whence it comes, as `checker.service.web.limits.rates.network_of` says it.
     """
 
     head_seconds = 10.0
-    reading_seconds = 120.0
+    reading_seconds = 60.0
     per_client = 500
     network = ""
 
@@ -96,7 +97,7 @@ class Connection(H11Protocol):
     def pause_writing(self) -> None:
         """Begin to wait for the reader."""
         super().pause_writing()
-        self._unread = self.transport.get_write_buffer_size()
+        self._unread = self._waiting()
         self._reader.set(self.reading_seconds)
 
     def resume_writing(self) -> None:
@@ -109,11 +110,21 @@ class Connection(H11Protocol):
             self.transport.abort()
 
     def _look_at_reader(self) -> None:
-        unread, self._unread = self._unread, self.transport.get_write_buffer_size()
+        unread, self._unread = self._unread, self._waiting()
         if self._unread < unread:
             self._reader.set(self.reading_seconds)
         else:
             self.transport.abort()
+
+    def _waiting(self) -> int:
+        """Return the bytes that the client has not taken: megabytes of them the system holds."""
+        held = 0
+        with suppress(OSError):  # of a socket, it is what is not acknowledged (SIOCOUTQ, tcp(7))
+            answer = fcntl.ioctl(
+                self.transport.get_extra_info("socket").fileno(), termios.TIOCOUTQ, bytes(4)
+            )
+            held = int.from_bytes(answer, sys.byteorder)
+        return self.transport.get_write_buffer_size() + held
 
     def _answers(self) -> bool:
         """Whether a request is being answered."""
