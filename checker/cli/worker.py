@@ -14,7 +14,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=positive,
         metavar="N",
-        help="trials at the same time, and one more of another sender (default: 1)",
+        help=(
+            "trials that this worker runs at the same time, and one more of another sender "
+            "(default: 1); the processes of `serve` run 1 each"
+        ),
     )
     parser.add_argument(
         "--name",

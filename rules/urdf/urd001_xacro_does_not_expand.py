@@ -35,6 +35,8 @@ def check(files: UrdfFiles) -> Findings:
     for fault in files.faults:
         if fault.kind is XacroFaultKind.MALFORMED:  # SDF001 says so.
             yield unchecked(f"{fault.file} is not well-formed")
+        elif fault.kind is XacroFaultKind.LIMIT:
+            yield unchecked(f"{fault.file} is not expanded: {fault.message}")
         else:
             yield _refused(fault)
     for description in files.descriptions:

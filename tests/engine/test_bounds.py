@@ -117,3 +117,20 @@ def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
         assert read == sorted(read, reverse=True)
         assert len(found.too_large) == read.count(False) > 0
         assert "for all" in found.too_large[0].reason
+
+
+def test_a_xacro_file_of_too_many_elements_is_not_checked(tmp_path: Path) -> None:
+    """Forty macros, each of which calls the one before twice: a bound of ours, no error of it."""
+    macros = "".join(
+        f'<xacro:macro name="m{n}"><xacro:m{n - 1}/><xacro:m{n - 1}/></xacro:macro>'
+        for n in range(1, 41)
+    )
+    body = f'<xacro:macro name="m0"><link name="l"/></xacro:macro>{macros}<xacro:m40/>'
+    text = f'<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">{body}</robot>'
+    (tmp_path / "r.urdf.xacro").write_text(text)
+    settings = Settings(trial=False, cache=False, select=("URD001",))
+    (report,) = check_package(tmp_path / "r.urdf.xacro", settings).packages
+    assert report.verdict is VerdictKind.INCOMPLETE
+    assert not report.findings
+    (reason,) = {unseen.reason for unseen in report.not_checked if unseen.rule == "URD001"}
+    assert reason == "r.urdf.xacro is not expanded: it expands to more than 50000 elements"

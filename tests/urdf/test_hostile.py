@@ -17,6 +17,7 @@ from tests.urdf.conftest import NAME, Describe, robot
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
 LINK = '<link name="a"/>'
 EXPANSION, LIMIT = XacroFaultKind.EXPANSION, XacroFaultKind.LIMIT
+RECURSION = XacroFaultKind.RECURSION
 DOUBLING = "".join(
     f'<xacro:macro name="m{n}"><a/><xacro:m{n + 1}/><xacro:m{n + 1}/></xacro:macro>'
     for n in range(40)
@@ -52,8 +53,8 @@ def fault(describe: Describe, body: str, **more: str) -> XacroFault:
         ('<xacro:include filename="/etc/passwd"/>', EXPANSION, "does not exist"),
         ('<xacro:include filename="../../../../etc/passwd"/>', EXPANSION, "does not exist"),
         ("<a b=\"${load_yaml('/etc/passwd')}\"/>", EXPANSION, "/etc/passwd"),
-        ('<xacro:include filename="acme.urdf.xacro"/>', LIMIT, "nested too deeply"),
-        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', LIMIT, "nested too deeply"),
+        ('<xacro:include filename="acme.urdf.xacro"/>', RECURSION, "nested too deeply"),
+        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', RECURSION, "too deeply"),
         ('<xacro:property name="p" value="${p}"/><a b="${p}"/>', EXPANSION, "circular"),
         ("<a b=\"${'x' * 10**10}\"/>", LIMIT, "'x' * 10**10' takes more than 100000 steps"),
         ('<a b="${10**10**10}"/>', LIMIT, "a whole number of more than 4096 bits"),

@@ -229,4 +229,4 @@ def _lasts(answer: Mapping[str, Any]) -> bool:
 
     So do those that want another file: the key says which files are there.
     """
-    return answer.get("kind") != "limit"
+    return answer.get("kind") not in ("limit", "recursion")

@@ -13,7 +13,8 @@ class XacroFaultKind(enum.StrEnum):
 
     `EMPTY`: it holds nothing. `MALFORMED`: it is no well-formed XML. `EXPANSION`: xacro refuses it.
     `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that nobody
-    gives. `LIMIT`: expanding it does not come to an end.
+    gives. `RECURSION`: a macro or a file uses itself. `LIMIT`: expanding it takes more than is
+    allowed here.
     """
 
     EMPTY = "empty"
@@ -21,6 +22,7 @@ class XacroFaultKind(enum.StrEnum):
     EXPANSION = "expansion"
     ENVIRONMENT = "environment"
     ARGUMENT = "argument"
+    RECURSION = "recursion"
     LIMIT = "limit"
 
 

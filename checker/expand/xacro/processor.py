@@ -88,7 +88,7 @@ def expand(
     except _Stopped as stopped:
         return stopped.outcome
     except RecursionError:
-        return expansion.fault("limit", _TOO_DEEP)
+        return expansion.fault("recursion", _TOO_DEEP)
     except Exception as error:  # noqa: BLE001 - xacro raises whatever an expression does
         return expansion.fault(_kind(error), _message(error))
 
@@ -104,7 +104,9 @@ def _causes(error: BaseException | None) -> list[BaseException]:
 
 def _kind(error: BaseException) -> str:
     causes = _causes(error)
-    if any(isinstance(cause, RecursionError | MemoryError) for cause in causes):
+    if any(isinstance(cause, RecursionError) for cause in causes):
+        return "recursion"
+    if any(isinstance(cause, MemoryError) for cause in causes):
         return "limit"
     if any(isinstance(cause, _NeedsEnvironment) for cause in causes):
         return "environment"
@@ -119,7 +121,7 @@ def _message(error: BaseException) -> str:
     expression = next(filter(None, suffixes), "")
     inner = causes[-1]
     if isinstance(inner, MemoryError):
-        message = "needs more memory than allowed"
+        message = "it needs more memory than allowed"
     elif isinstance(inner, RecursionError):
         message = _TOO_DEEP
     elif isinstance(inner, substitution_args.ArgException):
@@ -158,7 +160,7 @@ class _Expansion:
         root = document.documentElement
         text = root.toxml()
         if len(text) > SIZE_LIMIT:
-            return self.fault("limit", f"expands to more than {SIZE_LIMIT / 1e6:g} MB")
+            return self.fault("limit", f"it expands to more than {SIZE_LIMIT / 1e6:g} MB")
         return {"xml": text, "origins": self._origins(root), "files": self._files}
 
     def fault(self, kind: str, message: str) -> dict[str, Any]:
@@ -249,7 +251,7 @@ class _Expansion:
         """Hand an element's origin on to its copy: what minidom calls for every clone."""
         self._nodes += 1
         if self._nodes > NODES_LIMIT:
-            message = f"expands to more than {NODES_LIMIT} elements"
+            message = f"it expands to more than {NODES_LIMIT} elements"
             raise _Stopped(self.fault("limit", message))
         if copy is not None:
             copy.setUserData(key, data, self)

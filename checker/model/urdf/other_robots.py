@@ -17,7 +17,10 @@ from checker.source.xml import XmlDocument
 
 TRIED_LIMIT = 8
 """Values that are tried of one package: they take as long as the robots of the defaults."""
-_OF_THE_USER = (XacroFaultKind.ARGUMENT, XacroFaultKind.ENVIRONMENT, XacroFaultKind.LIMIT)
+_OF_THE_USER = (
+    *(XacroFaultKind.ARGUMENT, XacroFaultKind.ENVIRONMENT),
+    *(XacroFaultKind.RECURSION, XacroFaultKind.LIMIT),
+)
 """Faults that need not be there when somebody chooses a value."""
 
 
