@@ -1,7 +1,7 @@
-"""Many pages that follow one check: what they cost the web process, and how late events are there.
+"""Many pages that follow checks: what they cost the web process, and how late events are there.
 
-Two hundred streams follow a check to which something happens twice a second, then one to which
-nothing happens, whose pages look by themselves now and then. Run with
+Two hundred streams follow twenty checks, to one of which something happens twice a second, then one
+to which nothing happens, whose pages look by themselves now and then. Run with
 `python -m bench.watchers [--postgres] [--watchers N]` from the top folder, as `make bench` does.
 Machines differ and are shared: see the pace that is printed.
 """
@@ -12,26 +12,28 @@ import asyncio
 import os
 import statistics
 import tempfile
-from collections.abc import AsyncIterator, Iterator
+from collections import deque
+from collections.abc import AsyncIterator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from time import perf_counter, time
 from urllib.parse import urlsplit
 
-import sqlalchemy as sa
+from msgspec.structs import replace
 
 from bench.machine import pace
 from bench.service import Client, below, of_service, options_of, show
-from checker.service.jobs.durable.changes import tell
 from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.tables import CHECKS, EVENTS, key_of_check
+from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.receipts import key_of_check
 from tests.postgres import fresh_database, started
 from tests.web.service import service
 
-PROCESSOR_LIMIT, LATE_LIMIT = 20.0, 0.2
+PROCESSOR_LIMIT, LATE_LIMIT = 20.0, 0.8
 """Percent of a processor, and seconds."""
 MEASURED_SECONDS = 15.0
 BETWEEN_SECONDS = 0.5
+CHECKS = 20
 PAGE_SECONDS = 10.0
 """Between two looks of a page to which nothing is told (`MEANWHILE` in templates/web/watch.js)."""
 PER_ADDRESS = 20
@@ -51,35 +53,36 @@ def web_process() -> int:
     return found
 
 
-class Check:
-    """A check to which things happen when the bench wants it."""
+class Followed:
+    """Checks to which things happen when the bench wants it.
 
-    def __init__(self, database: str, id: str) -> None:
-        self._engine, self._key = open_database(database), key_of_check(id)
-        self._number = 1
+    Attributes:
+        ids: Of the checks.
+        happened: When what a number stands for happened to a check.
+    """
+
+    def __init__(self, database: str, ids: Sequence[str]) -> None:
+        self.ids, self._checks = ids, prepared(open_database(database))
+        self.happened: dict[tuple[str, int], float] = {}
+        keys = {id: key_of_check(id) for id in ids}
+        rows = self._checks.rows(keys.values())
+        self._tasks = deque((id, rows[key][0].task) for id, key in keys.items())
 
     def happen(self) -> None:
-        """Write down that something happened, as a worker does."""
-        self._number += 1
-        event = {"number": self._number, "key": f"n{self._number}", "stage": "queued"}
-        with self._engine.begin() as connection:
-            connection.execute(
-                sa.insert(EVENTS).values(
-                    check_id=self._key, words="goes on", time=time(), data={}, **event
-                )
-            )
-            connection.execute(
-                sa.update(CHECKS).where(CHECKS.c.id == self._key).values(words="goes on")
-            )
-            tell(connection, self._key)
+        """Have the check to which nothing happened for longest be tried again, as a worker does."""
+        id, task = self._tasks.popleft()
+        self.happened[id, 2 * task.number + 1] = time()
+        self._checks.again(task, "goes on")
+        self._tasks.append((id, replace(task, number=task.number + 1)))
 
 
-async def watch(address: str, id: str, number: int, late: list[float]) -> None:
-    """Follow a check for ever, and note how late each event is."""
+async def watch(address: str, number: int, followed: Followed, late: list[float]) -> None:
+    """Follow one of the checks for ever, and note how late each event is."""
+    id = followed.ids[number % len(followed.ids)]
     async for line in answered(address, f"/api/checks/{id}/events?after=1", number):
-        if line.startswith(b"data: "):
-            told = float(line.partition(b'"time": ')[2].partition(b",")[0])
-            late.append(time() - told)
+        told = time()
+        if line.startswith(b"id: "):
+            late.append(told - followed.happened[id, int(line[4:])])
 
 
 async def look(address: str, id: str, number: int, watchers: int) -> None:
@@ -105,21 +108,22 @@ async def answered(address: str, path: str, number: int) -> AsyncIterator[bytes]
     writer.close()
 
 
-async def measured(address: str, id: str, watchers: int, check: Check | None) -> list[float]:
-    """Print what watchers cost, and return how late events were; None has nothing happen."""
+async def measured(address: str, watchers: int, followed: Followed | str) -> list[float]:
+    """Print what watchers cost, and return how late events were; to a check alone none happens."""
     late: list[float] = []
-    tasks = [asyncio.create_task(watch(address, id, n, late)) for n in range(watchers)]
-    if check is None:
-        tasks += [asyncio.create_task(look(address, id, n, watchers)) for n in range(watchers)]
+    if isinstance(followed, str):
+        tasks = [asyncio.create_task(look(address, followed, n, watchers)) for n in range(watchers)]
+    else:
+        tasks = [asyncio.create_task(watch(address, n, followed, late)) for n in range(watchers)]
     await asyncio.sleep(5.0)
     web = web_process()
     began, used = perf_counter(), processor_seconds(web)
     while perf_counter() - began < MEASURED_SECONDS:
-        if check is not None:
-            await asyncio.to_thread(check.happen)
+        if isinstance(followed, Followed):
+            await asyncio.to_thread(followed.happen)
         await asyncio.sleep(BETWEEN_SECONDS)
     share = 100 * (processor_seconds(web) - used) / (perf_counter() - began)
-    what = "streams, events twice a second" if check is not None else "pages, nothing happens"
+    what = "streams, events twice a second" if late else "pages, nothing happens"
     show(f"{watchers} {what}", share, "% of a processor", PROCESSOR_LIMIT)
     for task in tasks:
         if task.done():
@@ -155,12 +159,11 @@ def main() -> None:
     options = parser.parse_args()
     show("pace", pace(), "ms")
     with serving(postgres=options.postgres) as (address, database):
-        id = Client(address).upload("robot.sdf", MODEL).id
-        check = Check(database, id)
-        late = asyncio.run(measured(address, id, options.watchers, check))
+        ids = [Client(address).upload(f"robot-{n}.sdf", MODEL).id for n in range(CHECKS)]
+        late = asyncio.run(measured(address, options.watchers, Followed(database, ids)))
         show_late(late, options.watchers)
         other = Client(address).upload("other.sdf", MODEL + b" ").id
-        asyncio.run(measured(address, other, options.watchers, None))
+        asyncio.run(measured(address, options.watchers, other))
 
 
 if __name__ == "__main__":

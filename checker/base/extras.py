@@ -79,8 +79,8 @@ PHYSICS = Extra(
 SERVICE = Extra(
     "service",
     (
-        *("blake3", "fastapi", "httpx", "multipart", "prometheus_client", "psycopg"),
-        *("sqlalchemy", "uvicorn"),
+        *("blake3", "dbos", "fastapi", "httpx", "multipart", "prometheus_client"),
+        *("psycopg", "sqlalchemy", "uvicorn"),
     ),
 )
 """Serves checks, and sends packages to such a service."""

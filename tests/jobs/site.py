@@ -8,7 +8,7 @@ import secrets
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic, sleep
@@ -16,7 +16,7 @@ from typing import Any
 
 from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.client import DurableJobs, durable_jobs
-from checker.service.jobs.port import Order, Receipt, Stage, State
+from checker.service.jobs.port import Event, Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 ROOT = Path(__file__).parent.parent.parent
@@ -92,13 +92,16 @@ class Site:
         return Counter(line.rpartition(" ")[0] for line in lines)
 
     def stages(self, id: str) -> list[tuple[int, str]]:
-        return [(event.number, event.stage.value) for event in self.jobs.events(id)]
+        return [(event.number, event.stage.value) for event in self.events(id)]
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        return self.jobs.events({id: after}).get(id, ())
 
     def close(self) -> None:
         for process in self.running:
             process.kill()
             process.wait()
-        self.jobs.engine.dispose()
+        self.jobs.checks.engine.dispose()
 
 
 def site_in(folder: Path, url: str) -> Site:

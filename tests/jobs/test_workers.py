@@ -1,4 +1,4 @@
-"""The table of workers says which layers each of them has."""
+"""Tables of our own: which layers each worker has, and what hides senders."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ import sqlalchemy as sa
 
 from checker.base.sandbox.layers import Layer
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.database import open_database, prepare
-from checker.service.jobs.durable.workers import Workers
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.workers import SALTS, Workers, partition_of
 from checker.service.store.store import Store
 from tests.postgres import DATABASES, fresh_database
 
 LAYERS = (Layer("landlock", True, "version 7", hides=True), Layer("account", False, "no root"))
-OLD = sa.text("INSERT INTO subt_workers (name, beat) VALUES ('old', 1e9)")
 
 
 @pytest.fixture(params=DATABASES)
@@ -28,29 +27,29 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
 
 def test_it_knows_the_sandbox_of_each_worker(url: str, tmp_path: Path) -> None:
     jobs = durable_jobs(url, Store(tmp_path))
-    Workers(jobs.engine, LAYERS).beat("walled")
-    Workers(jobs.engine).beat("bare")
-    Workers(jobs.engine, LAYERS).beat("again")
-    Workers(jobs.engine).beat("again")
+    Workers(jobs.checks.engine, LAYERS).beat("walled")
+    Workers(jobs.checks.engine).beat("bare")
+    Workers(jobs.checks.engine, LAYERS).beat("again")
+    Workers(jobs.checks.engine).beat("again")
     alive = jobs.alive()
     assert alive.layers == {"walled": list(LAYERS), "bare": [], "again": []}
     assert alive.living == alive.layers
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
 
 
-def test_workers_of_version_0_1_0_go_on_and_name_no_layers(url: str, tmp_path: Path) -> None:
-    engine = open_database(url)
-    prepare(engine)
-    with engine.begin() as connection:
-        connection.execute(sa.text("ALTER TABLE subt_workers DROP COLUMN layers"))
-        connection.execute(OLD)
-    engines = [engine, *(open_database(url) for _ in range(3))]
+def test_senders_have_the_same_partition_for_a_day(url: str, tmp_path: Path) -> None:
+    """As all web processes know them, and no other day does."""
+    engine = durable_jobs(url, Store(tmp_path)).checks.engine
+    other = open_database(url)
     with ThreadPoolExecutor(4) as pool:
-        list(pool.map(prepare, engines))
+        found = set(pool.map(lambda each: partition_of(each, "somebody"), [engine, other] * 4))
+    assert len(found) == 1
+    assert partition_of(engine, "another") not in found
+    assert partition_of(engine, "") == "nobody"
     with engine.begin() as connection:
-        connection.execute(sa.text("UPDATE subt_workers SET beat = 2e9 WHERE name = 'old'"))
-    Workers(engine, LAYERS).beat("new")
-    jobs = durable_jobs(url, Store(tmp_path))
-    assert jobs.alive().layers == {"old": [], "new": list(LAYERS)}
-    for each in (*engines, jobs.engine):
+        connection.execute(sa.update(SALTS).values(day="2026-01-01"))
+    assert partition_of(engine, "somebody") not in found
+    with engine.connect() as connection:
+        assert connection.execute(sa.select(sa.func.count()).select_from(SALTS)).scalar() == 1
+    for each in (engine, other):
         each.dispose()

@@ -16,11 +16,10 @@ from urllib.parse import urlsplit
 
 import httpx
 import pytest
-import sqlalchemy as sa
 
 from checker.base.sandbox.task import end_with_parent
-from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.jobs.port import Receipt
 from tests.postgres import DATABASES, fresh_database
 from tests.serving.conftest import (
@@ -89,8 +88,7 @@ class Home:
     def keys(self) -> set[str]:
         """Return the checks that the database knows, by their keys."""
         engine = open_database(self.database)
-        with engine.connect() as connection:
-            found = set(connection.execute(sa.select(CHECKS.c.id)).scalars())
+        found = {row.task.key for row in Checks(engine, client_of(engine)).all_rows()}
         engine.dispose()
         return found
 

@@ -8,7 +8,7 @@ import httpx
 import pytest
 from msgspec.structs import astuple
 
-from checker.service.jobs.durable.tables import key_of_check
+from checker.service.jobs.durable.receipts import key_of_check
 from tests.conftest import SAMPLES
 from tests.postgres import dump
 from tests.serving.conftest import SECONDS, Serve, Serving

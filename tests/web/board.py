@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from time import sleep
 from typing import TYPE_CHECKING, Any
 
 import httpx
 from msgspec.structs import replace
 
-from checker.service.jobs.port import Alive, Changes, Event, Order, Pace, Receipt, Stage, State
+from checker.service.jobs.port import Alive, Event, Order, Pace, Receipt, Stage, State
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -28,17 +27,6 @@ ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", **COUNTS}
 QUEUED = State(ID, Order("b" * 64, "rover.zip"), Stage.QUEUED, expires=2e9)
 WORDS = "Not ready: 5 errors to fix"
 DONE = replace(QUEUED, stage=Stage.DONE, result=KEY, packages=(ROVER,), words=WORDS)
-
-
-class Looks:
-    """Says again and again that something may have changed."""
-
-    def wait(self, seconds: float) -> bool:
-        sleep(min(seconds, 0.02))
-        return True
-
-    def close(self) -> None:
-        pass
 
 
 @dataclass
@@ -58,15 +46,16 @@ class BoardJobs:
     def status(self, id: str) -> State | None:
         return self.states.get(id)
 
-    def events(self, id: str, after: int = 0) -> Sequence[Event]:
-        stages = (Stage.QUEUED, Stage.STATIC) if id in self.states else ()
-        return [Event(n, stage, "", 0.0) for n, stage in enumerate(stages, 1)][after:]
+    def events(self, after: Mapping[str, int]) -> Mapping[str, Sequence[Event]]:
+        return {
+            id: [event for event in self.happened() if event.number > number]
+            for id, number in after.items()
+            if id in self.states
+        }
 
-    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
-        return {id: len(self.events(id)) for id in ids if id in self.states}
-
-    def changes(self) -> Changes:
-        return Looks()
+    def happened(self) -> Sequence[Event]:
+        stages = (Stage.QUEUED, Stage.STATIC)
+        return [Event(n, stage, "", 0.0) for n, stage in enumerate(stages, 1)]
 
     def cancel(self, id: str, secret: str) -> bool:
         if secret == SECRET:
@@ -77,9 +66,6 @@ class BoardJobs:
         if secret == SECRET:
             del self.states[id]
         return secret == SECRET
-
-    def result(self, id: str) -> str:
-        return self.states[id].result
 
     def pace(self) -> Pace:
         return self.paced

@@ -6,7 +6,7 @@ import json
 import re
 import shutil
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import httpx
@@ -355,16 +355,14 @@ class Playing(BoardJobs):
     """A check to which one more thing happens each time somebody asks."""
 
     script: Sequence[Stage] = (Stage.QUEUED, Stage.STATIC, Stage.TRIAL, Stage.DONE)
-    asked: list[int] = field(default_factory=list)
+    asked: int = 0
 
-    def events(self, id: str, after: int = 0) -> Sequence[Event]:
-        self.asked.append(after)
-        shown = self.script[: len(self.asked)]
+    def happened(self) -> Sequence[Event]:
+        self.asked += 1
+        shown = self.script[: self.asked]
         if shown[-1].is_final:
-            self.states[id] = replace(QUEUED, stage=shown[-1])
-        return [Event(n, stage, "ünïcode\n\nid: 9", 1.0) for n, stage in enumerate(shown, 1)][
-            after:
-        ]
+            self.states[ID] = replace(QUEUED, stage=shown[-1])
+        return [Event(n, stage, "ünïcode\n\nid: 9", 1.0) for n, stage in enumerate(shown, 1)]
 
 
 def numbers(text: str) -> list[int]:
@@ -388,7 +386,7 @@ def test_events_come_as_they_happen_until_the_check_ends(store: Store) -> None:
 def test_who_comes_back_gets_what_was_missed(
     store: Store, query: str, header: str, expected: list[int]
 ) -> None:
-    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=[0] * 4)
+    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=4)
     client = TestClient(create_app(jobs, store, Config()), base_url="http://localhost")
     headers = {"Last-Event-ID": header} if header else {}
     answer = client.get(f"/api/checks/{ID}/events{query}", headers=headers)
@@ -396,7 +394,7 @@ def test_who_comes_back_gets_what_was_missed(
 
 
 def test_who_comes_back_after_the_end_is_told_to_stop(store: Store) -> None:
-    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=[0] * 4)
+    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=4)
     client = TestClient(create_app(jobs, store, Config()), base_url="http://localhost")
     assert client.get(f"/api/checks/{ID}/events?after=4").status_code == 204
 

@@ -272,11 +272,11 @@ def test_a_database_that_fails_takes_no_id_into_the_log(
     store = Store(tmp_path / "data")
     jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", store)
     id = jobs.submit(Order("a" * 64, "a.zip")).id
-    with jobs.engine.begin() as connection:
-        connection.exec_driver_sql("ALTER TABLE subt_checks RENAME TO elsewhere")
+    with jobs.checks.engine.begin() as connection:
+        connection.exec_driver_sql("ALTER TABLE workflow_status RENAME TO elsewhere")
     with caplog.at_level(logging.INFO), served(create_app(jobs, store, Config())) as port:
         status = httpx.get(f"http://localhost:{port}/api/checks/{id}").status_code
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
     assert status == 503
     lines = [JsonLines().format(each) for each in caplog.records if each.name[:4] == "subt"]
     assert any("no such table" in line for line in lines)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -42,8 +42,8 @@ class TellingJobs(BoardJobs):
 
     told: list[Event] = field(default_factory=list)
 
-    def events(self, id: str, after: int = 0) -> list[Event]:
-        return [each for each in self.told if id in self.states and each.number > after]
+    def happened(self) -> Sequence[Event]:
+        return self.told
 
     def tell(self, stage: Stage) -> None:
         self.told.append(Event(len(self.told) + 1, stage, "", 0.0))

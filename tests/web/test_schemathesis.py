@@ -81,12 +81,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     folder = tmp_path_factory.mktemp("api")
     store = Store(folder / "data")
     jobs = durable_jobs(f"sqlite:///{folder}/jobs.sqlite", store)
-    Workers(jobs.engine).beat("worker")
+    Workers(jobs.checks.engine).beat("worker")
     app = create_app(jobs, store, Config())
     cancelled = jobs.submit(Order("a" * 64, "a.zip"))
     assert jobs.cancel(cancelled.id, cancelled.secret)
     yield Site(app, done(jobs, ("",)), done(jobs, ("a", "b")), cancelled.id)
-    jobs.engine.dispose()
+    jobs.checks.engine.dispose()
 
 
 @DESCRIPTION.parametrize()

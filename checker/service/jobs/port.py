@@ -1,9 +1,9 @@
-"""What the service needs of a job engine: ten calls; `durable` implements them."""
+"""What the service needs of a job engine: seven calls; `durable` implements them."""
 
 from __future__ import annotations
 
 import enum
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from msgspec import field
@@ -41,8 +41,8 @@ class Order(Record):
         name: Of the uploaded file, made safe by `service.store.file_names`; its ending tells its
             kind.
         profile: Of the check; empty for what suits.
-        sender: Who asks, so that none of them keeps all others waiting; empty for anybody. Known
-            until the check is over.
+        sender: Who asks, so that none of them keeps all others waiting; empty for anybody. It is
+            not kept: a digest stands for it that means nothing after the day.
     """
 
     upload: str
@@ -91,7 +91,7 @@ class State(Record):
 
 
 class Event(Record):
-    """Something that happened to a check; numbers go up by one from 1."""
+    """Something that happened to a check; numbers go up, from 1 at least."""
 
     number: int
     stage: Stage
@@ -117,7 +117,7 @@ class Alive(Record):
         workers: Seconds since each worker's last sign of life, by its name.
         waiting: Checks that wait, by queue.
         running: Checks that run.
-        layers: Of the sandbox around what each worker checks; older versions do not say them.
+        layers: Of the sandbox around what each worker checks.
     """
 
     workers: Mapping[str, float]
@@ -135,18 +135,6 @@ class Alive(Record):
         }
 
 
-class Changes(Protocol):
-    """Hears that something changed; see `checker.service.jobs.durable.changes`."""
-
-    def wait(self, seconds: float) -> bool:
-        """Wait until something changed since the last call; False if nothing did."""
-        ...
-
-    def close(self) -> None:
-        """Hear no more; who waits returns soon."""
-        ...
-
-
 class Pace(Record):
     """How long the stages of a check took lately, as the median of some checks; 0 when not known.
 
@@ -160,7 +148,7 @@ class Pace(Record):
 
 
 class Jobs(Protocol):
-    """The ten calls; none waits for a check, and all may be called from many threads."""
+    """The seven calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -176,16 +164,12 @@ class Jobs(Protocol):
         """Return where a check stands; None for an id that was never given or is forgotten."""
         ...
 
-    def events(self, id: str, after: int = 0) -> Sequence[Event]:
-        """Return what has happened so far after event number `after`, in order."""
-        ...
+    def events(self, after: Mapping[str, int]) -> Mapping[str, Sequence[Event]]:
+        """Return what has happened to checks, in order, of each behind the number of an event.
 
-    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
-        """Return the number of the last event of each of these checks that is known."""
-        ...
-
-    def changes(self) -> Changes:
-        """Return what hears that something changed, at any check."""
+        Args:
+            after: Numbers by the ids of checks; 0 for all events. Those not known are left out.
+        """
         ...
 
     def cancel(self, id: str, secret: str) -> bool:
@@ -197,10 +181,6 @@ class Jobs(Protocol):
 
         Its files are deleted later, when no other check shares them.
         """
-        ...
-
-    def result(self, id: str) -> str:
-        """Return the key of the final report in the store; empty while there is none."""
         ...
 
     def pace(self) -> Pace:

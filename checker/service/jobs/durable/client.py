@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Collection, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime, timedelta
+from statistics import median
+from time import time
 
-import sqlalchemy as sa
 from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.service.jobs.check import stored_result
-from checker.service.jobs.durable.changes import Changes
 from checker.service.jobs.durable.checks import Checks
-from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.pace import pace_of
-from checker.service.jobs.durable.receipts import digest_of_secret, receipt_for
-from checker.service.jobs.durable.steps import Step
-from checker.service.jobs.durable.tables import WAITS, key_of_check
-from checker.service.jobs.durable.workers import Workers
-from checker.service.jobs.outcome import Checked
+from checker.service.jobs.durable.database import open_database, reachable
+from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
+from checker.service.jobs.durable.tasks import End, Row, Task, events_of, state_of
+from checker.service.jobs.durable.workers import Workers, partition_of
 from checker.service.jobs.port import (
     RETENTION_DAYS,
     Alive,
@@ -35,28 +33,26 @@ from checker.service.store.store import Store
 _DAY = 86400.0
 _LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
 """Of the static rules: of real packages, those of a megabyte take about a second."""
+_PACED = 25
+"""Stages whose median tells how long they take, of the last day: what was before says nothing of
+now."""
 
 
-class DurableJobs(Record, dict=True):
+class DurableJobs(Record):
     """`Jobs` on a database: SQLite or PostgreSQL.
 
     Ids, which open reports, and secrets, which end checks, end here: what lies behind knows them by
     their digests alone.
 
     Attributes:
-        engine: Of the database, prepared.
+        checks: In the database.
         store: Uploads and results.
         retention_days: After which all of a check is deleted.
     """
 
-    engine: sa.Engine
+    checks: Checks
     store: Store
     retention_days: float = RETENTION_DAYS
-
-    @cached_property
-    def checks(self) -> Checks:
-        """The table of checks."""
-        return Checks(self.engine)
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -69,12 +65,19 @@ class DurableJobs(Record, dict=True):
             key: The same order with the same key gets the same receipt; empty for a new one.
         """
         receipt = receipt_for(order, key or secrets.token_urlsafe(32))
-        id, secret = key_of_check(receipt.id), digest_of_secret(receipt.secret)
         known = stored_result(self.store, order, Stage.TRIAL)
-        step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
-        keep, cost = self.retention_days * _DAY, self._cost(order)
+        created = round(time(), 3)
+        task = Task(
+            key_of_check(receipt.id),
+            replace(order, sender=""),
+            created,
+            created + self.retention_days * _DAY,
+            cost=self._cost(order),
+            secret=digest_of_secret(receipt.secret),
+            end=End(Stage.DONE, known.words, known.key, known.packages) if known else None,
+        )
         with reachable():
-            self.checks.enter(id, secret, order, keep, step, cost)
+            self.checks.enter(replace(task, sender=partition_of(self.checks.engine, order.sender)))
         return receipt
 
     def _cost(self, order: Order) -> float:
@@ -86,58 +89,86 @@ class DurableJobs(Record, dict=True):
     def status(self, id: str) -> State | None:
         """Return where a check stands; None for an id that was never given or is forgotten."""
         with reachable():
-            state = self.checks.state(key_of_check(id))
-        return state and replace(state, id=id)
+            rows = self._rows(id)
+            state = state_of(id, rows)
+            if state is None or state.stage.is_final or rows[-1].begun:
+                return state
+            return replace(state, ahead=self.checks.ahead(rows[-1].task))
 
-    def events(self, id: str, after: int = 0) -> Sequence[Event]:
-        """Return what has happened so far after event number `after`, in order."""
+    def events(self, after: Mapping[str, int]) -> Mapping[str, Sequence[Event]]:
+        """Return what has happened to checks, of each behind the number of an event.
+
+        Args:
+            after: Numbers by the ids of checks; 0 for all events. Those not known are left out.
+        """
+        keys = {key_of_check(id): id for id in after}
         with reachable():
-            return self.checks.events.after(key_of_check(id), after)
-
-    def last_events(self, ids: Collection[str]) -> Mapping[str, int]:
-        """Return the number of the last event of each of these checks that is known."""
-        keys = {key_of_check(id): id for id in ids}
-        with reachable():
-            return {keys[key]: last for key, last in self.checks.events.last(keys).items()}
-
-    def changes(self) -> Changes:
-        """Return what hears that something changed, at any check."""
-        return Changes(self.engine)
+            found = self.checks.rows(keys)
+        told = {keys[key]: events_of(rows) for key, rows in found.items()}
+        return {
+            id: [event for event in events if event.number > after[id]]
+            for id, events in told.items()
+            if events
+        }
 
     def cancel(self, id: str, secret: str) -> bool:
         """End a check, unless it is over; False if the secret is not the one of this check."""
-        key = key_of_check(id)
         with reachable():
-            may = self.checks.has_secret(key, digest_of_secret(secret))
-            if may:
-                self.checks.cancel(key)
+            rows = self._rows(id)
+            may = _has_secret(rows, secret)
+            if may and not events_of(rows)[-1].stage.is_final:
+                self.checks.cancel(key_of_check(id))
         return may
 
     def delete(self, id: str, secret: str) -> bool:
         """End a check and forget it at once; False if the secret is not the one of this check."""
-        key = key_of_check(id)
         with reachable():
-            may = self.checks.has_secret(key, digest_of_secret(secret))
+            may = _has_secret(self._rows(id), secret)
             if may:
-                self.checks.delete(key)
+                self.checks.forget([key_of_check(id)])
         return may
-
-    def result(self, id: str) -> str:
-        """Return the key of the final report in the store; empty while there is none."""
-        state = self.status(id)
-        return state.result if state is not None and state.stage is Stage.DONE else ""
 
     def pace(self) -> Pace:
         """Return how long checks took lately."""
         with reachable():
-            return pace_of(self.engine)
+            return Pace(self._seconds(Stage.STATIC), self._seconds(Stage.TRIAL))
+
+    def _seconds(self, stage: Stage) -> float:
+        """Return the median of what a stage took lately, seconds; 0 when that is not known."""
+        rows = self.checks.client.list_workflows(
+            name=stage.value,
+            status="SUCCESS",
+            completed_after=(datetime.now(UTC) - timedelta(days=1)).isoformat(),
+            sort_desc=True,
+            limit=_PACED,
+            load_input=False,
+            load_output=False,
+        )
+        taken = [
+            (row.completed_at - row.dequeued_at) / 1e3
+            for row in rows
+            if row.completed_at and row.dequeued_at
+        ]
+        return median(taken) if taken else 0.0
 
     def alive(self) -> Alive:
         """Return what is known of the engine."""
         with reachable():
-            silence, layers = Workers(self.engine).known()
-            waiting, running = self.checks.waiting()
+            silence, layers = Workers(self.checks.engine).known()
+            waiting = dict(self.checks.waiting())
+        running = waiting.pop("")
         return Alive(silence, waiting, running, layers)
+
+    def _rows(self, id: str) -> Sequence[Row]:
+        key = key_of_check(id)
+        return self.checks.rows([key]).get(key, ())
+
+
+def _has_secret(rows: Sequence[Row], secret: str) -> bool:
+    """Whether a check is known and has a secret."""
+    return bool(events_of(rows)) and secrets.compare_digest(
+        rows[0].task.secret, digest_of_secret(secret)
+    )
 
 
 def durable_jobs(
@@ -148,17 +179,9 @@ def durable_jobs(
     Args:
         database_url: `sqlite:///…` or `postgresql://…`.
         store: Uploads and results.
-        retention_days: After which all of a new check is deleted.
+        retention_days: After which all of a check is deleted.
 
     Raises:
         JobsUnreachable: The database does not answer.
     """
-    engine = open_database(database_url)
-    prepare(engine)
-    return DurableJobs(engine, store, retention_days)
-
-
-def finished(checked: Checked) -> Step:
-    """Return the last step of a check with a report."""
-    data = {"result": checked.key}
-    return Step("end", Stage.DONE, checked.words, checked.key, checked.packages, data)
+    return DurableJobs(prepared(open_database(database_url)), store, retention_days)

@@ -1,130 +1,42 @@
-"""The database: a SQLite file on one machine, or PostgreSQL for several."""
+"""The database: a SQLite file on one machine, or PostgreSQL for several; DBOS has its tables there.
+
+DBOS would open SQLite without a write-ahead log, so that readers and writers wait for each other:
+it is given our engines.
+"""
 
 from __future__ import annotations
 
+import logging
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 import sqlalchemy as sa
 
 from checker.base.files import tighten
 from checker.base.words import plain, shortened
-from checker.service.jobs.durable.tables import (
-    CHECKS,
-    EVENTS,
-    FINAL,
-    LENGTH,
-    WAITS,
-    key_of_check,
-    make_tables,
-)
 from checker.service.jobs.port import JobsUnreachable
 from checker.service.store.place import DATABASE, data_folder
 
-# What older versions left: 0.1.0 wrote ids of checks in the clear, and had its queues in tables of
-# a library (DBOS), with ids of their own.
-#
-# Old links lead to their checks as before. Any number of processes may do this at once, and any of
-# them may be killed: the next one goes on.
+if TYPE_CHECKING:
+    from dbos import DBOSClient
 
-
-_AT_ONCE = 200
-_OF_LIBRARY = (
-    *("operation_outputs", "notifications", "workflow_events", "workflow_events_history"),
-    *("streams", "workflow_schedules", "application_versions", "queues", "workflow_input"),
-    *("workflow_output", "workflow_status", "dbos_migrations"),
-)
-"""Tables that it made in SQLite's file; in PostgreSQL they have a schema of their own."""
-_IN_QUEUES = "DELETE FROM dbos.workflow_status WHERE name IN ('static', 'trial')"
-
-
-def upgrade(engine: sa.Engine) -> None:
-    """Put keys in place of all ids, and have what was in the library's queues wait in ours.
-
-    SQLite's file is written anew, so that no id is left in what is free there. What PostgreSQL has
-    replaced is in no dump; its own files hold it until `VACUUM FULL`.
-    """
-    while ids := _in_clear(engine):
-        with engine.begin() as connection:
-            _hash(connection, ids)
-    _leave_library(engine)
-    if engine.dialect.name == "sqlite":
-        _write_anew(engine)
-
-
-def _in_clear(engine: sa.Engine) -> Sequence[str]:
-    """Return some ids that are no keys, those of the oldest checks first."""
-    clear = sa.select(CHECKS.c.id).where(sa.func.length(CHECKS.c.id) < LENGTH)
-    with engine.connect() as connection:
-        return connection.execute(clear.order_by(CHECKS.c.created).limit(_AT_ONCE)).scalars().all()
-
-
-def _hash(connection: sa.Connection, ids: Sequence[str]) -> None:
-    _lock(connection)
-    if connection.dialect.name == "sqlite":
-        connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
-    these = sa.select(CHECKS.c.id).where(CHECKS.c.id.in_(ids))
-    for id in connection.execute(these).scalars().all():
-        key = key_of_check(id)
-        connection.execute(sa.update(CHECKS).where(CHECKS.c.id == id).values(id=key))
-        update = sa.update(EVENTS).where(EVENTS.c.check_id == id)
-        connection.execute(update.values(check_id=key))
-
-
-def _leave_library(engine: sa.Engine) -> None:
-    """Have checks of its queues wait: who had one in hand has lost it, through no fault."""
-    in_hand = (CHECKS.c.worker != "", CHECKS.c.stage.not_in(FINAL))
-    waits = sa.update(CHECKS).where(*in_hand).values(worker="", words=WAITS)
-    is_sqlite = engine.dialect.name == "sqlite"
-    with engine.begin() as connection:
-        _lock(connection)
-        inspector = sa.inspect(connection)
-        if not inspector.has_table("workflow_status", schema=None if is_sqlite else "dbos"):
-            return
-        if is_sqlite:
-            for name in _OF_LIBRARY:
-                connection.exec_driver_sql(f"DROP TABLE IF EXISTS {name}")
-            connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
-            connection.execute(waits)
-        # Another program may use the library in the same database.
-        elif connection.exec_driver_sql(_IN_QUEUES).rowcount:
-            connection.execute(waits)
-
-
-def _lock(connection: sa.Connection) -> None:
-    """Have others wait until the end of this transaction."""
-    if connection.dialect.name == "sqlite":
-        connection.exec_driver_sql("BEGIN IMMEDIATE")
-    else:
-        connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_LOCK)))
-
-
-def _write_anew(engine: sa.Engine) -> None:
-    """Leave no bytes of what was changed, if something was; again at the next start if we die."""
-    with engine.connect() as connection:
-        if not connection.exec_driver_sql("PRAGMA user_version").scalar():
-            return
-        connection.exec_driver_sql("VACUUM")
-        busy, *_ = connection.exec_driver_sql("PRAGMA wal_checkpoint(TRUNCATE)").one()
-        if not busy:
-            connection.exec_driver_sql("PRAGMA user_version=0")
-
-
+APPLICATION = "subt-check"
+"""As DBOS knows this program; it may serve others in the same database."""
+SCHEMA = "subt_check"
+"""Of its tables in PostgreSQL."""
 CONNECT_SECONDS = 5
 """After which a server that does not answer counts as unreachable."""
 POOL_SIZE = 20
 """Connections at most, made as they are needed and then kept: to make one takes longer than to use
 it."""
-_POOL_SECONDS = 15
-"""That a thread waits for one of them."""
 _POOL: Mapping[str, Any] = {
     "pool_size": POOL_SIZE,
     "max_overflow": 0,
-    "pool_timeout": _POOL_SECONDS,
+    "pool_timeout": 15,  # seconds that a thread waits for one of them
     "pool_use_lifo": True,
     "hide_parameters": True,  # names of files are their senders', and errors get into logs
 }
@@ -136,8 +48,6 @@ _NO_ADDRESS = (
 """Said without the address: it may hold a password."""
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
-_LOCK = 7_302_815_601
-"""Of PostgreSQL's advisory locks; any number that others do not use."""
 
 
 def database_url() -> str:
@@ -190,26 +100,37 @@ def reachable() -> Iterator[None]:
         raise JobsUnreachable(f"the database cannot be read: {_cause(error)}") from error
 
 
-def prepare(engine: sa.Engine) -> None:
-    """Make the tables that are missing, and upgrade older ones.
+def client_of(engine: sa.Engine) -> DBOSClient:
+    """Return what asks DBOS's tables; where the database is away, it fails at once."""
+    from dbos import DBOSClient, DBOSPortableJSONSerializer
 
-    Many may do so at once.
+    quiet()
+    return DBOSClient(
+        system_database_engine=engine,
+        dbos_system_schema=SCHEMA,
+        serializer=DBOSPortableJSONSerializer(),
+        application_name=APPLICATION,
+        lazy=True,
+        retry_connection_errors=False,
+    )
 
-    Raises:
-        JobsUnreachable: The database does not answer.
-    """
-    with reachable():
-        with engine.begin() as connection:
-            _lock(connection)
-            make_tables(connection)
-        upgrade(engine)
+
+def quiet() -> None:
+    """Have DBOS log by the handlers of this process, and what is amiss alone."""
+    logger = logging.getLogger("dbos")
+    logger.setLevel(logging.WARNING)
+    if not logger.handlers:  # else it makes one of its own
+        logger.addHandler(logging.NullHandler())
+        logger.addFilter(_is_amiss)
 
 
-def now(engine: sa.Engine) -> sa.ColumnElement[float]:
-    """Return the database's clock, seconds since the epoch: clocks of machines may differ."""
-    if engine.dialect.name == "sqlite":
-        return (sa.func.julianday("now", type_=sa.Double) - 2440587.5) * 86400.0
-    return sa.cast(sa.extract("epoch", sa.func.clock_timestamp()), sa.Double)
+def _is_amiss(record: logging.LogRecord) -> bool:
+    """Whether it is worth a line: not that a check was cancelled, or deleted, while it ran."""
+    from dbos import error
+
+    raised = record.exc_info[1] if record.exc_info else None
+    harmless = (error.DBOSNonExistentWorkflowError, error.DBOSWorkflowCancelledError)
+    return not isinstance(raised, harmless)
 
 
 def _cause(error: sa.exc.SQLAlchemyError) -> str:

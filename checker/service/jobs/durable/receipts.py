@@ -1,4 +1,4 @@
-"""Receipts: the id and the secret of a check, made of its order and of a seed."""
+"""Receipts: the id and the secret of a check, and the digests by which the database knows them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from checker.service.jobs.port import Order, Receipt
 
 _CHARACTERS = 22
 """Of an id and of a secret, six bits each."""
+_KEY = b"subt-check: key of a check\0"
+"""Keeps keys apart from other digests of ids, such as those in logs."""
 
 
 def receipt_for(order: Order, seed: str) -> Receipt:
@@ -25,8 +27,21 @@ def receipt_for(order: Order, seed: str) -> Receipt:
     )
 
 
+def key_of_check(id: str) -> str:
+    """Return what stands for a check in the database: SHA-256, hexadecimal; it opens no report.
+
+    The id is in the answer to who uploads and in the addresses that they pass on, and nowhere else.
+    A plain digest is enough: an id is 128 random bits, and who has its digest would have to try
+    2¹²⁷ of them, so that neither salt nor a slow function would add anything.
+
+    Args:
+        id: As it was given to who uploaded, or whatever a client sends for one.
+    """
+    return sha256(_KEY + id.encode("utf-8", "surrogatepass")).hexdigest()
+
+
 def digest_of_secret(secret: str) -> str:
-    """Return what the table keeps of a secret: SHA-256, hexadecimal; it ends no check."""
+    """Return what the database keeps of a secret: SHA-256, hexadecimal; it ends no check."""
     return sha256(_joined("subt-check: digest of a secret", secret)).hexdigest()
 
 

@@ -1,7 +1,7 @@
 """What a worker does with a stage of a check that it has taken from a queue.
 
 A stage may begin again at any point, after a crash, in another process: a result that is in the
-store already is found there, and each step is written down once.
+store already is found there, and each further task is entered once.
 """
 
 from __future__ import annotations
@@ -10,19 +10,18 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
-import sqlalchemy as sa
+import msgspec
 from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
-from checker.service.jobs.durable.checks import Checks, forget
-from checker.service.jobs.durable.client import finished
-from checker.service.jobs.durable.database import now, reachable
-from checker.service.jobs.durable.steps import Held, Step, Taker
-from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.database import reachable
+from checker.service.jobs.durable.tasks import End, Task
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,
     Cancelled,
@@ -34,50 +33,11 @@ from checker.service.jobs.outcome import (
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.store import Store
 
-# What is deleted, and when: checks after their time, then what nothing refers to any more.
-
-
-_AT_ONCE = 200
-
-
-class Retention(Record):
-    """Deletes what has had its time; any number of workers may do so at once.
-
-    Attributes:
-        engine: Of the database.
-        store: Uploads and results.
-        grace_seconds: That a file stays which no check refers to: one may be about to.
-    """
-
-    engine: sa.Engine
-    store: Store
-    grace_seconds: float
-
-    def delete(self) -> None:
-        """Delete what has had its time."""
-        while ids := self._expired():
-            with self.engine.begin() as connection:
-                forget(connection, ids)
-        self.store.expire(time.time() - self.grace_seconds, self._referred())
-        self.store.sweep()
-
-    def _expired(self) -> list[str]:
-        over = sa.select(CHECKS.c.id).where(CHECKS.c.expires <= now(self.engine)).limit(_AT_ONCE)
-        with self.engine.connect() as connection:
-            return list(connection.execute(over).scalars())
-
-    def _referred(self) -> set[str]:
-        """Return the hashes and keys that checks refer to."""
-        with self.engine.connect() as connection:
-            pairs = connection.execute(sa.select(CHECKS.c.upload, CHECKS.c.result).distinct())
-            return {part for pair in pairs for part in pair if part}
-
-
 _T = TypeVar("_T")
 _LOG = logging.getLogger(__name__)
 _RETRY_SECONDS = 1.0
-_ALONE_LOOK_SECONDS = 0.5
-_READ = "the static rules are finished; the trial is waiting in the queue"
+_LOOK_SECONDS = 1.0
+"""Between two questions to the database whether a check is still wanted."""
 _TRIAL_SECONDS, _TRIAL_SHARE = 3.0, 2.0
 """A trial and the drawing of all that was found take so long, and so many times as long as the
 rules did, in whole seconds: of real packages, within a factor of two."""
@@ -87,77 +47,89 @@ class Stages(Record):
     """Does stages of checks.
 
     Attributes:
-        checks: The table of checks.
+        checks: In the database.
         store: Uploads and results.
-        taker: This process.
         children: Do the work.
         hand_back: Set when there is no more time to finish what is in hand.
     """
 
     checks: Checks
     store: Store
-    taker: Taker
     children: Children
     hand_back: threading.Event = field(default_factory=threading.Event)
 
-    def run(self, held: Held) -> None:
-        """Do a stage of a check, and write down what came of it."""
-        try:
-            self._do(held)
-        except Exception:  # noqa: BLE001 - whatever it is
-            # Left alone, the check would stay in hand for ever.
-            _LOG.exception("a check fails in its stage %s", held.stage)
-            patiently(lambda: self.checks.settle(held, Step("end", Stage.FAILED, FAILED_INSIDE)))
+    def run(self, given: dict[str, Any]) -> dict[str, Any]:
+        """Do a task, as a workflow of DBOS.
 
-    def _do(self, held: Held) -> None:
-        self._wait_until_alone(held)
+        Args:
+            given: The task, as JSON has it.
+
+        Returns:
+            The end of its check (`tasks.End`), as JSON has it; empty where a further task follows.
+        """
+        task = msgspec.convert(given, Task)
+        try:
+            end = task.end or task.given_up or self._done(task)
+        except Exception:  # noqa: BLE001 - whatever it is
+            _LOG.exception("a check fails in its stage %s", task.stage)
+            end = End(Stage.FAILED, FAILED_INSIDE, task.result, task.packages)
+        return msgspec.to_builtins(end) if end else {}
+
+    def _done(self, task: Task) -> End | None:
+        is_unwanted = self._question(task)
+        if is_unwanted():
+            return None
         begun = time.monotonic()
-        outcome = check_upload(
-            self.store, self.children, held.order, held.stage, lambda: self._unwanted(held)
-        )
+        outcome = check_upload(self.store, self.children, task.order, task.stage, is_unwanted)
         match outcome:
             case Cancelled():
                 if self.hand_back.is_set():
-                    patiently(lambda: self.checks.release(held))
+                    patiently(lambda: self.checks.hand_back(task))
             case Disturbed(reason):
-                _LOG.warning("a check comes to nothing in its stage %s: %s", held.stage, reason)
-                patiently(lambda: self.checks.put_off(held, reason))
-            case _:
-                step = _conclusion(outcome, held.stage)
-                cost = _TRIAL_SECONDS + round(_TRIAL_SHARE * (time.monotonic() - begun))
-                patiently(lambda: self.checks.settle(held, step, cost))
+                _LOG.warning("a check comes to nothing in its stage %s: %s", task.stage, reason)
+                patiently(lambda: self.checks.again(task, reason))
+            case Checked() if task.stage is Stage.STATIC:
+                cost = _TRIAL_SECONDS + _TRIAL_SHARE * (time.monotonic() - begun)
+                trial = _trial_after(task, outcome, cost)
+                patiently(lambda: self.checks.enter(trial))
+            case Checked():
+                return End(Stage.DONE, outcome.words, outcome.key, outcome.packages)
+            case Refused(reason):
+                return End(Stage.REFUSED, reason)
+            case Died(reason):  # after static rules that died a trial would need more of everything
+                return End(Stage.FAILED, reason, task.result, task.packages)
+        return None
 
-    def _wait_until_alone(self, held: Held) -> None:
-        """Let what else is in hand on this machine end before a last try."""
-        while held.is_last and not self._unwanted(held):
-            if patiently(lambda: self.checks.is_alone(held, self.taker)):
-                return
-            self.hand_back.wait(_ALONE_LOOK_SECONDS)
+    def _question(self, task: Task) -> Callable[[], bool]:
+        """Return what tells whether to stop: no time is left, or nobody wants it from here."""
+        asked, is_wanted = -_LOOK_SECONDS, True
 
-    def _unwanted(self, held: Held) -> bool:
-        """Whether to stop: no time is left, somebody cancelled it, or another worker has it."""
-        try:
-            with reachable():
-                return self.hand_back.is_set() or not self.checks.holds(held)
-        except JobsUnreachable:
-            return False
+        def is_unwanted() -> bool:
+            nonlocal asked, is_wanted
+            if time.monotonic() - asked > _LOOK_SECONDS:
+                asked = time.monotonic()
+                try:
+                    with reachable():
+                        is_wanted = self.checks.is_wanted(task)
+                except JobsUnreachable:
+                    is_wanted = True
+            return self.hand_back.is_set() or not is_wanted
+
+        return is_unwanted
 
 
-def _conclusion(outcome: Checked | Refused | Died, stage: Stage) -> Step:
-    """Return what a check comes to by the outcome of a stage.
-
-    After a static stage that died there is no trial: it would need more of everything.
-    """
-    match outcome:
-        case Checked() if stage is Stage.STATIC:
-            data = {"result": outcome.key}
-            return Step("read", Stage.TRIAL, _READ, outcome.key, outcome.packages, data)
-        case Checked():
-            return finished(outcome)
-        case Refused(reason):
-            return Step("end", Stage.REFUSED, reason)
-        case Died(reason):
-            return Step("end", Stage.FAILED, reason)
+def _trial_after(task: Task, outcome: Checked, cost: float) -> Task:
+    """Return the trial of a check whose static rules are done."""
+    return replace(
+        task,
+        stage=Stage.TRIAL,
+        number=1,
+        reason="",
+        result=outcome.key,
+        packages=outcome.packages,
+        cost=cost,
+        secret="",
+    )
 
 
 def patiently(ask: Callable[[], _T]) -> _T:

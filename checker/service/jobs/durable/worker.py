@@ -10,37 +10,37 @@ import socket
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from contextlib import closing, suppress
-from time import monotonic
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
 from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.sandbox.layers import Layer, hides_files
 from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
-from checker.service.jobs.durable.changes import Changes
-from checker.service.jobs.durable.checks import PAUSES, Checks
-from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.dispatcher import Dispatcher
-from checker.service.jobs.durable.stages import Retention, Stages
-from checker.service.jobs.durable.steps import Taker
+from checker.service.jobs.durable.database import APPLICATION, SCHEMA, open_database, reachable
+from checker.service.jobs.durable.deaths import Deaths
+from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.retention import Retention
+from checker.service.jobs.durable.stages import Stages
+from checker.service.jobs.durable.tasks import KNOWN, PAUSES, STAGES
 from checker.service.jobs.durable.workers import Workers
-from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable, Stage
+from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.service.jobs.sandbox import layers_of_checks
-from checker.service.store.life import forget, living, the_dead
+from checker.service.store.life import living
 from checker.service.store.store import Store
 
+if TYPE_CHECKING:
+    import sqlalchemy as sa
+
 _LOG = logging.getLogger(__name__)
-_KNOWN_SILENCES = 60
-"""A dead worker stays known for so many times the silence, for those who look at it."""
-_LANDING_SECONDS = 10.0
+_LANDING_SECONDS = 10
 """For the children of what is handed back to end, and for the database to hear of it."""
-
-
-def _some_name() -> str:
-    return f"worker-{secrets.token_hex(4)}"
+_VERSION = "1"
+"""Of the workflows as DBOS knows them: workers of another one leave each other's tasks alone."""
 
 
 class WorkerOptions(Record):
@@ -49,8 +49,7 @@ class WorkerOptions(Record):
     Attributes:
         database_url: As `checker.service.jobs.durable.database.database_url` says it.
         store: Uploads and results.
-        name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
-            that is started again under its old name takes up at once what it had in hand.
+        name: Of this worker, of letters, digits and `-`; the process adds what no other one has.
         trials: At once.
         host: Machine or container, as workers on it call it.
         grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
@@ -58,17 +57,17 @@ class WorkerOptions(Record):
         silence_seconds: After which other workers take this one for dead.
         cleaning_seconds: Between two rounds that delete what has had its time.
         unused_seconds: That files stay which no check refers to.
-        pauses: Seconds before each further try of what came to nothing (see `checks.PAUSES`).
+        pauses: Seconds before each further try of what came to nothing (see `tasks.PAUSES`).
         ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
     """
 
     database_url: str
     store: Store
-    name: str = field(default_factory=_some_name)
+    name: str = "worker"
     trials: int = 1
     host: str = field(default_factory=socket.gethostname)
     grace_seconds: float = 20.0
-    beat_seconds: float = 10.0
+    beat_seconds: float = 2.0
     silence_seconds: float = SILENCE_SECONDS
     cleaning_seconds: float = 3600.0
     unused_seconds: float = 3600.0
@@ -85,83 +84,67 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
         JobsUnreachable: The database does not answer at the start.
     """
     engine = open_database(options.database_url)
-    prepare(engine)
+    checks = replace(prepared(engine, options.trials), pauses=options.pauses)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
-    workers, checks = Workers(engine, layers, options.host), Checks(engine, options.pauses)
-    taker = Taker(options.name, options.host)
+    # DBOS would take up by itself what a worker of the same name had in hand: no try were counted.
+    name = f"{options.name}-{secrets.token_hex(4)}"
+    workers = Workers(engine, layers, options.host)
     children = Children(options.store, options.ahead)
-    stages = Stages(checks, options.store, taker, children)
-    retention = Retention(engine, options.store, options.unused_seconds)
+    stages = Stages(checks, options.store, children)
+    retention = Retention(checks, options.store, options.unused_seconds)
     # What every result depends on takes 0.1 s to look through: now no upload waits for it.
     program_parts()
-    places = {Stage.STATIC: 1, Stage.TRIAL: options.trials}
-    dispatcher = Dispatcher(checks, taker, places, stages.run)
-    with living(options.store.workers, options.name):
-        _begin(Deaths(checks, workers, options), retention, stop)
+    with living(options.store.workers, name):
+        deaths = Deaths(checks, workers, options.store, name, options.silence_seconds)
+        with reachable():
+            deaths.look()
+        _in_background(deaths.look, options.beat_seconds, threading.Event())
+        _in_background(retention.delete, options.cleaning_seconds, stop)
         children.get_ready()
-        _LOG.info("%s is waiting for checks", options.name)
-        with closing(Changes(engine)) as changes:
-            dispatcher.take_until(stop, changes)
-        _LOG.info("%s stops; it has %g s to finish its checks", taker.name, options.grace_seconds)
-        if not dispatcher.wait(options.grace_seconds):
-            stages.hand_back.set()
-            dispatcher.wait(_LANDING_SECONDS)
+        end = _take_tasks(engine, name, stages.run)
+        _LOG.info("%s is waiting for checks", name)
+        stop.wait()
+        _LOG.info("%s stops; it has %g s to finish its checks", name, options.grace_seconds)
+        threading.Timer(options.grace_seconds, stages.hand_back.set).start()
+        end(options.grace_seconds + _LANDING_SECONDS)
         children.close()
         with suppress(JobsUnreachable), reachable():
-            workers.strike(options.name)
+            workers.strike(name)
 
 
-def _begin(deaths: Deaths, retention: Retention, stop: threading.Event) -> None:
-    """Take over what is left from before, and begin what a worker does all the time.
+def _take_tasks(
+    engine: sa.Engine, name: str, run: Callable[[dict[str, Any]], dict[str, Any]]
+) -> Callable[[float], None]:
+    """Have DBOS run tasks from the queues; return what ends it, given seconds for those in hand."""
+    from dbos import DBOS, DBOSPortableJSONSerializer
 
-    Raises:
-        JobsUnreachable: The database does not answer.
-    """
-    options = deaths.options
-    with reachable():
-        deaths.take_over()
-    _in_background(deaths.look, options.beat_seconds, threading.Event())
-    _in_background(retention.delete, options.cleaning_seconds, stop)
+    for workflow in (*(stage.value for stage in STAGES), KNOWN):
+        DBOS.workflow(name=workflow)(_function(run))
+    DBOS(
+        config={
+            "name": APPLICATION,
+            "system_database_engine": engine,
+            "dbos_system_schema": SCHEMA,
+            "serializer": DBOSPortableJSONSerializer(),
+            "executor_id": name,
+            "application_version": _VERSION,
+            "use_listen_notify": False,
+            "run_migrations": False,
+            "log_level": "WARNING",
+        }
+    )
+    DBOS.launch()
+    return lambda seconds: DBOS.destroy(workflow_completion_timeout_sec=round(seconds))
 
 
-class Deaths:
-    """Shows that this worker lives, and sees to what dead ones had in hand."""
+def _function(run: Callable[[dict[str, Any]], dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+    """Return a function of its own for each workflow: DBOS writes the name on it."""
 
-    def __init__(self, checks: Checks, workers: Workers, options: WorkerOptions) -> None:
-        """Begin to count the time without a gap in this worker's own signs of life."""
-        self._checks, self._workers, self.options = checks, workers, options
-        self._last = self._since = monotonic()
+    def workflow(task: dict[str, Any]) -> dict[str, Any]:
+        return run(task)
 
-    def look(self) -> None:
-        """Show a sign of life, and have what is in the hands of the dead wait again.
-
-        When the database was away, or this machine slept, all workers have been silent: the first
-        one that is back must not take the others for dead.
-        """
-        silence, name = self.options.silence_seconds, self.options.name
-        self._workers.beat(name)
-        now = monotonic()
-        if now - self._last > silence / 2.0:
-            self._since = now
-        self._last = now
-        living = self._workers.living(silence)
-        steady = now - self._since >= silence
-        self._recover(lambda other: other != name and steady and other not in living)
-        self._workers.strike_silent(_KNOWN_SILENCES * silence)
-
-    def take_over(self) -> None:
-        """Show the first sign of life; what this worker had in hand before it died waits again."""
-        self._workers.beat(self.options.name)
-        self._recover(lambda other: other == self.options.name)
-
-    def _recover(self, is_silent: Callable[[str], bool]) -> None:
-        folder = self.options.store.workers
-        dead = the_dead(folder)
-        for name in self._checks.recover(lambda name: name in dead or is_silent(name)):
-            _LOG.warning("%s died; what it had in hand waits again", name)
-        for name in dead:
-            forget(folder, name)
+    return workflow
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:

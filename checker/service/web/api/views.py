@@ -46,8 +46,10 @@ async def event_stream(request: Request, services: Services, state: State, after
         Refused: Too many watch.
     """
     after = max(after, _last_seen(request))
-    if state.stage.is_final and not await run_in_threadpool(services.jobs.events, state.id, after):
-        return Response(status_code=204)
+    if state.stage.is_final:
+        events = await run_in_threadpool(services.jobs.events, {state.id: after})
+        if not events.get(state.id):
+            return Response(status_code=204)
     with ExitStack() as place:
         place.enter_context(services.admission.stream(request))
         check = place.enter_context(services.watchers.following(state.id))

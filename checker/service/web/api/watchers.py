@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import monotonic
 
-from anyio import CapacityLimiter, to_thread
 from starlette.concurrency import run_in_threadpool
 
 from checker.base.words import plain
@@ -21,11 +20,9 @@ QUIET_SECONDS = 15.0
 """After which a comment shows that the stream lives; proxies close what is silent."""
 STREAM_SECONDS = 600.0
 """After which a stream ends; browsers come back by themselves and say where they were."""
-LOOK_SECONDS = 5.0
-"""After which all checks are looked at though no change was heard of: nothing is told of one that
-is deleted, and some ways to a database pass nothing on."""
-PAUSE_SECONDS = 0.05
-"""Between two looks, however much changes."""
+PAUSE_SECONDS, PAUSE_SHARE = 0.3, 9.0
+"""Between two looks: so many seconds, and so many times as long as the last one took, that many
+watchers do not use a processor up."""
 _LOG = logging.getLogger(LOGGER)
 
 
@@ -70,7 +67,8 @@ class Followed:
             if event.number > self.last:
                 self._messages.append((event.number, _message(event)))
                 self.last, self.over = event.number, event.stage.is_final
-        self._wake()
+        if events:
+            self._wake()
 
     def end(self) -> None:
         """Send all away who follow it."""
@@ -85,21 +83,25 @@ class Followed:
 class Watchers:
     """All who follow checks; used by the event loop alone.
 
-    As long as there is somebody, one task waits for changes, and looks which checks they are of.
+    As long as there is somebody, one task looks what is new of all that is followed.
     """
 
     def __init__(self, jobs: Jobs) -> None:
         self._jobs = jobs
         self._checks: dict[str, Followed] = {}
         self._task: asyncio.Task[None] | None = None
-        self._waiting = CapacityLimiter(1)
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is looked at."""
+        return self._task is None
 
     @contextmanager
     def following(self, id: str) -> Iterator[Followed]:
         """Follow a check."""
         check = self._checks.setdefault(id, Followed(id))
         check.followers += 1
-        if self._task is None:
+        if self.idle:
             self._task = asyncio.create_task(self._look_on())
         try:
             yield check
@@ -111,31 +113,26 @@ class Watchers:
     async def look(self, checks: Sequence[Followed]) -> None:
         """Look what is new of checks; a database that is away says it later."""
         try:
-            last = await run_in_threadpool(self._jobs.last_events, [check.id for check in checks])
-            for check in checks:
-                if check.id not in last:  # it is deleted
-                    check.end()
-                while check.last < last.get(check.id, 0):
-                    events = await run_in_threadpool(self._jobs.events, check.id, check.last)
-                    check.add(events)
-                    if not events:  # it was deleted just now
-                        break
+            events = await run_in_threadpool(
+                self._jobs.events, {check.id: check.last for check in checks}
+            )
         except JobsUnreachable:
             return
+        for check in checks:
+            if check.id in events:
+                check.add(events[check.id])
+            else:  # it is deleted
+                check.end()
 
     async def _look_on(self) -> None:
-        changes = self._jobs.changes()
         try:
             while self._checks:
-                await to_thread.run_sync(
-                    changes.wait, LOOK_SECONDS, abandon_on_cancel=True, limiter=self._waiting
-                )
+                began = monotonic()
                 await self.look(tuple(self._checks.values()))
-                await asyncio.sleep(PAUSE_SECONDS)
+                await asyncio.sleep(max(PAUSE_SECONDS, PAUSE_SHARE * (monotonic() - began)))
         except Exception:  # noqa: BLE001 - nobody waits for what raises here
             _LOG.exception("a look at checks that are followed fails")
         finally:
-            changes.close()
             self._task = None
             for check in self._checks.values():  # who follows comes back
                 check.end()

@@ -184,7 +184,7 @@ class _Pages(Record):
         done = state.stage is Stage.DONE
         packages = progress.package_lines(state, names if done else ())
         ended_early = state.stage.is_final and not done
-        events = self.services.jobs.events(state.id) if ended_early else ()
+        told = self.services.jobs.events({state.id: 0}) if ended_early else {}
         return html(
             "check.html.j2",
             id=state.id,
@@ -193,7 +193,7 @@ class _Pages(Record):
             final=state.stage.is_final,
             mine=bool(receipts.kept(request)),
             headline=progress.headline(state, packages, self.forecast.of(state)),
-            steps=progress.steps_of(state, events),
+            steps=progress.steps_of(state, told.get(state.id, ())),
             packages=packages,
             shown=_PACKAGES_SHOWN,
             files=_files(state, names) if done else (),

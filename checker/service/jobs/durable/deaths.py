@@ -1,0 +1,61 @@
+"""Sees to what dead workers had in hand: DBOS waits for a worker of the same name to come back."""
+
+from __future__ import annotations
+
+import logging
+from time import monotonic
+
+from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.workers import Workers
+from checker.service.store.life import forget, the_dead
+from checker.service.store.store import Store
+
+_LOG = logging.getLogger(__name__)
+_KNOWN_SILENCES = 60
+"""A dead worker stays known for so many times the silence, for those who look at it."""
+
+
+class Deaths:
+    """Shows that this worker lives, and has what is in the hands of the dead tried again.
+
+    The lock of a file tells at once that a worker on this machine has ended; of those on others,
+    and of those that hang, it is silence that tells.
+    """
+
+    def __init__(
+        self, checks: Checks, workers: Workers, store: Store, name: str, silence: float
+    ) -> None:
+        """Begin to count the time without a gap in this worker's own signs of life.
+
+        Args:
+            checks: In the database.
+            workers: Who has lately shown a sign of life.
+            store: Has the folder of workers on this machine.
+            name: Of this worker.
+            silence: Seconds after which a worker is taken for dead.
+        """
+        self._checks, self._workers, self._folder = checks, workers, store.workers
+        self._name, self._silence = name, silence
+        self._last = self._since = monotonic()
+
+    def look(self) -> None:
+        """Show a sign of life, and have what is in the hands of the dead wait again.
+
+        When the database was away, or this machine slept, all workers have been silent: the first
+        one that is back must not take the others for dead.
+        """
+        self._workers.beat(self._name)
+        now = monotonic()
+        if now - self._last > self._silence / 2.0:
+            self._since = now
+        self._last = now
+        living = self._workers.living(self._silence) | {self._name}
+        steady = now - self._since >= self._silence
+        dead = the_dead(self._folder)
+        for name in self._checks.recover(
+            lambda name: name in dead or (steady and name not in living)
+        ):
+            _LOG.warning("%s died; what it had in hand waits again", name)
+        for name in dead:
+            forget(self._folder, name)
+        self._workers.strike_silent(_KNOWN_SILENCES * self._silence)
