@@ -513,7 +513,7 @@ def token_in_environment(_: Assets) -> object:
 @attempt
 def inherited_descriptors(assets: Assets) -> object:
     """Anything but streams, request, answer, and of one that works the socket for others."""
-    found = {number: _kind(number) for number in range(1024)}
+    found = {number: kind_of(number) for number in range(1024)}
     # The pipe of this very attempt is one more, and the answer is open twice while it is made.
     strange = [kind for kind in found.values() if kind not in ("", "none", "pipe", "file")]
     most = {"pipe": 2, "file": 3}
@@ -523,7 +523,7 @@ def inherited_descriptors(assets: Assets) -> object:
     return found
 
 
-def _kind(number: int) -> str:
+def kind_of(number: int) -> str:
     try:
         found = os.fstat(number)
     except OSError:

@@ -35,13 +35,18 @@ def test_none_of_its_processes_is_left(
     need(starter)
     request = json.dumps({"deed": deed, "assets": outside.given}).encode()
     child = Child("greedy", request, Limits(seconds=5), starter=starter, works=True)
-    child.ends(4.0)
+    assert child.ends(8.0)
+    said = child.answered(1_000)
+    asked = json.dumps({"names": [], "assets": outside.given | {"works": False}}).encode()
+    others = Child("hostile", asked, Limits(seconds=5), starter=starter).answer()
     begins = monotonic()
     child.stop()
     starter.close()
     survivors = outside.survivors()
     for each in survivors:
         os.kill(each, signal.SIGKILL)
+    assert isinstance(said, tuple), said
+    assert others == b"{}"
     assert survivors == []
     assert monotonic() - begins < 12.0
 
