@@ -25,6 +25,7 @@ from checker.service.jobs.port import JobsUnreachable, Order, Receipt
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
+from checker.service.web.limits import space
 from checker.service.web.uploads.transfer import AT_ONCE
 from tests.jobs.disk import small_disk
 from tests.web.board import ID, BoardJobs
@@ -151,6 +152,22 @@ def test_a_full_disk_is_said(client: TestClient, store: Store) -> None:
     answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})
     assert answer.status_code == 503
     assert "cannot keep the upload" in answer.json()["error"]
+
+
+def test_a_disk_that_gets_full_meanwhile_is_said(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def free(_: Path) -> int:
+        return 0 if any(store.folder.glob("incoming/*")) else 10**12
+
+    monkeypatch.setattr(space, "_free_bytes", free)
+    with TestClient(create_app(BoardJobs(), store, Config(public=True))) as client:
+        answer = client.post("/api/checks", files={"file": ("a.zip", noise())})
+        assert answer.status_code == 503
+        assert answer.json()["error"].endswith("No space left on device.")
+        assert not left_behind(store)
+        # It is within what is reserved at first.
+        assert client.post("/api/checks", files={"file": ("a.zip", GOOD)}).status_code == 201
 
 
 Talk = Callable[[socket.socket], None]

@@ -1,6 +1,7 @@
-"""Room on the disk for uploads that are under way: reserved when they begin, by what they announce.
+"""Room on the disk for uploads that are under way: reserved a little ahead of what has come.
 
-What has been written is no longer free, so only what is still to come is kept from others.
+By what they announce, a sender could hold the room of all others without sending a byte. What has
+been written is no longer free, so only what is still to come is kept from others.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ _SHARE = 2
 """One client has one of so many parts of the room, unless it has but one upload under way."""
 _COPIES = 2
 """Of each upload: itself, and the copy from which the index of an archive is read."""
+WINDOW = 250_000
+"""Bytes that are reserved ahead of what has come; of a longer upload, as many as have come."""
 
 
 @dataclass(eq=False)
@@ -29,18 +32,20 @@ class Claim:
 
     Attributes:
         client: Whose it is.
-        size: Bytes that it may take.
-        written: Bytes of them so far.
+        size: Bytes that it may take at most.
+        reserved: Bytes that it may take so far.
+        written: Bytes of them that have come.
     """
 
     client: str
     size: int
+    reserved: int = 0
     written: int = 0
 
     @property
     def to_come(self) -> int:
-        """Bytes that are not there yet, with those of the copy."""
-        return max(_COPIES * self.size - self.written, 0)
+        """Bytes reserved that are not there yet, with those of the copy."""
+        return max(_COPIES * self.reserved - self.written, 0)
 
 
 class Space:
@@ -59,34 +64,62 @@ class Space:
 
     @contextmanager
     def reserve(self, client: str, size: int) -> Iterator[Claim]:
-        """Reserve room for an upload as long as it is under way.
+        """Reserve room for the beginning of an upload, as long as it is under way.
 
         Args:
             client: Whose it is.
-            size: Bytes that it may take.
+            size: Bytes that it may take at most.
 
         Raises:
-            Refused: There is no such room, or its client has its part already.
+            Refused: There is no room for all of it now, or its client has its part already.
         """
-        self._refuse_beyond(client, size)
         claim = Claim(client, size)
+        self._refuse_beyond(claim, size)
+        self._refuse_share(claim)
+        claim.reserved = min(size, WINDOW)
         self._claims.append(claim)
         try:
             yield claim
         finally:
             self._claims.remove(claim)
 
-    def _refuse_beyond(self, client: str, size: int) -> None:
-        try:
-            room = self._free() - self._kept_free
-        except OSError:  # writing will tell
-            return
-        if room < _COPIES * size + sum(claim.to_come for claim in self._claims):
+    def extend(self, claim: Claim, size: int) -> None:
+        """Have room for so many bytes of an upload, and for some that follow.
+
+        Args:
+            claim: Its own.
+            size: Bytes with those that are to be written next.
+
+        Raises:
+            Refused: There is no such room any more.
+        """
+        if claim.reserved < min(size, claim.size):
+            wanted = min(size + max(size, WINDOW), claim.size)
+            self._refuse_beyond(claim, wanted)
+            claim.reserved = wanted
+
+    def _refuse_beyond(self, claim: Claim, size: int) -> None:
+        room = self._room()
+        others = sum(each.to_come for each in self._claims if each is not claim)
+        if room is not None and room < _COPIES * size - claim.written + others:
             raise no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
-        room += sum(claim.written for claim in self._claims)
-        held = sum(claim.size for claim in self._claims if claim.client == client)
-        if held and held + size > min(self._per_client, room // _COPIES // _SHARE):
+
+    def _refuse_share(self, claim: Claim) -> None:
+        """Refuse a new upload of one who announces more than its part: it costs nobody else."""
+        room = self._room()
+        held = sum(each.size for each in self._claims if each.client == claim.client)
+        if room is None or not held:
+            return
+        room += sum(each.written for each in self._claims)
+        if held + claim.size > min(self._per_client, room // _COPIES // _SHARE):
             raise _too_much(held)
+
+    def _room(self) -> int | None:
+        """Return the bytes that uploads may still take; None where only writing will tell."""
+        try:
+            return self._free() - self._kept_free
+        except OSError:
+            return None
 
 
 def space_of(folder: Path, config: Config) -> Space:

@@ -73,6 +73,7 @@ async def _received(
     key, admit = key_of(request), services.admission.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
     async for piece in _pieces(request, services.config, claim.size):
+        services.space.extend(claim, incoming.size + len(piece))
         if incoming.size < AT_ONCE:
             form.feed(piece)
         else:
