@@ -26,8 +26,9 @@ from checker.report.report import (
 
 
 _REASON_LIMIT = 600
-_FILES = {"world": "world", "single_file": "file"}
+FILES = {"world": "world", "single_file": "file"}
 """Kinds that are no packages, and what they are called."""
+_NOUNS = ("package", *FILES.values())
 
 
 class Sentence(Record):
@@ -183,9 +184,26 @@ def what_was_checked(kinds: Iterable[str]) -> str:
     Args:
         kinds: Of each, as `PackageReport.kind` has it.
     """
-    numbers = Counter(_FILES.get(kind, "package") for kind in kinds)
-    order = ("package", *_FILES.values())
-    return listed([count(numbers[noun], noun) for noun in order if numbers[noun]]) or "0 packages"
+    numbers = Counter(map(_noun, kinds))
+    return listed([count(numbers[noun], noun) for noun in _NOUNS if numbers[noun]]) or "0 packages"
+
+
+def what_is_ready(verdicts: Iterable[tuple[str, str]]) -> str:
+    """Return how many of all are ready: `1 of 2 packages and 1 of 1 world ready`.
+
+    Args:
+        verdicts: Kind of each, as `PackageReport.kind` has it, and its verdict.
+    """
+    numbers, ready = Counter[str](), Counter[str]()
+    for kind, verdict in verdicts:
+        numbers[_noun(kind)] += 1
+        ready[_noun(kind)] += verdict == VerdictKind.READY
+    phrases = [f"{ready[noun]} of {count(numbers[noun], noun)}" for noun in _NOUNS if numbers[noun]]
+    return f"{listed(phrases) or '0 packages'} ready"
+
+
+def _noun(kind: str) -> str:
+    return FILES.get(kind, "package")
 
 
 def verdict_word(verdict: VerdictKind) -> str:

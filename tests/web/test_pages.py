@@ -231,6 +231,33 @@ def test_each_of_several_packages_has_its_report(
     assert f"/api/checks/{ID}/packages/rover~2/robot.glb" not in links
 
 
+def test_a_world_is_no_package(client: Client, jobs: BoardJobs, store: Store) -> None:
+    world = {**ROVER, "name": "yard.sdf", "kind": "world", "verdict": "ready", "folder": "yard_sdf"}
+    world |= {"errors": 0, "warnings": 2}
+    robot = {**ROVER, "folder": "rover", "kind": "ros2_package"}
+    keep_result(store, "{}", "rover/report.html", "yard_sdf/report.html", "index.html")
+    jobs.states[ID] = replace(DONE, packages=(world, robot), words="")
+    page = Elements(client.get(f"/checks/{ID}").text)
+    words = " ".join(page.words.split())
+    assert "0 of 1 package and 1 of 1 world ready: 5 errors and 3 warnings" in words
+    assert words.index("rover Not ready") < words.index("yard.sdf world Ready")
+    report = {"class": "primary", "href": f"/api/checks/{ID}/packages/rover/report.html"}
+    assert report in page.all("a")
+
+
+def test_what_to_fix_stands_above_the_downloads(
+    client: Client, jobs: BoardJobs, store: Store
+) -> None:
+    report = check_package(SAMPLES / "broken_acme_scout", Settings(trial=False))
+    keep_result(store, to_json(report), "report.html", "report.sarif")
+    jobs.states[ID] = DONE
+    words = Elements(client.get(f"/checks/{ID}").text).words
+    assert words.index("What to fix") < words.index("Downloads")
+    several = [each for package in report.packages for each in package.findings if each.places[1:]]
+    assert several
+    assert " more place" in words
+
+
 def test_the_link_is_the_one_that_others_reach(jobs: BoardJobs, store: Store) -> None:
     jobs.states[ID] = DONE
     for config, expected in (

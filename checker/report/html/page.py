@@ -21,9 +21,9 @@ from checker.report.html.overview import first_tasks, told_trial
 from checker.report.html.robots import ShownRobot, files_out_of_view, shown_robots
 from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
-from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
+from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed
 from checker.report.sarif import to_sarif
-from checker.report.summary import has_suppressed, sentence, what_was_checked
+from checker.report.summary import has_suppressed, sentence, what_is_ready
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -223,8 +223,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
         levels=list(Severity),
         with_suppressed=has_suppressed(report.packages),
         with_pictures=any(each.display and each.display.pictures for each in report.packages),
-        ready=sum(package.verdict is VerdictKind.READY for package in report.packages),
-        checked=what_was_checked(package.kind for package in report.packages),
+        ready=what_is_ready((package.kind, package.verdict) for package in report.packages),
         style=text_of("report.css"),
         script=script,
         script_hash=_hash(script),

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from checker.base.record import Record
-from checker.base.words import count, plain, shortened
+from checker.base.words import count, listed, plain, shortened
 from checker.report.importance import importance
 from checker.report.json_report import report_from_json
 from checker.report.report import ReportedFinding, VerdictKind
-from checker.report.summary import what_was_checked
+from checker.report.summary import FILES, what_is_ready
 from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.api.views import address_of
@@ -33,7 +33,7 @@ class FirstFinding(Record):
 
     Attributes:
         package: Its name.
-        where: `model.sdf:12:3`, or the package's folder.
+        where: `model.sdf:12:3`, or the package's folder, and how many more places.
     """
 
     severity: str
@@ -83,8 +83,9 @@ def _read(path: Path) -> Glance | None:
 
 
 def _first(package: str, finding: ReportedFinding) -> FirstFinding:
-    place = finding.places[0]
+    place, *others = finding.places
     where = f"{place.file}:{place.line}:{place.column}" if place.file else "the package's folder"
+    where += f" and {count(len(others), 'more place')}" if others else ""
     return FirstFinding(
         str(finding.severity),
         *map(_short, (finding.rule, finding.name, finding.message, where, package)),
@@ -154,6 +155,11 @@ class PackageLine(Record):
     page: str = ""
     model: str = ""
 
+    @property
+    def is_file(self) -> bool:
+        """Whether it is no package, but a world or another file by itself."""
+        return self.kind in FILES
+
 
 def steps_of(state: State, events: Sequence[Event]) -> tuple[Step, ...]:
     """Return the steps of a check, the one under way or where it stopped marked.
@@ -181,9 +187,16 @@ def _ahead(state: State) -> str:
     return f"{count(state.ahead, 'check')} ahead" if state.ahead else ""
 
 
+def main_package(packages: Sequence[PackageLine]) -> PackageLine | None:
+    """Return the only one, or the only package beside worlds and other files; None without one."""
+    found = [each for each in packages if not each.is_file or len(packages) == 1]
+    return found[0] if len(found) == 1 else None
+
+
 def title(state: State, packages: Sequence[PackageLine]) -> str:
     """Return what a check is called: as its package; the uploaded file until that is known."""
-    return packages[0].name if len(packages) == 1 else plain(state.order.name)
+    main = main_package(packages)
+    return main.name if main else plain(state.order.name)
 
 
 def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> Headline:
@@ -220,30 +233,35 @@ def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
     if len(packages) == 1:
         (only,) = packages
         return Headline(only.lead, words.removeprefix(only.lead).lstrip(": "), only.verdict)
-    ready = sum(package.verdict == "ready" for package in packages)
-    mood = "ready" if packages and ready == len(packages) else "not_ready"
-    of_all = what_was_checked(package.kind for package in packages)
-    return Headline(f"{ready} of {of_all} ready", "", mood)
+    all_ready = bool(packages) and all(package.verdict == "ready" for package in packages)
+    lead = what_is_ready((package.kind, package.verdict) for package in packages)
+    return Headline(lead, _found(packages), "ready" if all_ready else "not_ready")
 
 
 def _so_far(packages: Sequence[PackageLine]) -> str:
     if not packages:
         return ""
-    errors = sum(package.errors for package in packages)
-    warnings = sum(package.warnings for package in packages)
-    if not errors + warnings:
-        return "nothing to fix so far"
-    return f"{count(errors, 'error')} and {count(warnings, 'warning')} so far"
+    return f"{_found(packages) or 'nothing to fix'} so far"
+
+
+def _found(packages: Sequence[PackageLine]) -> str:
+    """Return how many errors and warnings there are; empty for none."""
+    numbers = {
+        "error": sum(package.errors for package in packages),
+        "warning": sum(package.warnings for package in packages),
+    }
+    return listed([count(number, noun) for noun, number in numbers.items() if number])
 
 
 def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]:
-    """Return the packages of a check.
+    """Return the packages of a check, those to work on first, worlds and other files last.
 
     Args:
         state: Of the check.
         names: Of the files of its result.
     """
-    return tuple(_line(state, package, names) for package in state.packages)
+    lines = [_line(state, package, names) for package in state.packages]
+    return tuple(sorted(lines, key=lambda line: (line.is_file, line.verdict == "ready")))
 
 
 def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> PackageLine:

@@ -195,6 +195,7 @@ class _Pages(Record):
             headline=progress.headline(state, packages, self.forecast.of(state)),
             steps=progress.steps_of(state, told.get(state.id, ())),
             packages=packages,
+            main=progress.main_package(packages),
             shown=_PACKAGES_SHOWN,
             files=_files(state, names) if done else (),
             first=first,
