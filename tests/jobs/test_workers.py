@@ -53,3 +53,25 @@ def test_senders_have_the_same_partition_for_a_day(url: str, tmp_path: Path) -> 
         assert connection.execute(sa.select(sa.func.count()).select_from(SALTS)).scalar() == 1
     for each in (engine, other):
         each.dispose()
+
+
+@pytest.mark.parametrize(
+    "change",
+    ["ALTER TABLE subt_workers ADD COLUMN later TEXT", "ALTER TABLE subt_workers DROP COLUMN host"],
+)
+def test_tables_of_another_version_are_made_anew(url: str, tmp_path: Path, change: str) -> None:
+    """A newer one has a column more, an older one lacks one; what has our columns stays."""
+    store = Store(tmp_path)
+    engine = durable_jobs(url, store).checks.engine
+    Workers(engine).beat("of another version")
+    partition = partition_of(engine, "somebody")
+    with engine.begin() as connection:
+        connection.exec_driver_sql(change)
+    jobs = durable_jobs(url, store)
+    assert jobs.alive().workers == {}
+    Workers(jobs.checks.engine, host="here").beat("of this version")
+    durable_jobs(url, store).checks.engine.dispose()
+    assert [*jobs.alive().workers] == ["of this version"]
+    assert partition_of(engine, "somebody") == partition
+    for each in (engine, jobs.checks.engine):
+        each.dispose()

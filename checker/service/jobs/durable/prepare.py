@@ -40,6 +40,7 @@ def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
     with reachable():
         with engine.begin() as connection:  # the first on SQLite sets how it writes
             _lock(connection)
+            _drop_others(connection)
             METADATA.create_all(connection)
         DBOS.migrate(engine.url.render_as_string(hide_password=False), schema=SCHEMA)
         client = client_of(engine)
@@ -48,6 +49,16 @@ def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
         checks = Checks(engine, client)
         _take_over(engine, checks)
         return checks
+
+
+def _drop_others(connection: sa.Connection) -> None:
+    """Drop those of our tables that another version has made with other columns."""
+    inspector = sa.inspect(connection)
+    for table in METADATA.sorted_tables:
+        if not inspector.has_table(table.name):
+            continue
+        if {each["name"] for each in inspector.get_columns(table.name)} != {*table.columns.keys()}:
+            table.drop(connection)
 
 
 def _make_queues(client: DBOSClient, trials: int) -> None:
