@@ -44,7 +44,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/service/store/s3.py", "an archive unpacked unseen"): (
         "packed by a worker from files that it had named; zipfile makes no links"
     ),
-    ("checker/service/web/logs.py", ATTRIBUTE): "a constant",
+    ("checker/service/logs.py", ATTRIBUTE): "a constant",
     ("checker/expand/xacro/processor.py", ATTRIBUTE): "functions of xacro, named there",
     ("checker/expand/xacro/symbols.py", ATTRIBUTE): "functions of math, named there",
     ("checker/expand/xacro/expression/nodes.py", ATTRIBUTE): "keys of YAML, as xacro looks them up",

@@ -2,13 +2,14 @@
 
 Arguments: the fields of `WorkerOptions` as JSON, `store` as a folder, and the file of the log.
 Profiles: `static:2` and `trial:2` take two seconds, `kill:static` and `kill:trial` kill the worker,
-`refused`, `died` and `raises` come out so at once, `full:static:2` finds a full disk two times.
-`static:1 trial:2` is both.
+`refused`, `died` and `raises` come out so at once, `warns` has DBOS warn, and
+`full:static:2` finds a full disk two times. `static:1 trial:2` is both.
 """
 
 from __future__ import annotations
 
 import json
+import logging
 import os
 import signal
 import sys
@@ -58,6 +59,8 @@ def quick_check(
             what, _, detail = part.partition(":")
             if what == "kill" and detail == stage:
                 os.kill(os.getpid(), signal.SIGKILL)
+            if what == "warns":
+                logging.getLogger("dbos").warning("as DBOS would")
             if what == "raises":
                 raise RuntimeError("as a fault of ours would")
             if what == "full" and _is_full(log, detail, f"{stage} {order.name} "):

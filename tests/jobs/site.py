@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic, sleep
-from typing import Any
+from typing import IO, Any
 
 from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.client import DurableJobs, durable_jobs
@@ -30,6 +30,8 @@ class Site:
     url: str
     jobs: DurableJobs
     running: list[subprocess.Popen[bytes]] = field(default_factory=list)
+    stderr: IO[bytes] | None = None
+    """Of workers; None for the terminal."""
 
     @property
     def store(self) -> Store:
@@ -47,6 +49,7 @@ class Site:
             [sys.executable, "-m", "tests.jobs.quick_worker", json.dumps(given), str(self.log)],
             cwd=ROOT,
             env=os.environ | {"PYTHONPATH": str(ROOT)},
+            stderr=self.stderr,
             preexec_fn=end_with_parent,  # noqa: PLW1509 - one call of the system, no lock
         )
         self.running.append(process)

@@ -121,4 +121,4 @@ def test_a_worker_says_its_sandbox_in_one_line(serve: Serve) -> None:
     serving = serve("--workers", 1)
     wait_for(lambda: "is waiting for checks" in serving.told)
     (line,) = (each for each in serving.told.splitlines() if "layers of the sandbox: " in each)
-    assert " INFO " in line
+    assert json.loads(line)["level"] == "info"

@@ -19,11 +19,11 @@ from prometheus_client.parser import text_string_to_metric_families
 
 from checker.base.sandbox.layers import Layer
 from checker.service.jobs.port import Alive, JobsUnreachable, State
+from checker.service.logs import FIELDS, JsonLines, short
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.limits.admission import GUESSES_PER_MINUTE
-from checker.service.web.logs import FIELDS, JsonLines, short
 from checker.service.web.metrics import BOUNDS, Metrics
 from tests.web.board import DONE, ID, BoardJobs
 from tests.web.server import left_behind

@@ -13,10 +13,10 @@ from msgspec.structs import replace
 
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.port import Order
+from checker.service.logs import JsonLines
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
-from checker.service.web.logs import JsonLines
 from tests.web.board import DONE, ID, QUEUED, BoardJobs, keep_result
 from tests.web.server import eventually, left_behind, served
 from tests.web.test_transfer import GOOD

@@ -13,10 +13,10 @@ import pytest
 from fastapi.testclient import TestClient
 
 from checker.service.jobs.port import JobsUnreachable, State
+from checker.service.logs import FAULTS, LOGGER, REPEAT_SECONDS, JsonLines, Lines
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
-from checker.service.web.logs import FAULTS, LOGGER, REPEAT_SECONDS, JsonLines, Lines
 from tests.web.board import ID, BoardJobs
 
 

@@ -16,6 +16,7 @@ from checker.engine.report_cache import program_parts
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.port import Jobs
+from checker.service.logs import FIELDS, LOGGER, log_to_stderr, short
 from checker.service.store.store import Store, opened
 from checker.service.web import health
 from checker.service.web.answers.bodies import Heads
@@ -28,7 +29,6 @@ from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
 from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
 from checker.service.web.limits.space import space_of
-from checker.service.web.logs import FIELDS, LOGGER, log_to_stderr, short
 from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services

@@ -7,7 +7,6 @@ import os
 import secrets
 import signal
 import socket
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -30,6 +29,7 @@ from checker.service.jobs.durable.tasks import KNOWN, PAUSES, STAGES
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.service.jobs.sandbox import layers_of_checks
+from checker.service.logs import log_to_stderr
 from checker.service.store.life import living
 from checker.service.store.store import Store
 
@@ -163,11 +163,7 @@ def work(options: WorkerOptions) -> None:
     Raises:
         JobsUnreachable: The database does not answer at the start.
     """
-    logging.basicConfig(
-        level=logging.INFO,
-        stream=sys.stderr,
-        format="%(asctime)s %(levelname)s %(name)s: %(message)s",
-    )
+    log_to_stderr()
     stop = threading.Event()
     # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
     both = (signal.SIGTERM, signal.SIGINT)

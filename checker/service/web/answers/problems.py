@@ -13,9 +13,9 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from checker.service.jobs.port import JobsUnreachable
+from checker.service.logs import LOGGER
 from checker.service.store.objects import StoreUnreachable
 from checker.service.web.answers.refusal import Refused, not_found
-from checker.service.web.logs import LOGGER
 from checker.service.web.pages.site import html
 
 if TYPE_CHECKING:

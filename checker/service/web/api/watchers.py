@@ -14,7 +14,7 @@ from starlette.concurrency import run_in_threadpool
 
 from checker.base.words import plain
 from checker.service.jobs.port import Event, Jobs, JobsUnreachable
-from checker.service.web.logs import LOGGER
+from checker.service.logs import LOGGER
 
 QUIET_SECONDS = 15.0
 """After which a comment shows that the stream lives; proxies close what is silent."""

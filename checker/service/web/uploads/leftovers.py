@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from starlette.concurrency import run_in_threadpool
 
+from checker.service.logs import LOGGER
 from checker.service.store.store import Store
-from checker.service.web.logs import LOGGER
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

@@ -1,4 +1,7 @@
-"""Logs: one JSON object a line on stderr, without tokens and without ids that open a report."""
+"""Logs of the web process and of workers: JSON lines on stderr, without tokens and ids.
+
+An id opens a report; the key of a check, which tells it apart as well, opens none.
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,7 @@ REPEAT_SECONDS = 60.0
 """After which it is told how often a fault has repeated."""
 FAULTS = 200
 """Known at once; further ones are written each time."""
+_OURS = ("subt-check", "checker")
 _OF_THE_SERVER = ("uvicorn", "uvicorn.error")
 _WITH_ADDRESSES = "uvicorn.access"
 
@@ -141,7 +145,7 @@ def log_to_stderr() -> None:
     handler = Lines(sys.stderr)
     handler.setFormatter(JsonLines())
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
-    for name in (LOGGER.partition(".")[0], *_OF_THE_SERVER):
+    for name in (*_OURS, *_OF_THE_SERVER):
         logger = logging.getLogger(name)
         logger.handlers = [] if name == "uvicorn.error" else [handler]
         logger.propagate = name == "uvicorn.error"
