@@ -2,10 +2,14 @@
 
 import { laidOut } from "./parts.js";
 
+const PART = /\.(stl|dae|obj|glb|gltf|mtl|png|jpe?g)$/i;
 const SKIPPED = new Set([".git", ".hg", ".svn", "__pycache__"]); // as `submit` leaves them out
 
 // What cannot be sent, in words for the user.
 export class Refusal extends Error {}
+
+// Files that cannot be sent yet: a model that is given as well makes them a package.
+export class Incomplete extends Refusal {}
 
 // Returns the files of a drop with their paths, or a promise of them. The browser forgets the entries after the event,
 // so they are taken before anything is waited for.
@@ -70,7 +74,7 @@ export async function chosen(files, limits) {
     throw new Refusal("Files and folders were dropped together. Drop one folder, an archive, or files alone.");
   }
   const { files: laid, missing } = loose.length > 0 ? await laidOut(files) : { files, missing: [] };
-  if (files.length === 1 && loose.length === 1) {
+  if (files.length === 1 && loose.length === 1 && !PART.test(files[0].path)) {
     refuseFile(files[0].file, limits);
     return { name: files[0].file.name, bytes, files, file: files[0].file, missing };
   }
@@ -83,7 +87,8 @@ function refuseMissingModel(loose) {
   const archive = loose.find(({ path }) => /\.(zip|tgz|gz)$/i.test(path));
   if (archive) throw new Refusal(`${archive.path} is an archive: send it alone.`);
   if (loose.length > 0 && !loose.some(({ path }) => /\.(urdf|xacro|sdf|world)$/i.test(path))) {
-    throw new Refusal("None of these files is a model. Add the .urdf, .xacro or .sdf file that uses them.");
+    const [what, them] = loose.length > 1 ? ["None of these files is", "them"] : [`${loose[0].path} is not`, "it"];
+    throw new Incomplete(`${what} a model. Add the .urdf, .xacro or .sdf file that uses ${them}.`);
   }
 }
 

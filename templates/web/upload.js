@@ -1,6 +1,6 @@
 // The form of the start page: drop, choose, pack, send. Without this script it is a plain form.
 
-import { chosen, dropped, megabytes, ofFolder, Refusal } from "./choosing.js";
+import { chosen, dropped, Incomplete, megabytes, ofFolder, Refusal } from "./choosing.js";
 import { sending } from "./sending.js";
 import { zipped } from "./zip.js";
 
@@ -14,6 +14,7 @@ const limits = {
   endings: form.dataset.endings.split(" "),
 };
 let given = null;
+let kept = []; // loose files that others are to be added to
 let stop = null;
 
 part("file").required = false; // a folder will do as well
@@ -25,23 +26,28 @@ function refuse(problem) {
     : "The files cannot be read. They may have changed since they were chosen: choose them again.";
 }
 
-// Takes what was chosen, or says why not; `find` returns the files, or a promise of them. Files that a model needs are
-// added to it.
+// Takes what was chosen, or says why not; `find` returns the files, or a promise of them. A model and the files that it
+// needs may come one after the other.
 async function take(find) {
-  const before = given?.missing.length ? given.files : [];
+  const before = kept;
+  let files = [];
   given = null;
+  kept = [];
   part("refusal").textContent = "";
   part("chosen").textContent = "";
   part("missing").textContent = "";
   try {
-    const found = await find();
-    const loose = found.every(({ path }) => !path.includes("/"));
-    const kept = loose ? before.filter(({ file }) => !found.some((other) => other.file.name === file.name)) : [];
-    given = await chosen([...kept.map(({ file }) => ({ path: file.name, file })), ...found], limits);
+    files = await find();
+    if (files.every(({ path }) => !path.includes("/"))) {
+      files = [...before.filter(({ path }) => !files.some((other) => other.path === path)), ...files];
+    }
+    given = await chosen(files, limits);
+    kept = given.missing.length ? files : [];
     const number = given.file ? "" : `${given.files.length} file${given.files.length === 1 ? "" : "s"}, `;
     part("chosen").textContent = `${given.name}: ${number}${megabytes(given.bytes)}`;
     part("missing").textContent = asking(given.missing);
   } catch (problem) {
+    kept = problem instanceof Incomplete ? files : [];
     refuse(problem);
   }
 }

@@ -372,6 +372,37 @@ def test_a_model_asks_for_its_meshes_and_takes_them(
             }
 
 
+TRUCK = """<robot name="truck" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:include filename="$(find truck)/urdf/parts/wheel.xacro"/>
+<link name="a"><visual><geometry>
+<mesh filename="file://$(find truck)/meshes/${side}.dae"/></geometry></visual></link></robot>
+"""
+
+
+def test_what_comes_before_its_model_is_kept(
+    chromium: Browser, board: Board, tmp_path: Path
+) -> None:
+    contents = {"left.dae": "<COLLADA/>", "truck.xacro": TRUCK, "wheel.xacro": "<robot/>"}
+    for name, content in contents.items():
+        (tmp_path / name).write_text(content, "utf-8")
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        drop(page, tmp_path / "left.dae")
+        page.get_by_role("alert").get_by_text("left.dae is not a model. Add the .urdf").wait_for()
+        drop(page, tmp_path / "truck.xacro")
+        page.locator("#missing").get_by_text("The model needs wheel.xacro: drop").wait_for()
+        drop(page, tmp_path / "wheel.xacro")
+        page.locator("#chosen").get_by_text("truck.zip: 3 files").wait_for()
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        with zipfile.ZipFile(upload_of(board)) as made:
+            assert sorted(made.namelist()) == [
+                "truck/meshes/left.dae",
+                "truck/urdf/parts/wheel.xacro",
+                "truck/urdf/truck.xacro",
+            ]
+
+
 def test_one_model_is_sent_as_it_is(chromium: Browser, board: Board, package: Path) -> None:
     with watched_page(chromium) as page:
         page.goto(board.address)
@@ -388,7 +419,8 @@ def test_one_model_is_sent_as_it_is(chromium: Browser, board: Board, package: Pa
     [
         (("arm.stl", "hand.stl"), "None of these files is a model"),
         (("arm.zip", "arm.urdf"), "arm.zip is an archive: send it alone"),
-        (("arm.stl",), "does not end in"),
+        (("arm.stl",), "arm.stl is not a model. Add the .urdf"),
+        (("arm.step",), "does not end in"),
     ],
 )
 def test_files_that_are_no_robot(
