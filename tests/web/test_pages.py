@@ -127,10 +127,14 @@ def test_a_refused_form_is_answered_by_a_page(client: Client) -> None:
             replace(QUEUED, stage=Stage.TRIAL, result=KEY, packages=(ROVER,)),
             "Checking: 5 errors and 1 warning so far",
         ),
+        (
+            replace(QUEUED, stage=Stage.TRIAL, packages=(ROVER,), words="starts again: it ended"),
+            "Checking: 5 errors and 1 warning so far Starts again: it ended.",
+        ),
         (DONE, "Not ready: 5 errors to fix"),
         (
             replace(QUEUED, stage=Stage.REFUSED, words="rover.zip is damaged; pack it again"),
-            "Not checked: rover.zip is damaged; pack it again",
+            "Not checked: rover.zip is damaged Pack it again. Send a package",
         ),
         (replace(QUEUED, stage=Stage.CANCELLED), "Cancelled"),
     ],

@@ -16,6 +16,7 @@ from checker.report.report import ReportedFinding, VerdictKind
 from checker.report.summary import FILES, what_is_ready
 from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
+from checker.service.web.answers.refusal import sentence
 from checker.service.web.api.views import address_of
 
 # What a stored report says at a glance: a verdict for each package, and the gravest findings.
@@ -210,7 +211,10 @@ def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> H
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
     match state.stage:
         case Stage.REFUSED:
-            return Headline("Not checked", words, "not_ready", "Correct this and send it again.")
+            reason, _, advice = words.rpartition("; ")
+            if not reason:
+                reason, advice = words, "correct this and send it again"
+            return Headline("Not checked", reason, "not_ready", sentence(advice))
         case Stage.FAILED:
             return Headline("Not checked", words, "not_ready", _AGAIN)
         case Stage.CANCELLED:
@@ -221,7 +225,9 @@ def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> H
             ahead = _ahead(state) or "it starts in a moment"
             return Headline("Waiting", ahead, "", _ready_in(left))
         case _:
-            return Headline("Checking", _so_far(packages) or words, "", _ready_in(left))
+            found = _so_far(packages)
+            doing = f"{sentence(words)} " if found and words else ""
+            return Headline("Checking", found or words, "", f"{doing}{_ready_in(left)}".strip())
 
 
 def _ready_in(left: str) -> str:
