@@ -185,17 +185,26 @@ def database_away(group: Group, server: int) -> Iterator[None]:
         server: Process of PostgreSQL, which stands still; 0 for SQLite, which lets nobody write.
     """
     if server:
-        for pid in (server, *below(server)):
-            os.kill(pid, signal.SIGSTOP)
-        yield
-        for pid in (server, *below(server)):
-            with suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGCONT)
+        with standing_still(server):
+            yield
         return
     with closing(sqlite3.connect(group.folder / "data/jobs.sqlite", timeout=60)) as connection:
         connection.execute("BEGIN IMMEDIATE")
         yield
         connection.rollback()
+
+
+@contextmanager
+def standing_still(process: int) -> Iterator[None]:
+    """Have a process, and all below it, stand still for a while."""
+    for pid in (process, *below(process)):
+        os.kill(pid, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        for pid in (process, *below(process)):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGCONT)
 
 
 def away(group: Group, server: str, seconds: float) -> None:

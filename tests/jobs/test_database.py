@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import socket
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
-from time import time
+from time import monotonic, sleep, time
 
 import pytest
 import sqlalchemy as sa
 
+from bench.chaos import server_process, standing_still
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import database_url, open_database
 from checker.service.jobs.durable.prepare import prepared
@@ -161,6 +163,29 @@ def test_connections_that_break_do_not_break_a_check(site: Site) -> None:
         assert connection.execute(cut).scalar_one() > 0
     assert site.end(id).stage is Stage.DONE
     assert site.begun()[f"trial {name}"] == 1
+    site.close()
+
+
+def test_one_that_stands_still_is_unreachable_within_seconds(site: Site, postgres_url: str) -> None:
+    id = site.submit()
+    with standing_still(server_process(postgres_url)), ThreadPoolExecutor(60) as pool:
+        began = monotonic()
+        asked = [pool.submit(site.jobs.status, id) for _ in range(60)]
+        for each in asked:
+            with pytest.raises(JobsUnreachable):
+                each.result()
+        assert monotonic() - began < 20.0
+        began = monotonic()
+        with pytest.raises(JobsUnreachable):
+            site.jobs.status(id)
+        assert monotonic() - began < 1.0
+    for _ in range(100):
+        with suppress(JobsUnreachable):
+            assert site.state(id).stage is Stage.QUEUED
+            break
+        sleep(0.2)
+    else:
+        pytest.fail("the database answers, and nobody sees it")
     site.close()
 
 

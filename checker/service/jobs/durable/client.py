@@ -15,6 +15,7 @@ from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, reachable
 from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.pulse import watch
 from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
 from checker.service.jobs.durable.tasks import End, Row, Task, events_of, state_of
 from checker.service.jobs.durable.workers import Workers, partition_of
@@ -184,4 +185,7 @@ def durable_jobs(
     Raises:
         JobsUnreachable: The database does not answer.
     """
-    return DurableJobs(prepared(open_database(database_url)), store, retention_days)
+    engine = open_database(database_url)
+    if engine.dialect.name == "postgresql":
+        watch(engine)
+    return DurableJobs(prepared(engine), store, retention_days)

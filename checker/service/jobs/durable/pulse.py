@@ -1,0 +1,74 @@
+"""Tells of a PostgreSQL server that stands still: no answer of it would be waited for in vain."""
+
+from __future__ import annotations
+
+import os
+import socket
+from contextlib import suppress
+from threading import Event, Thread
+from typing import Any
+
+import sqlalchemy as sa
+
+from checker.service.jobs.port import JobsUnreachable
+
+_SECONDS = 2
+"""Between two looks, and at most for one: libpq takes no shorter time to connect."""
+
+
+def watch(engine: sa.Engine) -> None:
+    """Have who waits for a server that stands still, or is gone, be told within some seconds.
+
+    All connections end then, and until it answers again, who asks for one gets `JobsUnreachable`.
+    DBOS itself must not use such an engine: it waits for a server to come back.
+
+    Args:
+        engine: Of PostgreSQL, without connections so far.
+    """
+    pulse = _Pulse(engine)
+    sa.event.listen(engine, "do_connect", pulse.refuse)
+    sa.event.listen(engine, "connect", pulse.know)
+    sa.event.listen(engine, "close", pulse.forget)
+    sa.event.listen(engine, "engine_disposed", pulse.end)
+    Thread(target=pulse.look, daemon=True, name="pulse of the database").start()
+
+
+class _Pulse:
+    def __init__(self, engine: sa.Engine) -> None:
+        self._engine = engine
+        self._connections: dict[int, Any] = {}
+        self._stands_still, self._over = False, Event()
+
+    def refuse(self, *_of_connection: Any) -> None:
+        if self._stands_still:
+            raise JobsUnreachable("the database does not answer: it stands still")
+
+    def know(self, connection: Any, _record: Any) -> None:
+        self._connections[id(connection)] = connection
+
+    def forget(self, connection: Any, _record: Any) -> None:
+        self._connections.pop(id(connection), None)
+
+    def end(self, _engine: sa.Engine) -> None:
+        self._over.set()
+
+    def look(self) -> None:
+        """Look again and again whether the server takes a new connection, until the engine ends."""
+        positional, named = self._engine.dialect.create_connect_args(self._engine.url)
+        named["connect_timeout"] = _SECONDS
+        while not self._over.wait(_SECONDS):
+            try:
+                self._engine.dialect.connect(*positional, **named).close()
+                self._stands_still = False
+            except self._engine.dialect.loaded_dbapi.Error:
+                self._stands_still = True
+                self._cut()
+
+    def _cut(self) -> None:
+        """End all connections: on some of them somebody waits."""
+        for connection in list(self._connections.values()):
+            with (
+                suppress(OSError, self._engine.dialect.loaded_dbapi.Error),
+                socket.socket(fileno=os.dup(connection.fileno())) as its,
+            ):
+                its.shutdown(socket.SHUT_RDWR)
