@@ -50,8 +50,9 @@ def _full_pipe() -> None:
 
 
 def _nonsense() -> None:
-    for message in (b"{", b"[]", b"x" * 5000, json.dumps({"module": 1}).encode()):
+    for message in (b"{", *[b"[]"] * 10, b"x" * 5000, json.dumps({"module": 1}).encode()):
         _send(message)
+        time.sleep(0.02)  # else the launcher may read several at once
 
 
 def _no_descriptors() -> None:

@@ -27,7 +27,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from checker.base.sandbox.layers import ACCOUNT, NAMESPACES, Layer, Sandbox, enter
-from checker.base.sandbox.task import prepared, run
+from checker.base.sandbox.task import FAILED, prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
 #
@@ -158,7 +158,12 @@ class LauncherProcess:
         input, request, answer, code, *more = descriptors
         id = os.fork()
         if id == 0:
-            os._exit(self._be(order, input, request, answer, *more))
+            ended = FAILED
+            # Whatever an order lacks, a new process never goes on as a second launcher.
+            try:
+                ended = self._be(order, input, request, answer, *more)
+            finally:
+                os._exit(ended)
         for descriptor in (request, answer, *more):
             os.close(descriptor)
         self._processes[id] = _Process(id, input, code)
