@@ -31,7 +31,8 @@ NICENESS = 10
 
 MOST = Usage(memory=3_000_000_000, disk=2_000_000_000, files=200_000, processes=64)
 """What all processes of a check may use together, besides two copies of the upload. Of an archive
-are unpacked 500 MB at most; no check was seen to use more than 1 GB of memory or 8 processes."""
+are unpacked 500 MB at most. Of 15 uploads of real packages, one of 18 packages, checked with trial
+and pictures, none used more than 540 MB of memory, 150 MB of disk, 970 files and 6 processes."""
 
 
 class StageLimits(Record):
