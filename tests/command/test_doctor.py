@@ -81,6 +81,10 @@ def test_a_viewer_that_is_not_built_is_a_note(
             Layer("account", False, "it is not started by root"),
             "note    sandbox: no account (it is not started by root); a service started by root",
         ),
+        (
+            Layer("account", True, "user 61200; it may read more"),
+            "note    sandbox: account partly (user 61200; it may read more); a service started by",
+        ),
     ],
 )
 def test_a_layer_that_is_missing_is_a_note_that_says_how_to_get_it(layer: Layer, line: str) -> None:

@@ -160,6 +160,11 @@ def list_folder(assets: Assets) -> object:
 
 
 @attempt
+def state_of_file(assets: Assets) -> object:
+    return os.stat(assets["database"]).st_size  # noqa: PTH116
+
+
+@attempt
 def watch_folder(assets: Assets) -> object:
     watcher = LIBC.inotify_init1(0)
     return call("inotify_add_watch", watcher, assets["folder"].encode(), 0x100)
@@ -251,6 +256,16 @@ def write_working_folder_of_another(assets: Assets) -> object:
 
 
 # Secrets of processes.
+
+
+@attempt
+def see_process(assets: Assets) -> object:
+    return os.stat(f"/proc/{assets['victim']}").st_uid  # noqa: PTH116
+
+
+@attempt
+def command_of_process(assets: Assets) -> object:
+    return _secret_in(f"/proc/{assets['victim']}/cmdline")
 
 
 @attempt

@@ -17,7 +17,10 @@ from tests.sandbox.attempts import ATTEMPTS
 from tests.sandbox.test_layers import need
 
 DEEDS = ("full_pipe", "nonsense", "no_descriptors", "stopped", "greedy_orders")
-NO_OPENING = {"become_root", "dump_core", "many_processes", "outlive", "raise_limits"}
+NO_OPENING = {
+    *("become_root", "dump_core", "many_processes", "outlive", "raise_limits"),
+    *("see_process", "state_of_file"),
+}
 """What a filter of calls that opens nothing does not hold."""
 
 

@@ -31,6 +31,7 @@ MATRIX = {
     "read_home": "B A L",
     "read_open_file": "B L",
     "list_folder": "B A L",
+    "state_of_file": "B A",
     "watch_folder": "B A S",
     "write_database": "B A L",
     "truncate_by_name": "B A L s",
@@ -49,6 +50,8 @@ MATRIX = {
     "write_shared_memory": "B L",
     "write_working_folder_of_another": "B A L",
     # Secrets of processes.
+    "see_process": "B",
+    "command_of_process": "B L",
     "environment_of_parent": "B A L",
     "memory_file": "B A L",
     "read_memory": "B A L S",
@@ -128,6 +131,8 @@ MACHINES_DIFFER = {
     *("user_faults", "watch_performance", "keys", "add_key", "unlink_message_queue"),
 }
 """What a kernel lacks, or an administrator has switched off."""
+FOR_ONE_WHO_READS_ALL = {"state_of_file"}
+"""What an account does not hold that has kept the right to read all files."""
 COSTLY = {"many_processes", "outlive"}
 """Made only where they are to be held, or where it is to be seen what is left."""
 
@@ -205,14 +210,22 @@ def test_a_layer_alone(name: str, kind: str, outside: Outside) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_all_layers_that_there_are(kind: str, outside: Outside) -> None:
+@pytest.mark.parametrize("wrapped", [True, False], ids=["bubblewrap", "none"])
+def test_all_layers_that_there_are(
+    wrapped: bool, kind: str, outside: Outside, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not wrapped:
+        monkeypatch.setattr(namespaces, "bubblewrap", lambda: "it is left out")
     attacked = attack(outside, layers.ALL, kind)
-    held = [layer.name for layer in attacked.starter.layers if layer.held]
-    wanted = claimed(held, kind)
+    held = {layer.name: layer for layer in attacked.starter.layers if layer.held}
+    wanted = claimed([*held], kind)
     if not namespaces.bubblewrap() and layers.NAMESPACES in held:
         wanted |= {*MATRIX} - {"many_processes"}
     if os.getuid() != 0:
         wanted |= ONLY_FOR_ROOT
+    elif layers.LANDLOCK in held:
+        assert layers.ACCOUNT in held
+        wanted -= set() if held[layers.ACCOUNT].hides else FOR_ONE_WHO_READS_ALL
     assert got_in(attacked, wanted) == {}
 
 

@@ -23,47 +23,70 @@ def free_account() -> int:
     return _FIRST + secrets.randbelow(_LAST - _FIRST + 1)
 
 
-def become(account: int, needed: Iterable[str], folder: str = "") -> None:
-    """Become another user, for good; all rights of root go, whether or not this can be done.
+def become(account: int, needed: Iterable[str], folder: str = "", *, read_all: bool = False) -> str:
+    """Become another user, for good; the rights of root go, whether or not this can be done.
 
     Args:
         account: Its id, which is also that of its group.
         needed: Files and folders that it has to reach.
         folder: One that is to belong to it; empty for none.
+        read_all: Whether it may keep the right to read all files if it could not reach what it
+            needs: for a process to which Landlock leaves few.
+
+    Returns:
+        The folder for which it has kept this right; empty if it has not.
 
     Raises:
         NotHeld: This process is not root's, or the user could not reach what it needs.
     """
     if os.getuid() != 0 or not account:
         raise NotHeld("it is not started by root")
+    kept = 0
     try:
         around = (str(Path(folder).parent),) if folder else ()
-        for path in (*needed, *around):
-            if blocked := _blocked(Path(path)):
-                raise NotHeld(f"{blocked} is closed to other users")
+        blocked = next(filter(None, (_blocked(Path(path)) for path in (*needed, *around))), "")
+        if blocked and not (read_all and _permitted() & _DAC_READ_SEARCH):
+            raise NotHeld(f"{blocked} is closed to other users")
         if folder:
             os.chown(folder, account, account)
         os.setgroups([])
         os.setresgid(account, account, account)
+        if blocked:
+            ctypes.CDLL(None).prctl(_PR_SET_KEEPCAPS, 1, 0, 0, 0)
         os.setresuid(account, account, account)
+        kept = _DAC_READ_SEARCH if blocked else 0
     except NotHeld:
         raise
     except OSError as error:
         raise NotHeld(f"the system does not let it change its user ({error.strerror})") from None
     finally:
-        give_up_rights()
+        give_up_rights(kept)
+    return blocked
 
 
-def give_up_rights() -> None:
-    """Give up what root may do and others may not (capabilities(7))."""
+def give_up_rights(kept: int = 0) -> None:
+    """Give up what root may do and others may not (capabilities(7)).
+
+    Args:
+        kept: Those that stay, one bit each; none is gained.
+    """
     libc = ctypes.CDLL(None, use_errno=True)
     if hasattr(libc, "capset"):
-        header = struct.pack("=Ii", _CAPABILITIES, 0)
-        libc.capset(ctypes.c_char_p(header), ctypes.c_char_p(bytes(24)))
+        libc.capset(_HEADER, struct.pack("=6I", kept, kept, 0, 0, 0, 0))
 
 
-_CAPABILITIES = 0x20080522
-"""_LINUX_CAPABILITY_VERSION_3."""
+def _permitted() -> int:
+    """Return the rights of root that this process has; a container may leave it a few."""
+    data = ctypes.create_string_buffer(24)
+    libc = ctypes.CDLL(None, use_errno=True)
+    known = hasattr(libc, "capget") and libc.capget(_HEADER, data) == 0
+    return int(struct.unpack("=6I", data.raw)[1]) if known else 0
+
+
+_HEADER = struct.pack("=Ii", 0x20080522, 0)
+"""_LINUX_CAPABILITY_VERSION_3, of this process."""
+_DAC_READ_SEARCH = 1 << 2
+_PR_SET_KEEPCAPS = 8
 
 
 def _blocked(path: Path) -> str:

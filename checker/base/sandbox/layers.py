@@ -60,12 +60,9 @@ def enter(sandbox: Sandbox) -> list[Layer]:
 
 def _entered(name: str, sandbox: Sandbox) -> Layer:
     try:
-        words = _WAYS[name](sandbox)
+        return _WAYS[name](sandbox)
     except NotHeld as error:
         return Layer(name, False, str(error.args[-1]))
-    # Without bubblewrap, namespaces hide the network alone.
-    hides = sandbox.wrapped if name == NAMESPACES else name in (ACCOUNT, LANDLOCK)
-    return Layer(name, True, words, hides)
 
 
 def hides_files(layers: Iterable[Layer]) -> bool:
@@ -73,21 +70,25 @@ def hides_files(layers: Iterable[Layer]) -> bool:
     return any(layer.held and layer.hides for layer in layers)
 
 
-def _namespaces(sandbox: Sandbox) -> str:
+def _namespaces(sandbox: Sandbox) -> Layer:
     if sandbox.wrapped:
-        return "bubblewrap: no network, no other processes, no other files"
+        words = "bubblewrap: no network, no other processes, no other files"
+        return Layer(NAMESPACES, True, words, hides=True)
     namespaces.leave_network()
-    return "no network; bubblewrap would hide other processes and files"
+    return Layer(NAMESPACES, True, "no network; bubblewrap would hide other processes and files")
 
 
-def _account(sandbox: Sandbox) -> str:
-    account.become(sandbox.account, sandbox.read, sandbox.work)
-    return f"user {sandbox.account}"
+def _account(sandbox: Sandbox) -> Layer:
+    limited = LANDLOCK in sandbox.names and landlock.version() > 0
+    blocked = account.become(sandbox.account, sandbox.read, sandbox.work, read_all=limited)
+    but = f"; it may read all files that Landlock leaves, as {blocked} is closed to other users"
+    return Layer(ACCOUNT, True, f"user {sandbox.account}{but if blocked else ''}", not blocked)
 
 
-def _landlock(sandbox: Sandbox) -> str:
+def _landlock(sandbox: Sandbox) -> Layer:
     seccomp.gain_nothing()
-    return f"version {_allow_files(sandbox, works=True, draws=True)}"
+    version = _allow_files(sandbox, works=True, draws=True)
+    return Layer(LANDLOCK, True, f"version {version}", hides=True)
 
 
 def _allow_files(sandbox: Sandbox, *, works: bool, draws: bool) -> int:
@@ -99,10 +100,10 @@ def _allow_files(sandbox: Sandbox, *, works: bool, draws: bool) -> int:
     )
 
 
-def _seccomp(sandbox: Sandbox) -> str:
+def _seccomp(sandbox: Sandbox) -> Layer:
     seccomp.gain_nothing()
     seccomp.forbid_calls(changes=bool(sandbox.work))
-    return f"{len(seccomp.FORBIDDEN)} system calls are forbidden"
+    return Layer(SECCOMP, True, f"{len(seccomp.FORBIDDEN)} system calls are forbidden")
 
 
 _WAYS = {

@@ -66,7 +66,10 @@ class Result(Record):
 
 
 _ADVICE = {
-    ACCOUNT: "a service started by root has it; a command for your own packages does not need it",
+    ACCOUNT: (
+        "a service started by root has it, in full where all may read the folders of this program; "
+        "a command for your own packages does not need it"
+    ),
     LANDLOCK: "use Linux 5.13 or newer with `landlock` among the names in "
     "/sys/kernel/security/lsm, and in a container rules that allow its system calls",
     SECCOMP: "use Linux on x86-64 or arm64 with CONFIG_SECCOMP_FILTER",
