@@ -107,6 +107,7 @@ def test_a_report_without_physics_is_not_remembered_once_it_is_there(
         (["serve"], SERVICE),
         (["serve", "--workers", "0"], PHYSICS),
         (["worker"], SERVICE),
+        (["admin", "list"], SERVICE),
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )

@@ -235,6 +235,7 @@ def test_no_command_ends_in_a_traceback_without_the_extras(light: Path, tmp_path
         (["submit", BROKEN, "--server", "http://127.0.0.1:1"], 2),
         (["serve"], 2),
         (["worker"], 2),
+        (["admin", "list"], 2),
     ):
         done = run(light, *words, cwd=tmp_path)
         assert done.returncode == code, f"{words}\n{done.stdout}{done.stderr}"

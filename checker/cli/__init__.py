@@ -22,6 +22,7 @@ COMMANDS = {
     "server": "start the language server, which tells editors of faults",
     "serve": "start the web service with its worker processes",
     "worker": "start another worker process of a service",
+    "admin": "list, begin anew and cancel checks of a service, drain workers, delete what is due",
     "init": "write a settings file and a pre-commit hook",
     "doctor": "check the installation; exit code 1 if something does not work",
     "rule": "explain a rule",

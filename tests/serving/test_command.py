@@ -13,6 +13,12 @@ from checker import cli
         *(["serve", "--port", "65536"], ["serve", "--port", "-1"], ["serve", "--port", "²"]),
         *(["serve", "--workers", "-1"], ["serve", "--workers", "many"], ["serve", "here"]),
         *(["serve", "--behind-proxy", "proxy"], ["serve", "--behind-proxy", "10.0.0.1/8"]),
+        *(
+            ["admin"],
+            ["admin", "requeue"],
+            ["admin", "cancel"],
+            ["admin", "requeue", "k", "--failed"],
+        ),
         *(["worker", "--jobs", "0"], ["submit", "a.zip"], ["submit", "--server", "http://a"]),
     ],
 )
@@ -25,7 +31,7 @@ def test_what_the_command_line_does_not_take(
     assert "usage: subt-check" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["serve", "worker", "submit"])
+@pytest.mark.parametrize("name", ["serve", "worker", "submit", "admin"])
 def test_each_has_a_help(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         cli.main([name, "--help"])

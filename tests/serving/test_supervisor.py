@@ -43,6 +43,17 @@ def test_one_that_dies_waits_longer_each_time(tmp_path: Path) -> None:
     assert all(pause >= float(wait) for pause, wait in zip(pauses, waits, strict=False))
 
 
+def test_one_that_was_told_to_end_is_not_restarted(tmp_path: Path) -> None:
+    stop, said = threading.Event(), list[str]()
+    kept = process(STAMP, tmp_path / "stamps")
+    kept.start()
+    threading.Timer(2.0, stop.set).start()
+    keep_running([kept], stop, QUICK, said.append)
+    assert said == ["the process has ended as it was told, and is not restarted"]
+    assert len(times(tmp_path / "stamps")) == 1
+    assert stop_all([kept], threading.Event(), QUICK)
+
+
 def test_one_that_lives_is_left_alone(tmp_path: Path) -> None:
     stop, said = threading.Event(), list[str]()
     kept = process(STAMP + SLEEP, tmp_path / "stamps")

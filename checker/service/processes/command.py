@@ -10,7 +10,6 @@ import socket
 import sys
 import threading
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from checker.base.errors import CheckerError
@@ -20,7 +19,7 @@ from checker.base.sandbox.launcher import module_path
 from checker.base.signals import on_requests_to_end
 from checker.service.exposure import address_of, listening, risk_of, warning_of
 from checker.service.processes.supervisor import Pace, Process, keep_running, stop_all
-from checker.service.store.place import data_folder
+from checker.service.store.place import choose, data_folder
 
 if TYPE_CHECKING:
     from checker.service.store.store import Store
@@ -106,10 +105,7 @@ def _data_made(options: argparse.Namespace) -> Store:
     """
     from checker.service.store.store import opened
 
-    if options.data:
-        os.environ["SUBT_CHECK_DATA"] = str(Path(options.data).absolute())
-    if options.store:
-        os.environ["SUBT_CHECK_STORE"] = options.store
+    choose(options.data, options.store)
     folder = data_folder()
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -1,4 +1,7 @@
-"""Keeps processes running: starts them, starts anew what has died, and stops them in good order."""
+"""Keeps processes running: starts them, starts anew what has died, and stops them in good order.
+
+A process that ends with exit code 0 was told to end, and is not started anew.
+"""
 
 from __future__ import annotations
 
@@ -81,8 +84,12 @@ class Process:
             return
         now = monotonic()
         if self._running is not None:
-            say(f"{self.name} {_how(self._running.returncode)}; {self._put_off(now, pace)}")
-            self._running = None
+            code, self._running = self._running.returncode, None
+            if code == 0:  # as a worker that is drained does
+                self._next_start = float("inf")
+                say(f"{self.name} has ended as it was told, and is not restarted")
+            else:
+                say(f"{self.name} {_how(code)}; {self._put_off(now, pace)}")
         elif now >= self._next_start:
             self.start()
 

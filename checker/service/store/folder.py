@@ -73,21 +73,29 @@ class FolderObjects(Record):
                 make_folder(target.parent)
                 path.replace(target)
 
-    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> None:
-        """Remove objects that were last used before a time, unless their key is still used."""
+    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> int:
+        """Remove objects that were last used before a time, unless their key is still used.
+
+        Returns:
+            How many went.
+        """
         with workplace(self.folder / "incoming") as bin:
-            for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*"):
-                if path.name not in still_used:
-                    self._expire_one(path, before, bin)
+            return sum(
+                self._expire_one(path, before, bin)
+                for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*")
+                if path.name not in still_used
+            )
 
     def sweep(self) -> None:
         """Do nothing: there are no copies."""
 
-    def _expire_one(self, path: Path, before: float, bin: Path) -> None:
+    def _expire_one(self, path: Path, before: float, bin: Path) -> bool:
         with self._alone(), suppress(FileNotFoundError):
             if path.stat().st_mtime < before:
                 # A folder goes at once; its files go when the workplace does.
                 path.rename(bin / path.name)
+                return True
+        return False
 
     def _place(self, kind: Kind, key: str) -> Path:
         return self.folder / kind / key[:2] / key

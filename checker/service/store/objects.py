@@ -52,8 +52,8 @@ class Objects(Protocol):
     def add(self, kind: Kind, key: str, source: Path) -> None:
         """Move the files of a folder into the folder of that key, one by one."""
 
-    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> None:
-        """Remove objects that were last used before a time, unless their key is still used."""
+    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> int:
+        """Remove objects last used before a time, unless their key is in use; return how many."""
 
     def sweep(self) -> None:
         """Remove copies on this machine that were not used lately."""

@@ -11,6 +11,19 @@ DATABASE = "jobs.sqlite"
 """The file of the database in that folder, unless it lies elsewhere."""
 
 
+def choose(data: str, store: str) -> None:
+    """Have this process, and those that it starts, use a folder and a bucket; empty for as it is.
+
+    Args:
+        data: The folder, for `SUBT_CHECK_DATA`.
+        store: Address of the bucket, for `SUBT_CHECK_STORE`.
+    """
+    if data:
+        os.environ["SUBT_CHECK_DATA"] = str(Path(data).absolute())
+    if store:
+        os.environ["SUBT_CHECK_STORE"] = store
+
+
 def data_folder() -> Path:
     """Return the folder of uploads, results and the database; it may not be there yet.
 

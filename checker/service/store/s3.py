@@ -82,19 +82,25 @@ class S3Objects(Record):
         if (folder := self.copies.find(kind, key)) is not None:
             self._put_folder(kind, key, folder)
 
-    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> None:
+    def expire(self, kind: Kind, before: float, still_used: Collection[str]) -> int:
         """Remove objects that were last used before a time, unless their key is still used.
 
         S3 has no locks: an object that is used again between the last look and its removal, some
         milliseconds, is lost.
+
+        Returns:
+            How many went.
         """
         from obstore import delete
 
+        number = 0
         for key, _ in self._old(kind, before):
             if key not in still_used:
+                number += 1
                 with _answers():
                     for _, names in self._old(_name(kind, key), before):
                         delete(self.bucket, names)
+        return number
 
     def sweep(self) -> None:
         """Remove copies that were not used lately."""

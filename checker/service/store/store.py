@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -129,19 +129,23 @@ class Store(Record):
             return ()
         return tuple(sorted(name for name in names if ARTEFACT_NAME.fullmatch(name)))
 
-    def expire(self, before: float, still_used: Collection[str]) -> None:
+    def expire(self, before: float, still_used: Collection[str]) -> Mapping[Kind, int]:
         """Remove what nobody has come back to.
 
         Args:
             before: Seconds since the epoch; what was used later stays.
             still_used: Hashes and keys that stay whatever their age.
+
+        Returns:
+            How many of each kind went.
         """
-        for kind in (Kind.UPLOAD, Kind.RESULT):
-            self.objects.expire(kind, before, still_used)
-        self.objects.expire(Kind.PARTS, before - CACHE_SECONDS, ())
+        used = (Kind.UPLOAD, Kind.RESULT)
+        gone = {kind: self.objects.expire(kind, before, still_used) for kind in used}
+        gone[Kind.PARTS] = self.objects.expire(Kind.PARTS, before - CACHE_SECONDS, ())
         # 0.1.0 shared what it had worked out between uploads.
         with self.workplace() as place, suppress(FileNotFoundError):
             (self.folder / "cache").rename(place / "cache")
+        return gone
 
     @property
     def workers(self) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import threading
 from time import monotonic
 
 from checker.service.jobs.durable.checks import Checks
@@ -37,14 +38,18 @@ class Deaths:
         self._checks, self._workers, self._folder = checks, workers, store.workers
         self._name, self._silence = name, silence
         self._last = self._since = monotonic()
+        self.drained = threading.Event()
 
     def look(self) -> None:
         """Show a sign of life, and have what is in the hands of the dead wait again.
 
+        `drained` is set where an operator has said that this worker shall end.
+
         When the database was away, or this machine slept, all workers have been silent: the first
         one that is back must not take the others for dead.
         """
-        self._workers.beat(self._name)
+        if self._workers.beat(self._name):
+            self.drained.set()
         now = monotonic()
         if now - self._last > self._silence / 2.0:
             self._since = now

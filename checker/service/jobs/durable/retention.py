@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 
 from checker.base.record import Record
 from checker.service.jobs.durable.checks import Checks
 from checker.service.store.store import Store
 
+UNUSED_SECONDS = 3600.0
+"""That files stay which no check refers to: one may be about to."""
 _AT_ONCE = 200
 
 
@@ -17,15 +20,15 @@ class Retention(Record):
     Attributes:
         checks: In the database.
         store: Uploads and results.
-        grace_seconds: That a file stays which no check refers to: one may be about to.
+        grace_seconds: That a file stays which no check refers to.
     """
 
     checks: Checks
     store: Store
-    grace_seconds: float
+    grace_seconds: float = UNUSED_SECONDS
 
-    def delete(self) -> None:
-        """Delete what has had its time."""
+    def delete(self) -> Mapping[str, int]:
+        """Delete what has had its time; return how many of each kind went."""
         began = time.time()
         expired: set[str] = set()
         referred: set[str] = set()
@@ -37,5 +40,6 @@ class Retention(Record):
         keys = sorted(expired)
         for start in range(0, len(keys), _AT_ONCE):
             self.checks.forget(keys[start : start + _AT_ONCE])
-        self.store.expire(began - self.grace_seconds, referred)
+        gone = self.store.expire(began - self.grace_seconds, referred)
         self.store.sweep()
+        return {"checks": len(keys)} | {kind.value: number for kind, number in gone.items()}

@@ -8,6 +8,7 @@ import secrets
 import signal
 import socket
 import threading
+import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -23,7 +24,7 @@ from checker.service.jobs.children import Children
 from checker.service.jobs.durable.database import APPLICATION, SCHEMA, open_database, reachable
 from checker.service.jobs.durable.deaths import Deaths
 from checker.service.jobs.durable.prepare import prepared
-from checker.service.jobs.durable.retention import Retention
+from checker.service.jobs.durable.retention import UNUSED_SECONDS, Retention
 from checker.service.jobs.durable.stages import Stages
 from checker.service.jobs.durable.tasks import KNOWN, PAUSES, STAGES
 from checker.service.jobs.durable.workers import Workers
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 _LANDING_SECONDS = 10
 """For the children of what is handed back to end, and for the database to hear of it."""
+_DRAIN_SECONDS = 3600.0
+"""For a worker that is drained to finish its checks; each has limits of its own, of minutes."""
 _VERSION = "1"
 """Of the workflows as DBOS knows them: workers of another one leave each other's tasks alone."""
 
@@ -70,13 +73,15 @@ class WorkerOptions(Record):
     beat_seconds: float = 2.0
     silence_seconds: float = SILENCE_SECONDS
     cleaning_seconds: float = 3600.0
-    unused_seconds: float = 3600.0
+    unused_seconds: float = UNUSED_SECONDS
     pauses: Sequence[float] = PAUSES
     ahead: bool = True
 
 
 def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     """Take checks from the queues until `stop` is set, then finish or hand back what is in hand.
+
+    A worker that is drained ends as well: it finishes what it has in hand.
 
     Threads of what was handed back may outlive it: end the process by `os._exit`, as `work` does.
 
@@ -104,10 +109,12 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
         children.get_ready()
         end = _take_tasks(engine, name, stages.run)
         _LOG.info("%s is waiting for checks", name)
-        stop.wait()
-        _LOG.info("%s stops; it has %g s to finish its checks", name, options.grace_seconds)
-        threading.Timer(options.grace_seconds, stages.hand_back.set).start()
-        end(options.grace_seconds + _LANDING_SECONDS)
+        while not (stop.wait(options.beat_seconds) or deaths.drained.is_set()):
+            pass
+        grace = options.grace_seconds if stop.is_set() else _DRAIN_SECONDS
+        _LOG.info("%s stops; it has %g s to finish its checks", name, grace)
+        _once(stop, options.grace_seconds, stages.hand_back.set)
+        end(grace + _LANDING_SECONDS)
         children.close()
         with suppress(JobsUnreachable), reachable():
             workers.strike(name)
@@ -158,7 +165,9 @@ def _tell_of(layers: Sequence[Layer]) -> None:
 
 
 def work(options: WorkerOptions) -> None:
-    """Be a worker until SIGTERM or SIGINT; the process ends with it. A second signal ends at once.
+    """Be a worker until SIGTERM or SIGINT, or until it is drained; the process ends with it.
+
+    A second signal ends it at once.
 
     Raises:
         JobsUnreachable: The database does not answer at the start.
@@ -174,7 +183,18 @@ def work(options: WorkerOptions) -> None:
     os._exit(0)
 
 
-def _in_background(do: Callable[[], None], every_seconds: float, stop: threading.Event) -> None:
+def _once(told: threading.Event, seconds: float, do: Callable[[], None]) -> None:
+    """Do something so long after an event."""
+
+    def wait() -> None:
+        told.wait()
+        time.sleep(seconds)
+        do()
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
+def _in_background(do: Callable[[], object], every_seconds: float, stop: threading.Event) -> None:
     """Do something at once and again and again, come what may, until told to stop."""
 
     def repeat() -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hmac
 import secrets
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from datetime import UTC, datetime
 
 import sqlalchemy as sa
@@ -24,8 +24,10 @@ WORKERS = sa.Table(
     sa.Column("beat", sa.Double, nullable=False),
     sa.Column("layers", sa.JSON),
     sa.Column("host", sa.Text),
+    sa.Column("drains", sa.Boolean),
 )
-"""The last sign of life of each worker, by the clock of the database, and layers of its sandbox."""
+"""The last sign of life of each worker, by the clock of the database, layers of its sandbox, and
+whether it shall end when what it has in hand is finished."""
 SALTS = sa.Table(
     "subt_salts",
     METADATA,
@@ -55,14 +57,22 @@ class Workers(Record):
     layers: Sequence[Layer] = ()
     host: str = ""
 
-    def beat(self, worker: str) -> None:
-        """Show a sign of life."""
+    def beat(self, worker: str) -> bool:
+        """Show a sign of life; return whether this worker shall end."""
         layers = [to_builtins(layer) for layer in self.layers]
         alive = {"beat": now(self.engine), "layers": layers, "host": self.host}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
-            if connection.execute(mine).rowcount == 0:
+            known = connection.execute(mine.returning(WORKERS.c.drains)).first()
+            if known is None:
                 connection.execute(sa.insert(WORKERS).values(name=worker, **alive))
+        return known is not None and bool(known.drains)
+
+    def drain(self, names: Collection[str]) -> None:
+        """Have workers take nothing new, finish what they have in hand, and end."""
+        with self.engine.begin() as connection:
+            theirs = sa.update(WORKERS).where(WORKERS.c.name.in_(names))
+            connection.execute(theirs.values(drains=True))
 
     def living(self, silence: float) -> set[str]:
         """Return who has been silent for less than `silence` seconds."""
