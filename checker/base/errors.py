@@ -34,6 +34,10 @@ class CheckerError(Exception):
     """Something that the user can mend; its text is one sentence and reaches the terminal."""
 
 
+class Unreachable(CheckerError):
+    """A service or database that is needed does not answer; the same may work later."""
+
+
 _LONGEST = 1000
 """Characters of a problem."""
 

@@ -101,7 +101,7 @@ def _end_in_good_order() -> None:
 
 
 def _guarded(options: argparse.Namespace) -> int:
-    from checker.base.errors import CheckerError
+    from checker.base.errors import CheckerError, Unreachable
     from checker.base.words import plain, shortened
 
     # A terminal without some character shows a question mark; it is no reason to fail.
@@ -112,7 +112,7 @@ def _guarded(options: argparse.Namespace) -> int:
         return int(_module(options.command).run(options))
     except CheckerError as error:
         print(f"subt-check: {plain(shortened(str(error), 900))}", file=sys.stderr)
-        return EXIT_USAGE
+        return EXIT_CRASH if isinstance(error, Unreachable) else EXIT_USAGE
     except Exception as error:
         if os.environ.get("SUBT_CHECK_DEBUG"):
             raise

@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
+from checker.base.output import EXIT_CRASH, EXIT_USAGE
 from checker.service.client.connection import Connection
 from checker.service.client.server import parse_server
 from checker.service.client.upload import Upload
@@ -168,8 +169,8 @@ def test_all_end_with_the_one_who_started_them(serve: Serve) -> None:
     wait_for(lambda: all(map(is_gone, processes[1:])))
 
 
-def refused(serving: Serving, reason: str) -> None:
-    assert serving.process.wait(SECONDS) == 2
+def refused(serving: Serving, reason: str, code: int = EXIT_USAGE) -> None:
+    assert serving.process.wait(SECONDS) == code
     assert serving.said == ""
     assert reason in serving.told
     assert "Traceback" not in serving.told
@@ -221,7 +222,8 @@ def test_what_makes_no_sense_is_refused(
 def test_a_database_that_is_damaged_is_said_once(serve: Serve, tmp_path: Path) -> None:
     (tmp_path / "jobs.sqlite").write_bytes(b"no page of a database" * 999)
     serving = serve("--data", tmp_path)
-    refused(serving, f"file is not a database (sqlite:///{tmp_path}/jobs.sqlite)\n")
+    said = f"file is not a database (sqlite:///{tmp_path}/jobs.sqlite)\n"
+    refused(serving, said, EXIT_CRASH)
     assert serving.told.count("\n") == 1
 
 

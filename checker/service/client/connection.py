@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
-from checker.base.errors import CheckerError
+from checker.base.errors import CheckerError, Unreachable
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import plain, shortened
@@ -126,7 +126,7 @@ class Connection(Record):
                 trouble = str(problem)
             wait = max(min(pause, self.patience.longest_pause), wanted)
             if monotonic() + wait > ends:
-                raise CheckerError(f"{self.server} {trouble}; try again later")
+                raise Unreachable(f"{self.server} {trouble}; try again later")
             self.say(f"{self.server} {trouble}; trying again in {wait:.0f} s")
             sleep(wait)
             pause *= 2.0

@@ -213,7 +213,7 @@ def main(arguments: Sequence[str]) -> int:
         return EXIT_USAGE
     except JobsUnreachable as error:
         say_progress(f"subt-check: {error}{_database()}")
-        return EXIT_USAGE
+        return EXIT_CRASH
     return 0
 
 

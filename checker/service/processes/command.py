@@ -12,7 +12,7 @@ import threading
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from checker.base.errors import CheckerError
+from checker.base.errors import CheckerError, Unreachable
 from checker.base.files import UMASK
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.base.sandbox.launcher import module_path
@@ -59,7 +59,7 @@ def worker(options: argparse.Namespace) -> int:
     """Be a worker of a service until SIGTERM or SIGINT; see `jobs.durable.worker.work`.
 
     Raises:
-        CheckerError: The database does not answer.
+        Unreachable: The database does not answer.
     """
     from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
@@ -72,7 +72,7 @@ def worker(options: argparse.Namespace) -> int:
     try:
         work(WorkerOptions(database_url(), store, **own))
     except JobsUnreachable as error:
-        raise CheckerError(str(error)) from None
+        raise Unreachable(str(error)) from None
     return EXIT_CLEAN
 
 

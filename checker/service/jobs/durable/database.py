@@ -16,6 +16,7 @@ from urllib.parse import quote
 
 import sqlalchemy as sa
 
+from checker.base.errors import CheckerError
 from checker.base.files import tighten
 from checker.base.words import plain, shortened
 from checker.service.jobs.port import JobsUnreachable
@@ -64,16 +65,16 @@ def open_database(url: str) -> sa.Engine:
         url: `sqlite:///…` or `postgresql://…`.
 
     Raises:
-        JobsUnreachable: The address is none, or its kind is not known.
+        CheckerError: The address is none, or its kind is not known.
     """
     try:
         address = sa.make_url(url)
     except (sa.exc.ArgumentError, ValueError):
-        raise JobsUnreachable(_NO_ADDRESS) from None
+        raise CheckerError(_NO_ADDRESS) from None
     if address.get_backend_name() == "sqlite":
         return _sqlite(address)
     if address.get_backend_name() not in ("postgres", "postgresql"):
-        raise JobsUnreachable(_NO_ADDRESS)
+        raise CheckerError(_NO_ADDRESS)
     return sa.create_engine(
         address.set(drivername="postgresql+psycopg"),
         pool_pre_ping=True,
@@ -157,7 +158,7 @@ def _make(file: Path) -> None:
 
 def _sqlite(address: sa.URL) -> sa.Engine:
     if address.database in (None, "", ":memory:"):  # each process would have one of its own
-        raise JobsUnreachable(_NO_ADDRESS)
+        raise CheckerError(_NO_ADDRESS)
     _make(Path(address.database))
     engine = sa.create_engine(address, **_POOL)
 
