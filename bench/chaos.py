@@ -38,6 +38,7 @@ from bench.static import ROOT, keep_bytecode
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.store.locks import lock_of_dead
+from tests.bucket import bucket_of, server_of_s3
 from tests.jobs.disk import full, small_disk
 from tests.postgres import fresh_database
 
@@ -48,6 +49,8 @@ PATIENCE = 1_800.0
 """Seconds until the last check has to be over."""
 ANSWER_SECONDS = 30.0
 MINUTE = 60.0
+_AT_ONCE = 50
+"""Clients that upload."""
 _SOON = 3.0
 """Seconds until checks are under way."""
 _BEAT_FILES_SECONDS = 90.0
@@ -167,7 +170,7 @@ def _at_work(data: Path) -> list[str]:
 
 def number_of_checks(group: Group) -> int:
     """Return how many checks the database knows."""
-    engine = open_database(group.database or f"sqlite:///{group.folder}/data/jobs.sqlite")
+    engine = open_database(group.database or f"sqlite:///{group.data}/jobs.sqlite")
     found = {row.task.key for row in Checks(engine, client_of(engine)).all_rows()}
     engine.dispose()
     return len(found)
@@ -188,7 +191,7 @@ def database_away(group: Group, server: int) -> Iterator[None]:
         with standing_still(server):
             yield
         return
-    with closing(sqlite3.connect(group.folder / "data/jobs.sqlite", timeout=60)) as connection:
+    with closing(sqlite3.connect(group.data / "jobs.sqlite", timeout=60)) as connection:
         connection.execute("BEGIN IMMEDIATE")
         yield
         connection.rollback()
@@ -223,7 +226,7 @@ def away(group: Group, server: str, seconds: float) -> None:
 def filled(group: Group, seconds: float) -> None:
     """Have the disk of a service be full for a while, soon."""
     sleep(_SOON)
-    with full(group.folder / "data"):
+    with full(group.data):
         sleep(seconds)
 
 
@@ -273,7 +276,7 @@ def suffered(
     before, begun = number_of_checks(groups[0]), monotonic()
     killer, over = Killer(groups, kills, pause), threading.Event()
     numbers = range(before, before + uploads)
-    with ThreadPoolExecutor(uploads + 2) as threads:
+    with ThreadPoolExecutor(min(uploads, _AT_ONCE) + 2) as threads:
         murder = threads.submit(killer.run, over.is_set)
         other = threads.submit(meanwhile)
         ids = dict(zip(numbers, threads.map(lambda n: uploaded(groups, n), numbers), strict=True))
@@ -284,25 +287,30 @@ def suffered(
         other.result()
     wrong = Counter(fault for n, id in ids.items() for fault in faults(groups, n, id))
     extra = number_of_checks(groups[0]) - before - len(set(ids.values()))
-    left = left_over(groups[0].folder / "data")
+    left = [each for data in {group.data for group in groups} for each in left_over(data)]
     return Trouble(killer.done, ends, wrong, extra, left, monotonic() - begun)
 
 
 @contextmanager
-def services(folder: Path, server: str, size: int = 0) -> Iterator[list[Group]]:
-    """Start one service on SQLite, or two on a PostgreSQL server.
+def services(
+    folder: Path, server: str, size: int = 0, bucket: Mapping[str, str] | None = None
+) -> Iterator[list[Group]]:
+    """Start one service on SQLite, or two on a PostgreSQL server, with three workers in all.
 
     Args:
         folder: Holds data and logs.
         server: Address of PostgreSQL; empty for SQLite.
         size: Bytes of the disk of the data; 0 for that of the folder.
+        bucket: Variables that lead to one of S3, in place of a folder that services share.
     """
     with ExitStack() as stack:
         if size:
             stack.enter_context(small_disk(folder / "data", size))
         database = fresh_database(server) if server else ""
-        count, workers = (2, 1) if server else (1, 2)
-        groups = [Group(number, folder, database, workers) for number in range(count)]
+        groups = [
+            Group(number, folder, database, workers, bucket or {})
+            for number, workers in enumerate((2, 1) if server else (2,))
+        ]
         for group in groups:
             group.start()
             stack.callback(group.stop)
@@ -336,14 +344,17 @@ def main() -> None:
     parser = options_of(__doc__)
     parser.add_argument("--uploads", type=int, default=100)
     parser.add_argument("--kills", type=int, default=40)
+    parser.add_argument("--pause", type=float, default=4.0, help="seconds between two kills")
+    parser.add_argument("--s3", action="store_true", help="instead of a folder that all share")
     options = parser.parse_args()
     keep_bytecode()
     well = []
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         server = server_of(options, stack)
-        with services(folder, server) as groups:
-            trouble = suffered(groups, options.uploads, options.kills)
+        bucket = bucket_of(stack.enter_context(server_of_s3())) if options.s3 else {}
+        with services(folder, server, bucket=bucket) as groups:
+            trouble = suffered(groups, options.uploads, options.kills, options.pause)
             _show("processes are killed at random", trouble)
             well.append(trouble.is_none and trouble.kills.total() >= options.kills)
             trouble = suffered(groups, 10, meanwhile=lambda: away(groups[0], server, MINUTE))

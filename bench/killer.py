@@ -28,6 +28,8 @@ class Group:
     Attributes:
         number: Of the port, and in the name of its log.
         folder: Holds the data, and the log.
+        bucket: Variables that lead to one of S3, so that it has data of its own; empty: in a folder
+            with other services.
         database: Its address; empty for SQLite with the data.
         workers: That it starts.
     """
@@ -36,6 +38,7 @@ class Group:
     folder: Path
     database: str
     workers: int
+    bucket: Mapping[str, str] = field(default_factory=dict)
     port: int = 0
     _process: subprocess.Popen[bytes] | None = None
 
@@ -43,6 +46,11 @@ class Group:
     def address(self) -> str:
         """Return where it answers."""
         return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def data(self) -> Path:
+        """Return its data folder."""
+        return self.folder / (f"data-{self.number}" if self.bucket else "data")
 
     @property
     def id(self) -> int:
@@ -56,13 +64,13 @@ class Group:
             SystemExit: It does not.
         """
         self.port = self.port or free_port()
-        own = {"SUBT_CHECK_DATA": str(self.folder / "data"), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
+        own = {"SUBT_CHECK_DATA": str(self.data), "SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
         own |= {"SUBT_CHECK_DATABASE_URL": self.database} if self.database else {}
         command = [sys.executable, "-m", "checker.cli", "serve", "--port", str(self.port)]
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
                 [*command, "--workers", str(self.workers)],
-                env=os.environ | own,
+                env=os.environ | own | self.bucket,
                 cwd=ROOT,
                 stdout=subprocess.DEVNULL,
                 stderr=log,
