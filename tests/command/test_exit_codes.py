@@ -22,6 +22,7 @@ CANNOT_BE_DONE = {
     "server": ("--port", "1"),
     "serve": ("--host", "no host", "--data", "data"),
     "worker": ("--data", "file/data"),
+    "admin": ("list", "--data", "nowhere"),
     "init": ("nowhere",),
     "doctor": ("nowhere",),
     "rule": ("GEO999",),

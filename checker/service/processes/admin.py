@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from msgspec import to_builtins
 
-from checker.base.errors import CheckerError
+from checker.base.errors import CheckerError, Unreachable
 from checker.base.files import UMASK
 from checker.base.output import EXIT_CLEAN, show
 from checker.service.jobs.durable.admin import Admin, Listed
@@ -30,7 +30,8 @@ def admin(options: argparse.Namespace) -> int:
     """Do an action.
 
     Raises:
-        CheckerError: The database does not answer, or what is asked for is not there.
+        Unreachable: The database does not answer.
+        CheckerError: What is asked for is not there.
     """
     os.umask(UMASK)
     choose(options.data, options.store)
@@ -38,7 +39,7 @@ def admin(options: argparse.Namespace) -> int:
         with reachable():
             show(_done(options, _opened()))
     except JobsUnreachable as error:
-        raise CheckerError(str(error)) from None
+        raise Unreachable(str(error)) from None
     return EXIT_CLEAN
 
 
