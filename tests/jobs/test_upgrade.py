@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
+from checker.service.jobs.durable.admin import Admin
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import Receipt, Stage
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
@@ -111,3 +113,11 @@ def test_many_may_take_them_over_at_once(url: str) -> None:
 
 def _of(name: str) -> tuple[str, str]:
     return RECEIPTS[name].id, RECEIPTS[name].secret
+
+
+def test_one_that_had_failed_can_be_begun_anew(site: Site) -> None:
+    admin = Admin(site.jobs.checks, Workers(site.jobs.checks.engine))
+    [key] = admin.keys_of([RECEIPTS["failed.zip"].id], over=True)
+    admin.requeue(key)
+    assert site.state(RECEIPTS["failed.zip"].id).stage is Stage.STATIC
+    assert [each.key for each in admin.listed() if each.number == 2] == [key]

@@ -102,6 +102,19 @@ def test_a_worker_that_dies_is_followed_by_another_of_its_name(serve: Serve) -> 
     assert "was ended by SIGKILL; it restarts in 1 s\n" in serving.told
 
 
+def test_workers_that_are_drained_stay_away(serve: Serve) -> None:
+    serving = serve("--workers", 2)
+    wait_for(lambda: serving.told.count("is waiting for checks") == 2)
+    drain = [sys.executable, "-m", "checker.cli", "admin", "drain"]
+    drain += ["--data", str(serving.folder / "data")]
+    said = subprocess.run(drain, capture_output=True, check=True, text=True).stdout
+    assert said.count("drains worker-") == 2
+    wait_for(lambda: serving.told.count("has ended as it was told, and is not restarted") == 2)
+    assert serving.workers() == []
+    assert get(serving.url, "/healthz")[0] == 200
+    assert serving.stop() == 0
+
+
 def test_a_web_server_that_dies_is_followed_by_another_at_its_address(serve: Serve) -> None:
     serving = serve("--workers", 0)
     url = serving.url
