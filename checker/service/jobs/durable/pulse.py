@@ -12,8 +12,10 @@ import sqlalchemy as sa
 
 from checker.service.jobs.port import JobsUnreachable
 
-_SECONDS = 2
-"""Between two looks, and at most for one: libpq takes no shorter time to connect."""
+_SECONDS, _PAUSE_SECONDS = 2, 1.0
+"""At most for a look (libpq takes no shorter time to connect), and between two."""
+_LOOKS = 2
+"""In vain, after which a server stands still: one that is busy may be late once."""
 
 
 def watch(engine: sa.Engine) -> None:
@@ -37,10 +39,10 @@ class _Pulse:
     def __init__(self, engine: sa.Engine) -> None:
         self._engine = engine
         self._connections: dict[int, Any] = {}
-        self._stands_still, self._over = False, Event()
+        self._in_vain, self._over = 0, Event()
 
     def refuse(self, *_of_connection: Any) -> None:
-        if self._stands_still:
+        if self._in_vain >= _LOOKS:
             raise JobsUnreachable("the database does not answer: it stands still")
 
     def know(self, connection: Any, _record: Any) -> None:
@@ -56,13 +58,14 @@ class _Pulse:
         """Look again and again whether the server takes a new connection, until the engine ends."""
         positional, named = self._engine.dialect.create_connect_args(self._engine.url)
         named["connect_timeout"] = _SECONDS
-        while not self._over.wait(_SECONDS):
+        while not self._over.wait(_PAUSE_SECONDS):
             try:
                 self._engine.dialect.connect(*positional, **named).close()
-                self._stands_still = False
+                self._in_vain = 0
             except self._engine.dialect.loaded_dbapi.Error:
-                self._stands_still = True
-                self._cut()
+                self._in_vain += 1
+                if self._in_vain >= _LOOKS:
+                    self._cut()
 
     def _cut(self) -> None:
         """End all connections: on some of them somebody waits."""

@@ -20,9 +20,9 @@ QUIET_SECONDS = 15.0
 """After which a comment shows that the stream lives; proxies close what is silent."""
 STREAM_SECONDS = 600.0
 """After which a stream ends; browsers come back by themselves and say where they were."""
-PAUSE_SECONDS, PAUSE_SHARE = 0.3, 9.0
-"""Between two looks: so many seconds, and so many times as long as the last one took, that many
-watchers do not use a processor up."""
+PAUSE_SECONDS, LONGEST_SECONDS, PAUSE_SHARE = 0.3, 1.0, 9.0
+"""Between two looks, at least and at most; in between, so many times as long as the last one took,
+that many watchers do not use a processor up."""
 _LOG = logging.getLogger(LOGGER)
 
 
@@ -129,7 +129,8 @@ class Watchers:
             while self._checks:
                 began = monotonic()
                 await self.look(tuple(self._checks.values()))
-                await asyncio.sleep(max(PAUSE_SECONDS, PAUSE_SHARE * (monotonic() - began)))
+                pause = min(PAUSE_SHARE * (monotonic() - began), LONGEST_SECONDS)
+                await asyncio.sleep(max(PAUSE_SECONDS, pause))
         except Exception:  # noqa: BLE001 - nobody waits for what raises here
             _LOG.exception("a look at checks that are followed fails")
         finally:
