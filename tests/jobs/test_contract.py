@@ -190,8 +190,9 @@ class TestAKilledWorker:
 
     def test_leaves_what_waits_in_the_queue(self, site: Site) -> None:
         worker = site.worker("slot-1")
-        first, second = site.receipt("static:30"), site.submit()
+        first = site.receipt("static:30")
         site.in_hand(first.id, Stage.STATIC)
+        second = site.submit()
         worker.kill()
         assert site.jobs.cancel(first.id, first.secret)
         site.worker("slot-2")
