@@ -33,8 +33,9 @@ from typing import Any
 import httpx
 
 from bench.killer import Group, Killer
-from bench.service import below, command_of, options_of, say, server_of, show
+from bench.service import command_of, options_of, say, server_of, show
 from bench.static import ROOT, keep_bytecode
+from checker.base.sandbox.usage import below
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.store.locks import lock_of_dead

@@ -16,8 +16,9 @@ from time import monotonic, sleep
 
 import httpx
 
-from bench.service import below, command_of, of_service
+from bench.service import command_of, of_service
 from bench.static import ROOT
+from checker.base.sandbox.usage import below
 from tests.postgres import free_port
 
 

@@ -18,6 +18,7 @@ from time import perf_counter, sleep
 from typing import Any
 from urllib.parse import urlsplit
 
+from checker.base.sandbox.usage import below
 from tests.postgres import fresh_database, started
 
 _BORDER = "subt-check-bench"
@@ -188,16 +189,6 @@ def watched() -> Iterator[Memory]:
         looking.join()
 
 
-def below(pid: int) -> list[int]:
-    """Return the ids of all processes that a process started, and of those that these started."""
-    names = (folder.name for folder in Path("/proc").iterdir())
-    parents = {each: _parent(each) for each in map(int, filter(str.isdigit, names))}
-    found = [pid]
-    for one in found:
-        found += [each for each, parent in parents.items() if parent == one]
-    return found[1:]
-
-
 def command_of(pid: int) -> bytes:
     """Return the command of a process, a zero behind each word; empty if it has ended."""
     return _read(pid, "cmdline")
@@ -206,11 +197,6 @@ def command_of(pid: int) -> bytes:
 def of_service(pids: Iterable[int], kind: str) -> list[int]:
     """Return those processes that are the `web` process of a service, or a `worker` of it."""
     return [pid for pid in pids if f"\0{kind}\0".encode() in command_of(pid)]
-
-
-def _parent(pid: int) -> int:
-    said = _read(pid, "stat").rpartition(b") ")[2].split()
-    return int(said[1]) if said else 0
 
 
 def _status(pid: int, name: str) -> float:

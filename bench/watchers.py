@@ -22,7 +22,8 @@ from urllib.parse import urlsplit
 from msgspec.structs import replace
 
 from bench.machine import pace
-from bench.service import Client, below, of_service, options_of, show
+from bench.service import Client, of_service, options_of, show
+from checker.base.sandbox.usage import below
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.receipts import key_of_check

@@ -9,7 +9,7 @@ from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.editor.name_kinds import NameKind
 from checker.engine.subject import Subject
-from checker.expand.xacro.expanded import ExpandedText
+from checker.expand.xacro.expanded import ExpandedText, written_elements
 from checker.model.components import Frame, Joint, Link, Model, Part, Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.sdf.includes import ModelIncludes
@@ -44,7 +44,7 @@ class RobotParts(Record, eq=False, dict=True):
     def _by_element(self) -> Mapping[Element, Sequence[RobotPart]]:
         parts: dict[Element, list[RobotPart]] = {}
         for robot in self.robots:
-            written = self._written(robot)
+            written = written_elements(robot.document)
             for part in parts_of(robot):
                 element = written.get(part.element, part.element)
                 parts.setdefault(element, []).append(RobotPart(robot, part))
@@ -53,18 +53,9 @@ class RobotParts(Record, eq=False, dict=True):
     def copies_of(self, element: Element) -> Iterator[Element]:
         """Yield what xacro made of an element; nothing for one that xacro did not read."""
         for robot in self.robots:
-            for copy, origin in self._written(robot).items():
+            for copy, origin in written_elements(robot.document).items():
                 if origin is element:
                     yield copy
-
-    @staticmethod
-    def _written(robot: Robot) -> Mapping[Element, Element]:
-        """Return the element that each of a robot's is a copy of, where xacro made it."""
-        source = robot.document.source
-        if not isinstance(source, ExpandedText):
-            return {}
-        pairs = zip(robot.document.elements, source.origins, strict=True)
-        return {copy: origin for copy, origin in pairs if origin is not None}
 
     def named(
         self, name: str, kinds: Iterable[NameKind], scopes: Sequence[str] = ("",)

@@ -12,7 +12,7 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resour
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.expand.xacro.expanded import ExpandedText
+from checker.expand.xacro.expanded import written_elements
 from checker.model.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,
@@ -62,9 +62,7 @@ def _missing(hardware: Hardware) -> Iterator[Finding]:
 
 def _has_plugin_elsewhere(hardware: Element) -> bool:
     """Whether xacro leaves out a plugin with the values that its arguments have here."""
-    if not isinstance(hardware.source, ExpandedText):
-        return False
-    pairs = zip(hardware.document.elements, hardware.source.origins, strict=True)
+    pairs = written_elements(hardware.document).items()
     origin = next((written for it, written in pairs if it.node is hardware.node), None)
     return origin is not None and next(origin.descendants("plugin"), None) is not None
 

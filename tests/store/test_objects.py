@@ -13,8 +13,8 @@ from checker.base.errors import InvalidSettings
 from checker.service.store.objects import Kind, StoreUnreachable
 from checker.service.store.s3 import COPY_SECONDS, s3_objects
 from checker.service.store.store import SUMMARY, Store, opened
+from tests.store.filled import KEY, OTHER, made, uploaded
 
-KEY, OTHER = "ab" * 32, "cd" * 32
 Machine = Callable[[str], Store]
 
 
@@ -25,21 +25,6 @@ def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Machine:
         return lambda _: Store(tmp_path / "shared")
     url = request.getfixturevalue("bucket_url")
     return lambda name: Store(tmp_path / name, s3_objects(url, tmp_path / name))
-
-
-def uploaded(store: Store, content: bytes) -> str:
-    with store.incoming() as incoming:
-        incoming.write(content)
-        return incoming.finish()
-
-
-def made(store: Store, files: dict[str, str], key: str = KEY) -> None:
-    with store.workplace() as place:
-        for name, text in files.items():
-            path = place / "made" / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        store.keep(key, place / "made")
 
 
 def read(store: Store, name: str, key: str = KEY) -> str | None:

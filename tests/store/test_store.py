@@ -16,29 +16,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.service.store.store import SUMMARY, Store, TooLarge
-
-KEY = "ab" * 32
-OTHER = "cd" * 32
+from tests.store.filled import KEY, OTHER, made, uploaded
 
 
 @pytest.fixture
 def store(tmp_path: Path) -> Store:
     return Store(tmp_path / "data")
-
-
-def uploaded(store: Store, content: bytes) -> str:
-    with store.incoming() as incoming:
-        incoming.write(content)
-        return incoming.finish()
-
-
-def made(store: Store, files: dict[str, str], key: str = KEY) -> None:
-    with store.workplace() as place:
-        for name, text in files.items():
-            path = place / "made" / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        store.keep(key, place / "made")
 
 
 def everything(store: Store) -> list[str]:

@@ -393,6 +393,14 @@ ARM = """<robot name="arm"><link name="base"><visual><geometry>
 """
 
 
+def sent(page: Page, board: Board) -> dict[str, bytes]:
+    """Send what was chosen, and return the files of the archive that came."""
+    page.get_by_role("button", name="Check").click()
+    page.wait_for_url(f"**/checks/{ID}")
+    with zipfile.ZipFile(upload_of(board)) as made:
+        return {name: made.read(name) for name in made.namelist()}
+
+
 def test_a_model_asks_for_its_meshes_and_takes_them(
     chromium: Browser, board: Board, tmp_path: Path
 ) -> None:
@@ -408,14 +416,11 @@ def test_a_model_asks_for_its_meshes_and_takes_them(
         drop(page, tmp_path / "hull.STL")
         page.locator("#chosen").get_by_text("my_arm.zip: 3 files").wait_for()
         assert page.locator("#missing").inner_text() == ""
-        page.get_by_role("button", name="Check").click()
-        page.wait_for_url(f"**/checks/{ID}")
-        with zipfile.ZipFile(upload_of(board)) as made:
-            assert {name: made.read(name) for name in made.namelist()} == {
-                "my_arm/urdf/arm.urdf": files["arm.urdf"],
-                "my_arm/meshes/visual/base.stl": files["base.stl"],
-                "my_arm/meshes/hull.STL": files["hull.STL"],
-            }
+        assert sent(page, board) == {
+            "my_arm/urdf/arm.urdf": files["arm.urdf"],
+            "my_arm/meshes/visual/base.stl": files["base.stl"],
+            "my_arm/meshes/hull.STL": files["hull.STL"],
+        }
 
 
 TRUCK = """<robot name="truck" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -439,14 +444,11 @@ def test_what_comes_before_its_model_is_kept(
         page.locator("#missing").get_by_text("The model needs wheel.xacro: drop").wait_for()
         drop(page, tmp_path / "wheel.xacro")
         page.locator("#chosen").get_by_text("truck.zip: 3 files").wait_for()
-        page.get_by_role("button", name="Check").click()
-        page.wait_for_url(f"**/checks/{ID}")
-        with zipfile.ZipFile(upload_of(board)) as made:
-            assert sorted(made.namelist()) == [
-                "truck/meshes/left.dae",
-                "truck/urdf/parts/wheel.xacro",
-                "truck/urdf/truck.xacro",
-            ]
+        assert sorted(sent(page, board)) == [
+            "truck/meshes/left.dae",
+            "truck/urdf/parts/wheel.xacro",
+            "truck/urdf/truck.xacro",
+        ]
 
 
 def test_one_model_is_sent_as_it_is(chromium: Browser, board: Board, package: Path) -> None:

@@ -89,6 +89,14 @@ def expanded_document(
     return XmlDocument(source, plain.tree, plain.positions)
 
 
+def written_elements(document: XmlDocument) -> Mapping[Element, Element]:
+    """Return the element that each of a document is a copy of; none where xacro did not make it."""
+    if not isinstance(document.source, ExpandedText):
+        return {}
+    pairs = zip(document.elements, document.source.origins, strict=True)
+    return {copy: origin for copy, origin in pairs if origin is not None}
+
+
 def _origins(answer: Mapping[str, Any], gathered: Gathered) -> list[Element | None]:
     """Return the element that each expanded one is a copy of."""
     documents = [gathered.documents.get(path) for path in answer["files"]]

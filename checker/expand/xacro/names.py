@@ -18,7 +18,7 @@ PARAMETER = re.compile(
     re.VERBOSE,
 )
 FROM_OUTSIDE = "^"
-"""In place of a default, or in front of it: the property of whoever calls."""
+"""Instead of a default, or before it: the value of the property of that name at the call."""
 
 
 class MacroParameter(Record):

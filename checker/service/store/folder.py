@@ -1,8 +1,8 @@
 """Objects in a folder: of one machine, or shared by several over a network file system.
 
-An upload is the file `uploads/ab/<hash>`; a result the folder `results/ab/<key>`, whose key depends
-on all that a report depends on; what checks of an upload have worked out (`checker.base.cache`) the
-folder `parts/ab/<hash>`.
+An upload is the file `uploads/ab/<hash>`. A result is the folder `results/ab/<key>`; its key
+depends on everything that the report depends on. Parts that checks of an upload have computed
+(`checker.base.cache`) are in the folder `parts/ab/<hash>`.
 """
 
 from __future__ import annotations

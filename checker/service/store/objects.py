@@ -30,7 +30,7 @@ class StoreUnreachable(OSError):
 class Objects(Protocol):
     """Files and folders by kind and key, each there as a whole or not at all.
 
-    A key has 64 hexadecimal digits; whoever asks has made sure. Any number of processes use it at
+    A key has 64 hexadecimal digits, which callers check. Any number of processes use it at
     once. Each call raises OSError where the disk, the system or the object store fails.
     """
 

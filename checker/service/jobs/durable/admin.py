@@ -73,7 +73,7 @@ class Admin(Record):
 
         Args:
             names: Keys, beginnings of keys, or ids.
-            over: Whether they shall have failed.
+            over: Whether they must have failed.
 
         Raises:
             CheckerError: One of them is not the name of one such check.

@@ -120,7 +120,7 @@ class Checks(Record):
 
     def rows(self, keys: Iterable[str]) -> Mapping[str, Sequence[Row]]:
         """Return the rows of checks in the order of their tries, by the keys of those known."""
-        ids = [id for key in keys for id in ids_of(key)]
+        ids = ids_of(*keys)
         return in_order([*map(row_of, self.client.list_workflows(workflow_ids=ids))] if ids else [])
 
     def all_rows(self) -> Iterator[Row]:
@@ -145,7 +145,7 @@ class Checks(Record):
 
     def forget(self, keys: Iterable[str]) -> None:
         """Forget checks, wherever they stand; a worker that has one in hand loses it."""
-        ids = [id for key in keys for id in ids_of(key)]
+        ids = ids_of(*keys)
         self.client.cancel_workflows(ids)
         self.client.delete_workflows(ids)
 

@@ -43,7 +43,7 @@ class Deaths:
     def look(self) -> None:
         """Show a sign of life, and have what is in the hands of the dead wait again.
 
-        `drained` is set where an operator has said that this worker shall end.
+        `drained` is set once an operator has drained this worker.
 
         When the database was away, or this machine slept, all workers have been silent: the first
         one that is back must not take the others for dead.

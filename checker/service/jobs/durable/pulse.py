@@ -1,4 +1,4 @@
-"""Tells of a PostgreSQL server that stands still: no answer of it would be waited for in vain."""
+"""Detects a PostgreSQL server that does not respond, so that requests do not wait for it."""
 
 from __future__ import annotations
 

@@ -137,9 +137,10 @@ def first_id(key: str) -> str:
     return f"{key}.{Stage.STATIC}.1"
 
 
-def ids_of(key: str) -> list[str]:
-    """Return the ids of all workflows that a check can have."""
-    return [f"{key}.{stage}.{number}" for stage in STAGES for number in range(1, TRIES + 2)]
+def ids_of(*keys: str) -> list[str]:
+    """Return the ids of all workflows that checks can have."""
+    tries = [f"{stage}.{number}" for stage in STAGES for number in range(1, TRIES + 2)]
+    return [f"{key}.{each}" for key in keys for each in tries]
 
 
 def row_of(workflow: WorkflowStatus) -> Row:

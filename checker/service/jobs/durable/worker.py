@@ -6,14 +6,12 @@ import logging
 import os
 import secrets
 import signal
-import socket
 import threading
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.record import Record
@@ -54,7 +52,6 @@ class WorkerOptions(Record):
         store: Uploads and results.
         name: Of this worker, of letters, digits and `-`; the process adds what no other one has.
         trials: At once.
-        host: Machine or container, as workers on it call it.
         grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
         beat_seconds: Between two signs of life.
         silence_seconds: After which other workers take this one for dead.
@@ -68,7 +65,6 @@ class WorkerOptions(Record):
     store: Store
     name: str = "worker"
     trials: int = 1
-    host: str = field(default_factory=socket.gethostname)
     grace_seconds: float = 20.0
     beat_seconds: float = 2.0
     silence_seconds: float = SILENCE_SECONDS
@@ -94,7 +90,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     _tell_of(layers)
     # DBOS would take up by itself what a worker of the same name had in hand: no try were counted.
     name = f"{options.name}-{secrets.token_hex(4)}"
-    workers = Workers(engine, layers, options.host)
+    workers = Workers(engine, layers)
     children = Children(options.store, options.ahead)
     stages = Stages(checks, options.store, children)
     retention = Retention(checks, options.store, options.unused_seconds)

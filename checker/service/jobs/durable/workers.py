@@ -23,11 +23,10 @@ WORKERS = sa.Table(
     sa.Column("name", sa.String(128), primary_key=True),
     sa.Column("beat", sa.Double, nullable=False),
     sa.Column("layers", sa.JSON),
-    sa.Column("host", sa.Text),
     sa.Column("drains", sa.Boolean),
 )
 """The last sign of life of each worker, by the clock of the database, layers of its sandbox, and
-whether it shall end when what it has in hand is finished."""
+whether it is to end once its checks are finished."""
 SALTS = sa.Table(
     "subt_salts",
     METADATA,
@@ -50,17 +49,15 @@ class Workers(Record):
     Attributes:
         engine: Of the database.
         layers: Of the sandbox in which this worker checks.
-        host: The machine that it runs on.
     """
 
     engine: sa.Engine
     layers: Sequence[Layer] = ()
-    host: str = ""
 
     def beat(self, worker: str) -> bool:
-        """Show a sign of life; return whether this worker shall end."""
+        """Show a sign of life; return whether this worker is to end."""
         layers = [to_builtins(layer) for layer in self.layers]
-        alive = {"beat": now(self.engine), "layers": layers, "host": self.host}
+        alive = {"beat": now(self.engine), "layers": layers}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
             known = connection.execute(mine.returning(WORKERS.c.drains)).first()
