@@ -41,6 +41,16 @@ class FolderObjects(Record):
         place = self._place(kind, key)
         return place if place.exists() else None
 
+    def names(self, kind: Kind, key: str) -> tuple[str, ...]:
+        """Return the names of a folder's files; none without it."""
+        place = self._place(kind, key)
+        if not place.exists():
+            return ()
+        with self._alone():  # a folder that expires loses its files one by one
+            return tuple(
+                path.relative_to(place).as_posix() for path in place.rglob("*") if path.is_file()
+            )
+
     def use(self, kind: Kind, key: str) -> bool:
         """Whether an object is there; it counts as used now."""
         place = self._place(kind, key)

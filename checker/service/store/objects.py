@@ -37,6 +37,9 @@ class Objects(Protocol):
     def find(self, kind: Kind, key: str) -> Path | None:
         """Return where an object lies on this machine, brought here if need be; None without."""
 
+    def names(self, kind: Kind, key: str) -> tuple[str, ...]:
+        """Return the names of a folder's files, such as `pkg/robot.glb`; none without it."""
+
     def use(self, kind: Kind, key: str) -> bool:
         """Whether an object is there; it counts as used now."""
 

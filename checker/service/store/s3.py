@@ -58,6 +58,11 @@ class S3Objects(Record):
             self._fetch(kind, key)
         return self.copies.find(kind, key)
 
+    def names(self, kind: Kind, key: str) -> tuple[str, ...]:
+        """Return the names of the files of a copy, fetched if need be."""
+        self.find(kind, key)
+        return self.copies.names(kind, key)
+
     def use(self, kind: Kind, key: str) -> bool:
         """Whether an object is there; it counts as used now."""
         from obstore import head, put

@@ -120,13 +120,7 @@ class Store(Record):
 
     def names(self, key: str) -> tuple[str, ...]:
         """Return the names of a result's files that are for people and programs, sorted."""
-        place = self._find(Kind.RESULT, key)
-        if place is None:
-            return ()
-        try:
-            names = [path.relative_to(place).as_posix() for path in place.rglob("*")]
-        except FileNotFoundError:  # it expires just now
-            return ()
+        names = self.objects.names(Kind.RESULT, key) if _KEY.fullmatch(key) else ()
         return tuple(sorted(name for name in names if ARTEFACT_NAME.fullmatch(name)))
 
     def expire(self, before: float, still_used: Collection[str]) -> Mapping[Kind, int]:
