@@ -37,6 +37,7 @@ class BoardJobs:
     cancelled: list[str] = field(default_factory=list)
     keys: list[str] = field(default_factory=list)
     paced: Pace = field(default_factory=Pace)
+    waits: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         self.keys.append(key)
@@ -66,6 +67,9 @@ class BoardJobs:
         if secret == SECRET:
             del self.states[id]
         return secret == SECRET
+
+    def wait(self, client: str, per_minute: int) -> float:
+        return self.waits.get((client, per_minute), 0.0)
 
     def pace(self) -> Pace:
         return self.paced

@@ -90,6 +90,16 @@ def test_uploads_of_one_address_are_limited(tmp_path: Path) -> None:
     assert client.get(f"/api/checks/{ID}").status_code == 200
 
 
+def test_uploads_that_other_web_processes_took_count_as_well(tmp_path: Path) -> None:
+    for config, status in ((Config(public=True), 429), (Config(uploads_per_minute=0), 201)):
+        jobs = BoardJobs({ID: DONE}, waits={("testclient", 30): 9.1})
+        app = create_app(jobs, Store(tmp_path / "data"), config)
+        client = TestClient(app, base_url="http://localhost")
+        answer = client.post("/api/checks", files=MODEL)
+        assert answer.status_code == status
+        assert answer.headers.get("retry-after") == ("10" if status == 429 else None)
+
+
 def test_guesses_of_tokens_are_limited(tmp_path: Path) -> None:
     client = client_for(tmp_path, Config(tokens=(TOKEN,), uploads_per_minute=3))
     headers = {"Authorization": "Bearer guess"}

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: seven calls; `durable` implements them."""
+"""What the service needs of a job engine: eight calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ class Pace(Record):
 
 
 class Jobs(Protocol):
-    """The seven calls; none waits for a check, and all may be called from many threads."""
+    """The eight calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -180,6 +180,15 @@ class Jobs(Protocol):
         """End a check and forget it at once; False if the secret is not the one of this check.
 
         Its files are deleted later, when no other check shares them.
+        """
+        ...
+
+    def wait(self, client: str, per_minute: int) -> float:
+        """Count an upload in all web processes, and return 0; or the seconds until one is allowed.
+
+        Args:
+            client: Whom it counts for.
+            per_minute: Uploads that a client may send, at least one.
         """
         ...
 

@@ -17,8 +17,9 @@ from checker.service.jobs.durable.database import open_database, reachable
 from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.pulse import watch
 from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
+from checker.service.jobs.durable.senders import Senders
 from checker.service.jobs.durable.tasks import End, Row, Task, events_of, state_of
-from checker.service.jobs.durable.workers import Workers, partition_of
+from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import (
     RETENTION_DAYS,
     Alive,
@@ -47,11 +48,13 @@ class DurableJobs(Record):
 
     Attributes:
         checks: In the database.
+        senders: In the same.
         store: Uploads and results.
         retention_days: After which all of a check is deleted.
     """
 
     checks: Checks
+    senders: Senders
     store: Store
     retention_days: float = RETENTION_DAYS
 
@@ -78,7 +81,7 @@ class DurableJobs(Record):
             end=End(Stage.DONE, known.words, known.key, known.packages) if known else None,
         )
         with reachable():
-            self.checks.enter(replace(task, sender=partition_of(self.checks.engine, order.sender)))
+            self.checks.enter(replace(task, sender=self.senders.digest(order.sender)))
         return receipt
 
     def _cost(self, order: Order) -> float:
@@ -128,6 +131,16 @@ class DurableJobs(Record):
             if may:
                 self.checks.forget([key_of_check(id)])
         return may
+
+    def wait(self, client: str, per_minute: int) -> float:
+        """Count an upload in all web processes, and return 0; or the seconds until one is allowed.
+
+        SQLite serves a single web process, which counts by itself.
+        """
+        if self.checks.engine.dialect.name == "sqlite":
+            return 0.0
+        with reachable():
+            return self.senders.wait(client, per_minute)
 
     def pace(self) -> Pace:
         """Return how long checks took lately."""
@@ -188,4 +201,4 @@ def durable_jobs(
     engine = open_database(database_url)
     if engine.dialect.name == "postgresql":
         watch(engine)
-    return DurableJobs(prepared(engine), store, retention_days)
+    return DurableJobs(prepared(engine), Senders(engine), store, retention_days)

@@ -49,6 +49,9 @@ _NO_ADDRESS = (
 """Said without the address: it may hold a password."""
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
+METADATA = sa.MetaData()
+"""Tables of our own, beside those of DBOS. Nothing in them is worth keeping: they are made anew
+where their columns differ."""
 
 
 def database_url() -> str:
@@ -99,6 +102,13 @@ def reachable() -> Iterator[None]:
             raise
         # What SQLite says of a file that is damaged, or is none of its own.
         raise JobsUnreachable(f"the database cannot be read: {_cause(error)}") from error
+
+
+def now(engine: sa.Engine) -> sa.ColumnElement[float]:
+    """Return the database's clock, seconds since the epoch: clocks of machines may differ."""
+    if engine.dialect.name == "sqlite":
+        return (sa.func.julianday("now", type_=sa.Double) - 2440587.5) * 86400.0
+    return sa.cast(sa.extract("epoch", sa.func.clock_timestamp()), sa.Double)
 
 
 def client_of(engine: sa.Engine) -> DBOSClient:

@@ -7,15 +7,23 @@ from typing import TYPE_CHECKING, Any
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.checks import Checks
-from checker.service.jobs.durable.database import SCHEMA, client_of, quiet, reachable
+from checker.service.jobs.durable.database import (
+    METADATA,
+    SCHEMA,
+    client_of,
+    quiet,
+    reachable,
+)
 from checker.service.jobs.durable.receipts import key_of_check
+from checker.service.jobs.durable.senders import RATES, SALTS
 from checker.service.jobs.durable.tasks import KNOWN, STAGES, End, Task
-from checker.service.jobs.durable.workers import METADATA
+from checker.service.jobs.durable.workers import WORKERS
 from checker.service.jobs.port import Order, Stage
 
 if TYPE_CHECKING:
     from dbos import DBOSClient
 
+_OURS = (WORKERS, SALTS, RATES)
 _LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
 _OLD = "subt_checks"
@@ -41,7 +49,7 @@ def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
         with engine.begin() as connection:  # the first on SQLite sets how it writes
             _lock(connection)
             _drop_others(connection)
-            METADATA.create_all(connection)
+            METADATA.create_all(connection, _OURS)
         DBOS.migrate(engine.url.render_as_string(hide_password=False), schema=SCHEMA)
         client = client_of(engine)
         if trials:
@@ -54,7 +62,7 @@ def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
 def _drop_others(connection: sa.Connection) -> None:
     """Drop those of our tables that another version has made with other columns."""
     inspector = sa.inspect(connection)
-    for table in METADATA.sorted_tables:
+    for table in _OURS:
         if not inspector.has_table(table.name):
             continue
         if {each["name"] for each in inspector.get_columns(table.name)} != {*table.columns.keys()}:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from checker.base.record import Record
 from checker.service.jobs.durable.checks import Checks
+from checker.service.jobs.durable.senders import Senders
 from checker.service.store.store import Store
 
 UNUSED_SECONDS = 3600.0
@@ -42,4 +43,5 @@ class Retention(Record):
             self.checks.forget(keys[start : start + _AT_ONCE])
         gone = self.store.expire(began - self.grace_seconds, referred)
         self.store.sweep()
+        Senders(self.checks.engine).forget()
         return {"checks": len(keys)} | {kind.value: number for kind, number in gone.items()}

@@ -1,22 +1,16 @@
-"""Tables of our own, beside those of DBOS: who works, and what hides who sends.
-
-Nothing in them is worth keeping: they are made anew where their columns differ.
-"""
+"""The table of workers: signs of life, and the layers of their sandboxes."""
 
 from __future__ import annotations
 
-import hmac
-import secrets
 from collections.abc import Collection, Mapping, Sequence
-from datetime import UTC, datetime
 
 import sqlalchemy as sa
 from msgspec import to_builtins
 
 from checker.base.record import Record
 from checker.base.sandbox.layers import Layer
+from checker.service.jobs.durable.database import METADATA, now
 
-METADATA = sa.MetaData()
 WORKERS = sa.Table(
     "subt_workers",
     METADATA,
@@ -27,20 +21,6 @@ WORKERS = sa.Table(
 )
 """The last sign of life of each worker, by the clock of the database, layers of its sandbox, and
 whether it is to end once its checks are finished."""
-SALTS = sa.Table(
-    "subt_salts",
-    METADATA,
-    sa.Column("day", sa.String(10), primary_key=True),
-    sa.Column("salt", sa.String(64), nullable=False),
-)
-"""What senders are hashed with on a day; deleted the day after."""
-
-
-def now(engine: sa.Engine) -> sa.ColumnElement[float]:
-    """Return the database's clock, seconds since the epoch: clocks of machines may differ."""
-    if engine.dialect.name == "sqlite":
-        return (sa.func.julianday("now", type_=sa.Double) - 2440587.5) * 86400.0
-    return sa.cast(sa.extract("epoch", sa.func.clock_timestamp()), sa.Double)
 
 
 class Workers(Record):
@@ -95,31 +75,3 @@ class Workers(Record):
             rows = connection.execute(sa.select(WORKERS.c.name, silence, WORKERS.c.layers)).all()
         layers = {row.name: [Layer(**data) for data in row.layers or ()] for row in rows}
         return {row.name: max(0.0, row.silence) for row in rows}, layers
-
-
-def partition_of(engine: sa.Engine, sender: str) -> str:
-    """Return what stands for a sender in the queues of today; nobody can tell tomorrow who it was.
-
-    Args:
-        engine: Of the database.
-        sender: Who asks; empty for anybody.
-    """
-    if not sender:
-        return "nobody"
-    today = datetime.now(UTC).date().isoformat()
-    return hmac.digest(_salt(engine, today).encode(), sender.encode(), "sha256").hex()[:32]
-
-
-def _salt(engine: sa.Engine, day: str) -> str:
-    of_day = sa.select(SALTS.c.salt).where(SALTS.c.day == day)
-    while True:
-        with engine.connect() as connection:
-            if (salt := connection.execute(of_day).scalar()) is not None:
-                return str(salt)
-        try:
-            with engine.begin() as connection:
-                new = secrets.token_hex(32)
-                connection.execute(sa.insert(SALTS).values(day=day, salt=new))
-                connection.execute(sa.delete(SALTS).where(SALTS.c.day < day))
-        except sa.exc.IntegrityError:  # another process was faster
-            continue

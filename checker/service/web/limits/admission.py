@@ -43,9 +43,8 @@ class Admission:
             Refused: The client sends too many, too many are under way, or its token is wrong.
         """
         client = client_of(request)
-        seconds = ceil(self._rate.wait(client))
-        if seconds:
-            raise _later(429, "Too many uploads come from this address.", seconds, "rate")
+        if seconds := self._rate.wait(client):
+            raise too_many(seconds)
         if token := bearer(request):
             self._check(token)
         with self._uploads.one(client) as free:
@@ -116,6 +115,11 @@ def bearer(request: HTTPConnection) -> str:
     """Return the token that the header of a request brings; empty without."""
     kind, _, token = request.headers.get("authorization", "").partition(" ")
     return token.strip() if kind.lower() == "bearer" else ""
+
+
+def too_many(seconds: float) -> Refused:
+    """Return the refusal of an upload that is allowed in some seconds."""
+    return _later(429, "Too many uploads come from this address.", ceil(seconds), "rate")
 
 
 def _slots(places: int) -> Slots:

@@ -21,6 +21,7 @@ from checker.service.jobs.port import Order, Receipt
 from checker.service.store.workplace import Incoming, TooLarge
 from checker.service.web.answers.refusal import Refused, sentence
 from checker.service.web.config import Config
+from checker.service.web.limits.admission import too_many
 from checker.service.web.limits.rates import client_of
 from checker.service.web.limits.space import Claim, no_room
 from checker.service.web.receipts import key_of
@@ -50,6 +51,7 @@ async def new_check(request: Request, services: Services) -> Receipt:
     """
     config = services.config
     with services.admission.upload(request):
+        await _count(request, services)
         size = _announced(request, config)
         try:
             # Unless the store has it by then, nothing of it is left behind this.
@@ -64,6 +66,19 @@ async def new_check(request: Request, services: Services) -> Receipt:
             raise no_room(error) from None
     services.metrics.uploads.inc()
     return receipt
+
+
+async def _count(request: Request, services: Services) -> None:
+    """Count an upload in all web processes together.
+
+    Raises:
+        Refused: The client has sent too many to some of them.
+    """
+    config = services.config
+    if config.uploads_per_minute and not config.only_here:
+        client, wait = client_of(request), services.jobs.wait
+        if seconds := await run_in_threadpool(wait, client, config.uploads_per_minute):
+            raise too_many(seconds)
 
 
 async def _received(
