@@ -10,6 +10,7 @@ from typing import Any, Protocol, get_args, get_type_hints
 from msgspec.structs import replace
 
 from checker.base.record import Record
+from checker.base.resources import table
 from checker.finding import Concern, Fix, Place, Safety, Severity
 from checker.source.text import Span
 
@@ -178,9 +179,14 @@ class Rule(Record, dict=True):
         return self.id.rstrip("0123456789")
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """The id, the name, and the names that the rule had before."""
+        return self.id, self.name, *table("former_rule_names")["names"].get(self.id, ())
+
+    @property
     def selectors(self) -> tuple[str, ...]:
         """What `--select` and `--ignore` may say to mean it, alone or with others."""
-        return self.id, self.name, self.group, f"concern:{self.concern}"
+        return *self.names, self.group, f"concern:{self.concern}"
 
     @cached_property
     def needs(self) -> dict[str, str]:

@@ -96,7 +96,7 @@ class Settings(Record):
 
     def names(self, rule: Rule) -> bool:
         """Whether the user selects this rule itself, not only its group or concern."""
-        return rule.id in self.select or rule.name in self.select
+        return any(name in self.select for name in rule.names)
 
     def overridden(self, **changes: Any) -> Settings:
         """Return settings in which those that are not None replace these."""

@@ -90,9 +90,9 @@ def _describe(action: argparse.Action, places: Mapping[str, object]) -> None:
     if action.dest == "id":
         action.choices = [name for rule in rules for name in (rule.id, rule.name)]
     elif action.metavar == "IDS":
-        names = {name for rule in rules for name in rule.selectors}
-        # zsh takes a colon for the end of the list.
-        action.choices = sorted(name for name in names if ":" not in name)
+        # Without concerns: zsh takes a colon for the end of the list.
+        names = {name for rule in rules for name in (rule.id, rule.name, rule.group)}
+        action.choices = sorted(names)
     elif action.metavar in (*_FILES, *_FOLDERS):
         kind = "folder" if action.metavar in _FOLDERS else "file"
         action.complete = places[kind]  # type: ignore[attr-defined]  # what shtab reads

@@ -103,7 +103,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print a rule's page."""
     wanted, rules = options.id, all_rules()
-    rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
+    names = (wanted.upper(), wanted.lower())
+    rule = next((rule for rule in rules if not set(rule.names).isdisjoint(names)), None)
     if rule is not None:
         show(page_text(rule) + "\n")
         return EXIT_CLEAN

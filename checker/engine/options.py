@@ -41,7 +41,7 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
 def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
     """Make sure that entries of `[[suppress]]` name single rules."""
     groups = {rule.group for rule in rules}
-    single = {name for rule in rules for name in (rule.id, rule.name)}
+    single = {name for rule in rules for name in rule.names}
     for entry in settings.suppress:
         if entry.rule.upper() in groups:
             problem = f"suppress names the group {entry.rule!r}; expected a single rule"

@@ -38,7 +38,7 @@ def settings_schema() -> _Json:
         "properties": _keys(rules),
         "$defs": {
             "severity": {"enum": list(map(str, Severity))},
-            "rule": _name_of({name for rule in rules for name in (rule.id, rule.name)}),
+            "rule": _name_of({name for rule in rules for name in rule.names}),
             "rules": {"type": "array", "items": _name_of(selectors)},
         },
     }

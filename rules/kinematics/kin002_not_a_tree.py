@@ -15,7 +15,7 @@ from checker.model.tree import LinkTree, Tie
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
-@rule("KIN002", "joints-make-no-tree", Severity.ERROR, Concern.ROBOT)
+@rule("KIN002", "not-a-tree", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report joints that connect a link to itself or give it a second parent."""
     for tie in robot.tree.ties:

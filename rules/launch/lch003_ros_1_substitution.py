@@ -12,7 +12,7 @@ from checker.rule import Concern, Findings, Safety, Severity, finding, replace_t
 _NEW = {"arg": "var", "find": "find-pkg-share", "optenv": "env"}
 
 
-@rule("LCH003", "roslaunch-substitution", Severity.ERROR, Concern.INTERFACE)
+@rule("LCH003", "ros-1-substitution", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch) -> Findings:
     """Report substitutions that only ROS 1 has."""
     for graph in launch.entries:

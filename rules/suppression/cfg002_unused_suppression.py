@@ -51,7 +51,7 @@ def _axle(child: str, comment: str) -> str:
 _COMMENT = "<!-- subt-check: ignore[KIN001] the launcher adds the wheel -->"
 _SETTINGS = """
 [[suppress]]
-rule = "unknown-joint-end"
+rule = "unknown-joint-link"
 reason = "the launcher adds the wheel"
 """
 

@@ -23,7 +23,7 @@ ASKED = [
     ("subt-check ru", {"rule", "rules"}),
     ("subt-check rule GEO0", GEO),
     ("subt-check check --select GEO0", GEO),
-    ("subt-check rule unknown-joint-e", {"unknown-joint-end"}),
+    ("subt-check rule unknown-joint-l", {"unknown-joint-link"}),
     ("subt-check check --fail-on ", {"error", "warning"}),
     ("subt-check check rob", {"robot.sdf"}),
     ("subt-check robot.sdf --fail-on ", {"error", "warning"}),
@@ -89,7 +89,7 @@ def test_fish(folder: Path, line: str, expected: set[str]) -> None:
 @pytest.mark.parametrize(
     ("line", "shown"),
     [
-        ("subt-check rule unknown-joint-e", "unknown-joint-end"),
+        ("subt-check rule unknown-joint-l", "unknown-joint-link"),
         ("subt-check check --select GEO00", "GEO002"),
         ("subt-check comp", "completion"),
         ("subt-check check rob", "robot.sdf"),

@@ -34,7 +34,7 @@ async def test_hovers_of_a_link_and_of_a_finding(editor: Editor, folder: Path) -
     link = await hovered(editor, model, 'link name="base_link"', 12)
     assert "kg" in link
     page = await hovered(editor, model, "rear_right_wheels", 3)
-    assert page.startswith("**KIN001 unknown-joint-end**")
+    assert page.startswith("**KIN001 unknown-joint-link**")
     assert "in the rule book" in page
     await editor.close(model)
 

@@ -72,7 +72,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/model/plugin_library.py", PATTERN): "of our table of plugins",
     ("checker/source/xml_errors.py", PATTERN): "a name, escaped",
     ("checker/expand/spawner/literals.py", PATTERN): "quotes of a literal, escaped",
-    ("rules/documentation/doc005_lines_moved.py", PATTERN): "words that are named there",
+    ("rules/documentation/doc005_stale_line_reference.py", PATTERN): "words that are named there",
     ("checker/report/html/launches.py", PATTERN): "a name, escaped",
     ("rules/package/pkg007_undeclared_dependency.py", PATTERN): "packages that are named there",
     ("rules/ros/ros005_unusual_ros_name.py", PATTERN): "of our table of channels",
@@ -86,8 +86,8 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/package/installed.py", GLOB): "part by part of a path, 200 characters",
     ("rules/package/pkg008_resource_not_installed.py", GLOB): "100 patterns of 100 characters",
     ("rules/package/pkg011_junk_file.py", GLOB): "names of junk, named there",
-    ("rules/geometry/geo006_wheels_uneven.py", FORMAT): "one of two texts, named there",
-    ("rules/geometry/geo015_parts_inside_each_other.py", FORMAT): "an example of the rule",
+    ("rules/geometry/geo006_uneven_wheel_heights.py", FORMAT): "one of two texts, named there",
+    ("rules/geometry/geo015_overlapping_collisions.py", FORMAT): "an example of the rule",
 }
 """By file and danger: why it is none there."""
 

@@ -39,7 +39,7 @@ ASIDE = [("KIN001", "comment", REASON)]
         f"{TYRE} {ignore('KIN001')}",
         f"{ignore('KIN001')}\n{TYRE}",
         f"{ignore('kin001')} {TYRE}",
-        f"{ignore('unknown-joint-end')}\n{TYRE}",
+        f"{ignore('unknown-joint-link')}\n{TYRE}",
         f"{ignore('SEN005', 'KIN001')}\n{TYRE}",
         f"{ignore('KIN001')}\n{ignore('SEN005')}\n{TYRE}",
         f"{ignore('SEN005')}\n{ignore('KIN001')}\n{TYRE}",

@@ -26,7 +26,7 @@ def entry(**more: str) -> str:
     "more",
     [
         {},
-        {"rule": "unknown-joint-end"},
+        {"rule": "unknown-joint-link"},
         {"rule": "kin001"},
         {"file": "model.sdf"},
         {"file": "*.sdf"},
@@ -103,7 +103,10 @@ def test_entries_of_another_form_are_refused(value: object, problem: str, tmp_pa
     ("rule", "problem"),
     [
         ("SEN999", r"there is no rule 'SEN999'"),
-        ("unknown-joint-ends", r"no rule 'unknown-joint-ends'; did you mean unknown-joint-end\?"),
+        (
+            "unknown-joint-links",
+            r"no rule 'unknown-joint-links'; did you mean unknown-joint-link\?",
+        ),
         ("KIM", r"there is no rule 'KIM'; `subt-check rules` lists them"),
         ("KIN", r"suppress names the group 'KIN'; expected a single rule"),
         ("kin", r"suppress names the group 'kin'; expected a single rule"),

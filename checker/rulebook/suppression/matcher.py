@@ -68,7 +68,7 @@ class SuppressionMatcher:
     ) -> None:
         self.held = Held(baseline)
         self._package = package
-        self._ids = {name: rule.id for rule in rules for name in (rule.id, rule.name)}
+        self._ids = {name: rule.id for rule in rules for name in rule.names}
         self._entries: dict[str, list[SettingsEntry]] = {}
         for entry in entries:
             self._entries.setdefault(self._id(entry.rule), []).append(entry)

@@ -1,0 +1,143 @@
+"""A bridge of a topic that nothing in Gazebo has.
+
+The bridge waits for it without a word. Names that a sensor states in `<topic>` are taken as they
+are; all others begin with the names that world and model have in Gazebo, which `-name` of the
+spawning program gives. It is reported where all robots that the launch file spawns were read, and
+either all of what it starts is known, or a topic with this message is left over. Topics that
+the robot's files hold, for an argument to switch on, are passed over.
+
+Fix: write the topic of the sensor or system; `gz topic -l` lists them.
+Source: gz-sensors and Gazebo's systems, their default topics.
+"""
+
+import re
+from collections.abc import Iterable
+
+from checker.expand.launch.bridge import Direction
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.model.ros.simulated_topics import SimulatedTopic
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+_OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
+_FILES_LIMIT = 100
+_OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
+"""Messages that windows of Gazebo publish as well, on topics that the user chooses."""
+
+
+@rule("BRG004", "bridge-of-unknown-topic", Severity.WARNING, Concern.INTERFACE)
+def check(package: Package, simulations: Simulations) -> Findings:
+    """Report topics that no robot, model or world has, if all of them are known."""
+    for simulation in simulations.launched:
+        if not simulation.topics or simulation.unknown_topics:
+            continue
+        for entry in simulation.entries:
+            unknown = not entry.gz_topic or not entry.counts
+            if unknown or _OF_THE_WORLD.match(entry.gz_topic):
+                continue
+            behind = simulation.topics_of(entry)
+            if (
+                not behind
+                and not _may_be_of_user(entry)
+                and not _is_written(package, simulation, entry)
+            ):
+                hint = _instead(simulation, entry)
+                whole = simulation.is_whole and simulation.knows_systems
+                if hint or (simulation.robots and whole):
+                    yield finding(
+                        entry.passed.gz_topic,
+                        f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}",
+                    )
+            elif (
+                behind and simulation.is_whole and (fault := _other_name(simulation, entry, behind))
+            ):
+                yield finding(entry.passed.gz_topic, f"{entry.gz_topic}: {fault}")
+
+
+def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:
+    """Whether an argument may put the topic there: the robot's file or one of macros has it."""
+    files = package.index.with_suffix(".xacro", ".urdf", ".sdf")[:_FILES_LIMIT]
+    own = {spawned.robot.document.source.file for spawned in simulation.robots}
+    written = entry.gz_topic.strip("/") + "</"
+    for path in (file.path for file in files):
+        source, document = package.read(path), package.xml(path)
+        if not isinstance(source, SourceText) or written not in source.text:
+            continue
+        root = document.root if isinstance(document, XmlDocument) else None
+        if path in own or root is None or (root.tag == "robot" and not root.get("name")):
+            return True
+    return False
+
+
+def _may_be_of_user(entry: BridgeEntry) -> bool:
+    return entry.direction is not Direction.TO_IGN and entry.gz_name in _OF_THE_USER
+
+
+def _instead(simulation: Simulation, entry: BridgeEntry) -> str:
+    """Return a topic of this message that nothing bridges yet, if there is one."""
+    bridged = {topic.key for other in simulation.entries for topic in simulation.topics_of(other)}
+    for key, topics in simulation.topics.items():
+        for topic in topics:
+            fits = topic.direction is entry.direction or entry.direction is Direction.BOTH
+            if key not in bridged and fits and entry.gz_name in topic.messages:
+                return f"; {topic.owner_name} has {topic.topic}"
+    return ""
+
+
+def _other_name(
+    simulation: Simulation, entry: BridgeEntry, behind: Iterable[SimulatedTopic]
+) -> str:
+    """Say which name of a model or world is none; nothing where one of the topics fits."""
+    models, worlds = simulation.model_names, simulation.world_names
+    fault = ""
+    for topic in behind:
+        fault = _difference(topic.topic.split("/"), entry.gz_topic.split("/"), models, worlds)
+        if not fault:
+            return ""
+    return fault
+
+
+def _difference(
+    parts: list[str], written: list[str], models: frozenset[str], worlds: frozenset[str]
+) -> str:
+    for before, part, name in zip(["", *parts], parts, written, strict=False):
+        known = {"model": models, "world": worlds}.get(before, frozenset())
+        if part == "*" and known and name not in known:
+            return f"no {before} is called {name!r}, but {', '.join(sorted(known))}"
+        if part not in ("*", name):
+            return f"the topic is {'/'.join(parts)}"
+    return ""
+
+
+def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
+    return {
+        "@bridge": f"- topic_name: {topic}{mark}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
+        "  direction: GZ_TO_ROS\n"
+    }
+
+
+_SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+_ODOMETRY = ("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
+_MARK = "  # ^ BRG004"
+GOOD = [
+    {"@bridge": True},
+    _entry("/model/rover/odometry", *_ODOMETRY),
+    _entry("/lidar", *_SCAN)
+    | {"urdf/mast.xacro": "<robot><sensor><topic>${ns}/lidar</topic></sensor></robot>"},
+    {
+        **_entry("/lidar", *_SCAN),
+        "@launch": {'"rover", "-file", URDF': '"rover", "-file", "/somewhere/rover.sdf"'},
+    },
+    {
+        **_entry("/model/other/odometry", *_ODOMETRY),
+        "@launch": {'"-name", "rover"': '"-name", LaunchConfiguration("name")'},
+    },
+]
+BAD = [
+    _entry("/lidar", *_SCAN, _MARK),
+    _entry("/odom", *_ODOMETRY, _MARK),
+    _entry("/model/my_rover/odometry", *_ODOMETRY, _MARK),
+]

@@ -1,0 +1,77 @@
+"""A bridge passes messages in a direction in which there are none.
+
+A sensor publishes in Gazebo; a bridge of it from ROS to Gazebo brings nothing to ROS. Commands come
+from ROS; a bridge of them from Gazebo to ROS moves no robot. A bridge in both directions of what
+Gazebo only publishes works, but makes a publisher in Gazebo that nobody needs: information.
+
+Fix: write `[` or GZ_TO_ROS for what Gazebo publishes, `]` or ROS_TO_GZ for commands.
+Source: ros_gz_bridge; gz-sensors and Gazebo's systems.
+"""
+
+from checker.expand.launch.bridge import Direction
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
+_PUBLISHED = "rosgraph_msgs/msg/Clock"
+
+
+@rule("BRG005", "wrong-bridge-direction", Severity.WARNING, Concern.INTERFACE)
+def check(simulations: Simulations) -> Findings:
+    """Report bridges whose direction is not that of the messages."""
+    for simulation in simulations.launched:
+        for entry in simulation.entries:
+            ways = {topic.direction for topic in simulation.topics_of(entry)}
+            if entry.passed.ros_type.value == _PUBLISHED:
+                ways = {Direction.TO_ROS}
+            if len(ways) != 1 or entry.direction in ways or not entry.gz_topic:
+                continue
+            way = next(iter(ways))
+            if entry.direction is Direction.BOTH:
+                if way is Direction.TO_ROS:
+                    yield finding(
+                        entry.passed.way,
+                        f"{entry.gz_topic} is bridged in both directions, but Gazebo only "
+                        "publishes it: expected '[' or GZ_TO_ROS",
+                        severity=Severity.INFO,
+                        key="both directions",
+                    )
+            elif not _also_bridged(simulation, entry, way):
+                yield finding(
+                    entry.passed.way,
+                    f"{entry.gz_topic} is bridged from {_WAYS[entry.direction]}, but its "
+                    f"messages go from {_WAYS[way]}",
+                )
+
+
+def _also_bridged(simulation: Simulation, entry: BridgeEntry, way: Direction) -> bool:
+    """Whether another bridge of the topic goes the right way."""
+    return any(
+        other.gz_topic == entry.gz_topic and other.direction in (way, Direction.BOTH)
+        for other in simulation.entries
+    )
+
+
+def _entry(topic: str, ros: str, gz: str, way: str, mark: str = "") -> dict[str, object]:
+    return {
+        "@bridge": f"- topic_name: {topic}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
+        f"  direction: {way}{mark}\n"
+    }
+
+
+_MARK = "  # ^ BRG005"
+_SCAN = ("scan", "sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+_TWIST = ("/model/rover/cmd_vel", "geometry_msgs/msg/Twist", "gz.msgs.Twist")
+_CLOCK = ("/clock", "rosgraph_msgs/msg/Clock", "gz.msgs.Clock")
+GOOD = [
+    {"@bridge": True},
+    _entry(*_TWIST, "BIDIRECTIONAL"),
+    _entry("other", *_SCAN[1:], "ROS_TO_GZ"),
+]
+BAD = [
+    _entry(*_SCAN, "ROS_TO_GZ", _MARK),
+    _entry(*_SCAN, "BIDIRECTIONAL", _MARK),
+    _entry(*_TWIST, "GZ_TO_ROS", _MARK),
+    _entry(*_CLOCK, "ROS_TO_GZ", _MARK),
+]

@@ -1,0 +1,151 @@
+"""The cylinder of a wheel does not turn about the wheel's axis.
+
+The wheel tumbles like a coin instead of rolling. A cylinder's axis is its own z axis until a pose
+turns it, and that pose is missing or turns it about the wrong axis. None of the accepted packages
+that we checked shows this.
+
+A URDF joint without `<axis>` turns about its x axis.
+
+Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`, in URDF with an
+`<origin rpy="1.5707963267948966 0 0"/>`; or give the joint the `<axis>` that it lacks.
+Source: Model Migration Guide, step 3: orientations of the wheel collisions; the axis of a cylinder
+is z in SDF and URDF; URDF specification, joint: "axis" is (1,0,0) by default.
+"""
+
+import math
+
+from checker.model.geometry.placed_shapes import Placed
+from checker.model.locomotion.locomotion import Wheel
+from checker.model.locomotion.wheels import askew, tread
+from checker.model.robot import Robot
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+
+@rule("GEO003", "misaligned-wheel-collision", Severity.ERROR, Concern.ROBOT)
+def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
+    """Report driven wheels whose largest collision is round about another axis than the joint's.
+
+    If no plugin drives the robot, links that are called wheels and turn without end are checked;
+    then it is a warning. GEO001 reports angles that only have too few digits.
+
+    Options:
+        degrees: Degrees between the axis of a wheel's largest collision and that of its joint; more
+            is an error.
+    """
+    moved = robot.locomotion
+    judged = [(wheel, Severity.ERROR) for wheel in moved.wheels]
+    judged += [(wheel, Severity.WARNING) for wheel in moved.undriven]
+    for wheel, severity in judged:
+        angle = askew(robot, wheel)
+        rolls = tread(robot, wheel)
+        if rolls is None or angle is None or math.degrees(angle) <= degrees:
+            continue
+        if robot.format == "urdf" and not wheel.joint.axes[0].xyz[0].stated:
+            yield _without_axis(robot, wheel, rolls, severity)
+            continue
+        yield finding(
+            rolls.shape.pose,
+            f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
+            f"{wheel.link.name.value!r} is {math.degrees(angle):.3g}° off the axis of joint "
+            f"{wheel.joint.name.value!r}, expected 0°",
+            severity=severity,
+            related=[(wheel.joint, "the joint")],
+        )
+
+
+def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity) -> Finding:
+    """Report a joint of URDF that states no axis, and the one that its wheel needs."""
+    joint = robot.pose_of_joint(wheel.joint)
+    along = rolls.pose.rotate((0.0, 0.0, 1.0))
+    own = joint.inverse.rotate(along) if joint is not None else along
+    # Of the two directions of a line the positive one is usual.
+    sign = math.copysign(1.0, max(own, key=abs))
+    needed = " ".join(f"{round(sign * number, 4) + 0.0:g}" for number in own)
+    return finding(
+        wheel.joint,
+        f"joint {wheel.joint.name.value!r} has no <axis>, so it turns about x, URDF's default, "
+        f"across the {rolls.shape.geometry.shape} of wheel {wheel.link.name.value!r}: expected "
+        f'<axis xyz="{needed}"/>',
+        severity=severity,
+        related=[(rolls.shape.pose, f"the {rolls.shape.geometry.shape}")],
+    )
+
+
+def _wheel(collision: str, xyz: str = "0 1 0") -> str:
+    return f"""
+<link name="wheel">
+  <pose>0 0.3 0 0 0 0.5</pose>
+  {collision}
+</link>
+<joint name="axle" type="revolute">
+  <parent>base_link</parent>
+  <child>wheel</child>
+  <axis><xyz>{xyz}</xyz></axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>axle</left_joint>
+</plugin>
+"""
+
+
+def _cylinder(pose: str, radius: float = 0.1) -> str:
+    return f"""
+<collision name="c{radius}">{pose}
+  <geometry><cylinder><radius>{radius}</radius><length>0.05</length></cylinder></geometry>
+</collision>
+"""
+
+
+def _urdf(
+    origin: str,
+    plugin: str = "",
+    kind: str = "continuous",
+    axis: str = '<axis xyz="0 1 0"/>',
+    mark: str = "",
+) -> dict[str, str]:
+    wheel = f"""
+<link name="left_wheel">
+  <collision>
+    {origin}
+    <geometry><cylinder radius="0.1" length="0.05"/></geometry>
+  </collision>
+</link>
+<joint name="left_axle" type="{kind}">{mark}
+  <origin xyz="0 0.3 0"/>
+  <parent link="base_link"/>
+  <child link="left_wheel"/>
+  {axis}
+</joint>
+<gazebo>{plugin}</gazebo>
+"""
+    return {"@urdf": wheel}
+
+
+_CLASSIC = """
+<plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+  <leftJoint>left_axle</leftJoint>
+</plugin>
+"""
+_LYING = '<origin rpy="1.5707963267948966 0 0"/>'
+_TURNED = "<pose>0 0 0 1.5707963267948966 0 0</pose>"
+GOOD = [
+    _wheel(_cylinder(_TURNED)),
+    _wheel(_cylinder("<pose>0 0 0 -1.5708 0 0</pose>")),
+    _wheel(_cylinder(""), "0 0 1"),
+    _wheel(_cylinder(_TURNED) + _cylinder("", 0.02)),
+    _wheel("<collision name='c'><geometry><sphere/></geometry></collision>"),
+    _urdf(_LYING),
+    _urdf(_LYING, _CLASSIC),
+    # URDF's default axis is x.
+    _urdf('<origin rpy="0 1.5707963267948966 0"/>', axis=""),
+    # No wheel that rolls.
+    _urdf("<origin/>", kind="fixed"),
+]
+BAD = [
+    _wheel(_cylinder("\n<pose>0 0 0 0 1.5707963267948966 0</pose>  <!-- ^ GEO003 -->")),
+    _wheel(_cylinder("  <!-- ^ GEO003 -->")),
+    _wheel(_cylinder("\n<pose>0 0 0 1.5 0 0</pose>  <!-- ^ GEO003 -->")),
+    _urdf("<origin/>  <!-- ^ GEO003 -->"),
+    _urdf(_LYING, axis="", mark="  <!-- ^ GEO003 -->"),
+    _urdf('<origin rpy="1.5 0 0"/>  <!-- ^ GEO003 -->', _CLASSIC),
+]

@@ -1,0 +1,75 @@
+"""A shape with a length of zero or less.
+
+Physics engines refuse such a shape, drop it, or compute contacts that explode. A negative scale
+mirrors a mesh: this is useful for a visual, but the surface of a collision becomes inside out. None
+of the accepted packages that we checked shows this.
+
+Fix: write the length in metres as a positive number; mirror a mesh in the mesh file.
+Source: SDFormat specification, geometry: lengths are above 0.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.geometry.shapes import Geometry
+from checker.model.robot import Robot
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_LENGTHS = ("height", "length", "radii", "radius", "scale", "size")
+
+
+@rule("GEO008", "non-positive-size", Severity.ERROR, Concern.ROBOT)
+def check(robot: Robot) -> Findings:
+    """Report lengths that are not above 0; a mirrored collision mesh is a warning."""
+    for link in robot.links:
+        for collision in link.collisions:
+            whose = f"{collision.name.value!r} of {link.name.value!r}"
+            yield from _lengths(collision.geometry, whose, touches=True)
+        for visual in link.visuals:
+            whose = f"{visual.name.value!r} of {link.name.value!r}"
+            yield from _lengths(visual.geometry, whose, touches=False)
+
+
+def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Finding]:
+    for name in _LENGTHS:
+        for number in geometry.sizes.get(name, ()):
+            mirrored = name == "scale" and number.value < 0
+            if not number.value <= 0 or (mirrored and not touches):
+                continue
+            yield finding(
+                number,
+                f"{name} of {geometry.shape} {whose} is {number.value:g}, expected more than 0"
+                + (": the mesh is mirrored" if mirrored else ""),
+                severity=Severity.WARNING if mirrored else Severity.ERROR,
+                key="mirrored" if mirrored else "",
+            )
+
+
+def _box(size: str) -> str:
+    return f"""
+<visual name="v">
+  <geometry>
+    <box><size>{size}
+  </geometry>
+</visual>
+"""
+
+
+_END = "</size></box>"
+_MIRRORED = """
+<{0} name="c"><geometry><mesh>
+  <uri>meshes/wheel.dae</uri>
+  <scale>1 -1 1</scale>{1}
+</mesh></geometry></{0}>
+"""
+GOOD = [_box(f"1 1 0.001{_END}"), "<visual name='v'/>", _MIRRORED.format("visual", "")]
+BAD = [
+    _box(f"0.3 0.2 0{_END}  <!-- ^ GEO008 -->"),
+    _box(f"0.3 -0.2 0.1{_END}  <!-- ^ GEO008 -->"),
+    """
+<collision name="c"><geometry><cylinder>
+  <radius>-0.02</radius>  <!-- ^ GEO008 -->
+  <length>0.4</length>
+</cylinder></geometry></collision>
+""",
+    _MIRRORED.format("collision", "  <!-- ^ GEO008 -->"),
+]

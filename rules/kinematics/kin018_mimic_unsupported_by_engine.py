@@ -1,0 +1,139 @@
+"""A joint that mimics another, in a world whose physics engine has no such constraint.
+
+Nothing couples the two joints in the simulation: the second finger of a gripper hangs loose, while
+RViz shows it moving, since robot_state_publisher does follow `<mimic>`. DART, which Gazebo Sim
+loads unless the world or the command line names another engine, has no mimic constraint; Bullet
+Featherstone has. Fortress is URD019's. A joint that a plugin drives by itself, or that the hardware
+of ros2_control knows, is not affected: gz_ros2_control moves it along.
+
+Fix: in the world's physics plugin write `<engine>` with
+`<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 says what that engine lacks);
+or let ros2_control, or a plugin of its own, move the joint.
+Source: gz-physics, features of dartsim and bullet-featherstone (gz-physics 7, 8, 9), issue 432;
+gz-sim, Physics.cc: the default engine; gz_ros2_control issue 340.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Joint
+from checker.model.robot import Robot
+from checker.model.ros.engine_uses import EngineUse, engine_uses
+from checker.model.ros.simulation import Simulations
+from checker.model.sdf.world import World
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+
+_SHOWS = ("JointStatePublisher", "PosePublisher")
+"""Systems that name joints and move none."""
+
+
+@rule("KIN018", "mimic-unsupported-by-engine", Severity.WARNING, Concern.ROBOT)
+def check(simulations: Simulations | None, world: World | None, context: Context) -> Findings:
+    """Report mimicking joints of robots that are spawned, and of models that stand in the world."""
+    if not context.of_gazebo_sim or context.release == "fortress":
+        return
+    for use in engine_uses(simulations, world):
+        for model in use.models:
+            yield from _loose(model, use, context.release)
+
+
+def _loose(robot: Robot, use: EngineUse, release: str) -> Iterator[Finding]:
+    engine = use.engine
+    if engine.has_mimic(release) or robot.is_static:
+        return
+    chosen = " (the default)" if engine.is_default else ""
+    for joint in robot.joints:
+        leader = next(iter(joint.mimics), None)
+        if leader is not None and not joint.immovable and not _is_moved(robot, joint):
+            yield finding(
+                leader,
+                f"joint {joint.name.value!r} mimics {leader.value!r}, but the physics engine "
+                f"{engine.title}{chosen} has no such constraint: nothing couples them; expected "
+                "gz-physics-bullet-featherstone-plugin, or a controller for this joint",
+                related=use.places,
+                key=f"mimic {engine.key}",
+            )
+
+
+def _is_moved(robot: Robot, joint: Joint) -> bool:
+    """Whether a plugin names the joint, or the hardware of ros2_control does."""
+    name = joint.name.value
+    if joint.scoped_name in robot.driven_joints:
+        return True
+    controls = robot.element.all("ros2_control")
+    if any(it.get("name") == name for control in controls for it in control.all("joint")):
+        return True
+    return any(
+        element.value.strip() == name
+        for plugin in robot.plugins
+        if plugin.class_name not in _SHOWS
+        for element in plugin.element.descendants()
+    )
+
+
+def _world(physics: str, mark: str) -> str:
+    return f"""<sdf version="1.11">
+<world name="hall">
+  <plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics">{physics}</plugin>
+  <plugin filename="gz-sim-user-commands-system" name="gz::sim::systems::UserCommands"/>
+  <model name="gripper">
+    <link name="palm"/>
+    <link name="left"/>
+    <link name="right"/>
+    <joint name="left_joint" type="revolute">
+      <parent>palm</parent><child>left</child><axis><xyz>0 0 1</xyz></axis>
+    </joint>
+    <joint name="right_joint" type="revolute">
+      <parent>palm</parent><child>right</child>
+      <axis><xyz>0 0 1</xyz>
+        <mimic joint="left_joint"><multiplier>1</multiplier></mimic>{mark}
+      </axis>
+    </joint>
+  </model>
+</world>
+</sdf>
+"""
+
+
+_ENGINE = "<engine><filename>gz-physics-bullet-featherstone-plugin</filename></engine>"
+_ROBOT = """<robot name="rover">
+  <link name="base_link"/>
+  <link name="left"/>
+  <link name="right"/>
+  <joint name="left_joint" type="continuous">
+    <parent link="base_link"/><child link="left"/>
+  </joint>
+  <joint name="right_joint" type="continuous">
+    <parent link="base_link"/><child link="right"/>
+    <mimic joint="left_joint"/>@
+  </joint>
+  <gazebo/>
+</robot>
+"""
+_CONTROL = """<ros2_control name="hand" type="system"><joint name="right_joint"/></ros2_control>
+  <gazebo/>"""
+_DRIVEN = (
+    """<gazebo><plugin filename="x" name="acme::Mimic"><to>right_joint</to></plugin></gazebo>"""
+)
+
+
+def _spawned(mark: str = "", engine: str = "", control: str = "<gazebo/>") -> dict[str, object]:
+    robot = _ROBOT.replace("@", mark).replace("<gazebo/>", control)
+    gazebo = {"-r empty.sdf": f"-r empty.sdf{engine}"}
+    changed = {"@launch": gazebo, "urdf/rover.urdf": robot}
+    return {"@bridge": True, "@profile": "ros2", **changed}
+
+
+def _standing(mark: str = "", physics: str = "", profile: str = "gazebo-harmonic") -> object:
+    return {"@fragment": _world(physics, mark), "@profile": profile}
+
+
+_MARK = "  <!-- ^ KIN018 -->"
+GOOD = [
+    _spawned(engine=" --physics-engine gz-physics-bullet-featherstone-plugin"),
+    _spawned(engine=" --physics-engine acme-physics"),
+    _spawned(control=_CONTROL),
+    _spawned(control=_DRIVEN),
+    _standing(physics=_ENGINE),
+    _standing(profile="gazebo-fortress"),
+]
+BAD = [_spawned(_MARK), _standing(_MARK)]

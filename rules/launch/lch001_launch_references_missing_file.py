@@ -1,0 +1,127 @@
+"""A launch file names a file that its package does not have.
+
+What is included or read does not start; a node that is given the path ends, or runs without its
+parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
+Worlds and parameters in packages that are not available are not checked; files that the build makes
+are not judged. Launch skips a parameter file whose path is empty. Where a condition leaves the
+action out, for what is only shown in RViz, and for what is handed to a launch file that is not
+available, unless it starts Gazebo, this is a warning.
+
+Fix: correct the path, or add the file.
+Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
+ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
+"""
+
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
+from checker.expand.ros2_launch.named_paths import (
+    is_missing,
+    lies_elsewhere,
+    named_paths,
+    unavailable,
+)
+from checker.package.package import Package
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+
+_DATA = (".yaml", ".yml", ".world", ".sdf")
+
+
+@rule("LCH001", "launch-references-missing-file", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch, package: Package) -> Findings:
+    """Report files in share folders of available packages that are not there."""
+    for graph in launch.entries:
+        for named in named_paths(graph):
+            is_data = named.needed and named.path.path.endswith(_DATA)
+            if is_data and (why := unavailable(package, named.path.package)):
+                yield unchecked(f"{named.path} is not read: {why}")
+            elif is_missing(package, named.path):
+                what = "the included file" if named.include else "the file"
+                found = lies_elsewhere(package, named.path)
+                hint = f": {found} is not installed there" if found else ""
+                yield finding(
+                    named,
+                    f"{what} {named.path} does not exist{hint}",
+                    severity=None if named.needed else Severity.WARNING,
+                )
+        yield from _unnamed(graph)
+
+
+def _unnamed(graph: LaunchGraph) -> Iterator[Finding]:
+    """Report parameter files whose path is empty."""
+    for node in graph.nodes:
+        empty = [file for file in node.parameter_files if not file.path.strip()]
+        if empty and node.starts is True:
+            yield finding(
+                empty[0],
+                f"{node.executable.value} runs without its parameters: the path of its parameter "
+                "file is '', expected a file",
+                severity=Severity.WARNING,
+                key=node.executable.value,
+            )
+
+
+_STATE = """        Node(package='p', executable='e', parameters=[
+            in_package('config', 'arm.yaml')]),"""
+_WORLD = """        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
+                'gz_args': ['-r ', in_package('worlds', 'hall.sdf')]}.items()),"""
+
+_MOVEIT = """from launch import LaunchDescription
+from launch_ros.actions import Node
+from moveit_configs_utils import MoveItConfigsBuilder
+
+
+def generate_launch_description():
+    configs = MoveItConfigsBuilder('arm', package_name='acme_arm_bringup').to_moveit_configs()
+    return LaunchDescription([Node(package='moveit_ros_move_group', executable='move_group',
+                                   parameters=[configs.to_dict()])])
+"""
+
+GOOD = [
+    {"@ros2": True},
+    # MoveIt takes the robot from a topic where its usual file is missing.
+    {"@ros2": True, "launch/move_group.launch.py": _MOVEIT},
+    {"@ros2": _STATE},
+    {
+        "@ros2": _WORLD,
+        "worlds/hall.sdf": '<sdf version="1.9"><world name="hall"/></sdf>',
+        "CMakeLists.txt": """project(acme_arm_bringup)
+install(DIRECTORY config launch urdf worlds DESTINATION share/${PROJECT_NAME})
+ament_package()
+""",
+    },
+    {"@ros2": _STATE.replace("'config', 'arm.yaml'", "'maps', 'saved'")},
+    {
+        "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            os.path.join(get_package_share_directory('nav2_bringup'), 'launch', 'x.launch.py'))),"""
+    },
+]
+BAD = [
+    {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},
+    {
+        "@ros2": """        DeclareLaunchArgument('params', default_value=''),  # ^ LCH001
+        Node(package='p', executable='e', parameters=[LaunchConfiguration('params')]),"""
+    },
+    {"@ros2": f"{_WORLD}  # ^ LCH001"},
+    {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001")},
+    {
+        "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            in_package('launch', 'view.launch.py'))),  # ^ LCH001"""
+    },
+    {
+        "@ros2": """        Node(package='rviz2', executable='rviz2', arguments=[
+            '-d', in_package('rviz', 'view.rviz')]),  # ^ LCH001"""
+    },
+    {
+        "@ros2": """        Node(package='p', executable='e', parameters=[{'robot_description':
+            Command(['xacro ', in_package('urdf', 'hand.urdf.xacro'), ' a:=1'])}]),  # ^ LCH001"""
+    },
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": """<launch>
+  <include file="$(find-pkg-share acme_arm_bringup)/launch/arm.launch"/> <!-- ^ LCH001 -->
+</launch>
+""",
+    },
+]

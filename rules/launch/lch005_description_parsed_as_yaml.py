@@ -1,0 +1,70 @@
+"""A robot description that launch reads as YAML, and cannot.
+
+A parameter that substitutions make, such as `Command(['xacro …'])`, is read as YAML unless its
+type is stated. A colon before a blank anywhere in the expanded text, mostly in a comment, is no
+plain YAML text: the launch ends with "Unable to parse the value of parameter robot_description as
+yaml".
+
+Fix: write `ParameterValue(Command(…), value_type=str)`; in XML, `type="str"`.
+Source: launch_ros, `evaluate_parameter_dict`;
+UniversalRobots/Universal_Robots_ROS2_Driver#1103, intrinsic-dev/aic#43.
+"""
+
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.xacro.files import local_path
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.yaml import MAX_LENGTH, is_yaml
+
+_DECLARATION = '<?xml version="1.0" ?>\n'
+"""What xacro writes first: a text of one line could be a mapping, a longer one cannot."""
+
+
+@rule("LCH005", "description-parsed-as-yaml", Severity.WARNING, Concern.INTERFACE)
+def check(launch: Ros2Launch, package: Package, description: UrdfDescription) -> Findings:
+    """Report parameters without a type whose text is no YAML."""
+    text = _DECLARATION + description.document.source.text
+    if len(text) > MAX_LENGTH or is_yaml(text):
+        return
+    for loaded in _loaded(launch, package):
+        if local_path(package, loaded.load.path) == description.document.source.file:
+            yield finding(
+                loaded,
+                "the robot description is read as YAML, which its text is not: "
+                "expected ParameterValue(…, value_type=str) around it",
+                key="without type",
+            )
+
+
+def _loaded(launch: Ros2Launch, package: Package) -> Iterator[LoadedDescription]:
+    for graph in launch.entries:
+        for loaded in loaded_descriptions(package, graph):
+            parameter = loaded.parameter
+            if parameter is not None and parameter.substituted and not parameter.as_text:
+                yield loaded
+
+
+_NODE = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': robot}]),"""
+_ARM = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+  <!-- Note: the plate is missing -->
+  <link name="base_link"/>
+</robot>
+"""
+
+GOOD = [
+    {"@ros2": _NODE},
+    {"@ros2": True, "urdf/arm.urdf.xacro": _ARM},
+    {"@ros2": _NODE, "urdf/arm.urdf.xacro": _ARM.replace("Note:", "Note")},
+]
+BAD = [
+    {
+        "@ros2": _NODE,
+        "urdf/arm.urdf.xacro": _ARM,
+        "@reported": ["launch/arm.launch.py:18"],
+    },
+]

@@ -1,0 +1,153 @@
+"""A `ros2_control` tag that the controller manager cannot read.
+
+The tag needs a `name`, a `type` of `system`, `actuator` or `sensor`, and `<hardware>` with a
+`<plugin>`. Below it stand `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and
+`<properties>`; on anything else the controller manager ends with "invalid tag name", on a `<param>`
+as well: parameters of the hardware belong inside `<hardware>`.
+
+Fix: move `<param>` into `<hardware>`, correct the tag's name, and state name, type and plugin.
+Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resource_from_xml`.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.words import Suggestions
+from checker.expand.xacro.expanded import written_elements
+from checker.model.ros2_control.hardware import (
+    KNOWN_CHILDREN,
+    TYPES,
+    Hardware,
+    HardwareJoint,
+    Interface,
+)
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+
+@rule("R2C003", "invalid-ros2-control-tag", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl) -> Findings:
+    """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there.
+
+    A joint that stands twice in a tag is a warning, and so is a plugin that a condition of xacro
+    leaves out: the robot may be meant to be shown alone then.
+    """
+    for hardware in control.hardware:
+        yield from _missing(hardware)
+        yield from _strange(hardware)
+        for part in (*hardware.joints, *hardware.sensors, *hardware.gpios):
+            yield from _nameless(part)
+        yield from _twice(hardware)
+
+
+def _missing(hardware: Hardware) -> Iterator[Finding]:
+    called = f"<ros2_control> {hardware.name.value!r}" if hardware.name.value else "<ros2_control>"
+    if not hardware.name.value:
+        yield finding(hardware, "<ros2_control> has no name")
+    kind = hardware.type
+    if kind.value not in TYPES:
+        says = f"is of type {kind.value!r}" if kind.stated else "has no type"
+        yield finding(kind, f"{called} {says}, expected system, actuator or sensor")
+    if not hardware.plugin.value:
+        inside = hardware.element.child("hardware")
+        chosen = inside is not None and _has_plugin_elsewhere(inside)
+        lacks = "<plugin>" if inside is not None else "<hardware>"
+        where = " with these arguments" if chosen else ""
+        yield finding(
+            hardware.plugin,
+            f"{called} has no {lacks}{where}, so no hardware is loaded",
+            severity=Severity.WARNING if chosen else None,
+        )
+
+
+def _has_plugin_elsewhere(hardware: Element) -> bool:
+    """Whether xacro leaves out a plugin with the values that its arguments have here."""
+    pairs = written_elements(hardware.document).items()
+    origin = next((written for it, written in pairs if it.node is hardware.node), None)
+    return origin is not None and next(origin.descendants("plugin"), None) is not None
+
+
+def _strange(hardware: Hardware) -> Iterator[Finding]:
+    suggestions = Suggestions(KNOWN_CHILDREN)
+    for child in hardware.element.children:
+        if child.tag not in KNOWN_CHILDREN:
+            hint = suggestions.hint(child.tag)
+            inside = "; it belongs into <hardware>" if child.tag == "param" else hint
+            yield finding(child, f"<{child.tag}> does not belong below <ros2_control>{inside}")
+
+
+def _twice(hardware: Hardware) -> Iterator[Finding]:
+    first: dict[str, HardwareJoint] = {}
+    for joint in hardware.joints:
+        before = first.setdefault(joint.name.value, joint)
+        if before is not joint and joint.name.value:
+            yield finding(
+                joint,
+                f"joint {joint.name.value!r} stands twice in <ros2_control> "
+                f"{hardware.name.value!r}",
+                severity=Severity.WARNING,
+                key="twice",
+                related=[(before, "the first one")],
+            )
+
+
+def _nameless(part: HardwareJoint) -> Iterator[Finding]:
+    pieces: tuple[HardwareJoint | Interface, ...] = (part, *part.commands, *part.states)
+    for piece in pieces:
+        if not piece.name.value:
+            yield finding(piece, f"<{piece.element.tag}> has no name")
+
+
+_NAMED, _TYPED = ' name="arm"', ' type="system"'
+_PLUGIN = "<plugin>mock_components/GenericSystem</plugin>"
+_HARDWARE = f"<hardware>{_PLUGIN}</hardware>"
+_MARK = "  <!-- ^ R2C003 -->"
+
+
+def _arm(attributes: str = _NAMED + _TYPED, inside: str = _HARDWARE, mark: str = "") -> object:
+    return {
+        "@urdf": f"""
+<ros2_control{attributes}>{mark}
+  {inside}
+  <joint name="shoulder">
+    <command_interface name="position"/>
+    <state_interface name="position"/>
+  </joint>
+</ros2_control>
+"""
+    }
+
+
+def _conditional(mark: str) -> object:
+    robot = f"""<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+<link name="base_link"/><link name="upper_arm"/>
+<joint name="shoulder" type="revolute">
+  <parent link="base_link"/><child link="upper_arm"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="10" velocity="1"/>
+</joint>
+<xacro:arg name="gazebo" default="false"/>
+<ros2_control name="arm" type="system">
+  <hardware>{mark}
+    <xacro:if value="$(arg gazebo)">{_PLUGIN}</xacro:if>
+  </hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+</robot>
+"""
+    return {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": robot}
+
+
+_SENSOR = '<sensor name="imu"><state_interface name="orientation.x"/></sensor>'
+GOOD = [_arm(), _arm(inside=_HARDWARE + _SENSOR)]
+BAD = [
+    _conditional(_MARK),
+    _arm(_TYPED, mark=_MARK),
+    _arm(_NAMED, mark=_MARK),
+    _arm(_NAMED + ' type="robot"', mark=_MARK),
+    _arm(inside="", mark=_MARK),
+    _arm(inside=f"<hardware>{_MARK}</hardware>"),
+    _arm(inside=f'{_HARDWARE}\n<param name="port">/dev/ttyUSB0</param>{_MARK}'),
+    _arm(inside=f"{_HARDWARE}\n<joints/>{_MARK}"),
+    _arm(inside=f'{_HARDWARE}\n<joint name="elbow"/>\n<joint name="elbow"/>{_MARK}'),
+    _arm(inside=f"{_HARDWARE}\n<sensor><state_interface name='force.x'/></sensor>{_MARK}"),
+]

@@ -1,0 +1,142 @@
+"""Hardware of Gazebo without Gazebo's plugin, or the other way round.
+
+Hardware such as `gz_ros2_control/GazeboSimSystem` exists within Gazebo only, and a plugin in
+`<gazebo>` starts the controller manager there: the robot needs both. With the plugin and other
+hardware, such as `mock_components/GenericSystem`, the controllers run and the simulated robot does
+not move. Without any `<ros2_control>` tag the plugin gives up, and there is no controller manager.
+The plugin's `name` is the class that is loaded from the library, and no free label.
+
+Fix: write `<plugin filename="gz_ros2_control-system"
+name="gz_ros2_control::GazeboSimROS2ControlPlugin">` below `<gazebo>`, with `<parameters>`, and
+`gz_ros2_control/GazeboSimSystem` as hardware; in Fortress `ign_ros2_control-system`,
+`ign_ros2_control::IgnitionROS2ControlPlugin` and `ign_ros2_control/IgnitionSystem`.
+Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branch.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from checker.model.ros2_control.distributions import is_of_gazebo
+from checker.model.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_CLASSES: Mapping[str, tuple[str, ...]] = {
+    "gz_ros2_control-system": (
+        "gz_ros2_control::GazeboSimROS2ControlPlugin",
+        "ign_ros2_control::IgnitionROS2ControlPlugin",
+    ),
+    "ign_ros2_control-system": ("ign_ros2_control::IgnitionROS2ControlPlugin",),
+}
+"""The names that a plugin of a library may have."""
+_PACKAGES: Mapping[str, tuple[str, ...]] = {
+    "gz_ros2_control-system": ("gz_ros2_control", "ign_ros2_control"),
+    "ign_ros2_control-system": ("ign_ros2_control",),
+    "gazebo_ros2_control": ("gazebo_ros2_control",),
+}
+"""The packages whose hardware a plugin of a library loads."""
+_EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in names)
+
+
+@rule("R2C005", "hardware-simulator-mismatch", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl) -> Findings:
+    """Report plugins of a wrong name, or that cannot load the hardware.
+
+    Gazebo's hardware without a plugin, and a plugin beside other hardware, are warnings.
+    """
+    for manager in control.managers:
+        yield from _names(manager)
+        yield from _another_library(control, manager)
+    # With another value of an argument the robot may be the real one, and no Gazebo runs.
+    if control.by_default:
+        yield from _disagreement(control)
+
+
+def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[Finding]:
+    packages = _PACKAGES.get(manager.library)
+    for hardware in control.hardware:
+        owner = hardware.plugin.value.partition("/")[0]
+        if packages is not None and owner in _EVERY_PACKAGE and owner not in packages:
+            yield finding(
+                manager,
+                f"{manager.plugin.filename.value} cannot load hardware "
+                f"{hardware.plugin.value!r}, which is for another simulator",
+                key=f"{manager.library} {owner}",
+                related=[(hardware.plugin, "the hardware")],
+            )
+
+
+def _names(manager: GazeboManager) -> Iterator[Finding]:
+    name, classes = manager.plugin.name, _CLASSES.get(manager.library)
+    if classes is not None and name.value not in classes:
+        yield finding(
+            name,
+            f"plugin of {manager.plugin.filename.value} is named {name.value!r}, which is not a "
+            f"class of it: expected {classes[0]}",
+        )
+
+
+def _disagreement(control: RobotControl) -> Iterator[Finding]:
+    simulated = [each for each in control.hardware if is_of_gazebo(each.plugin.value)]
+    others = [each for each in control.hardware if each not in simulated and each.plugin.value]
+    if control.managers and not control.hardware:
+        yield finding(
+            control.managers[0],
+            f"plugin {control.managers[0].plugin.name.value!r} runs a controller manager, but the "
+            "robot has no <ros2_control> tag",
+            key="no tag",
+        )
+    elif simulated and not control.managers:
+        yield finding(
+            simulated[0].plugin,
+            f"hardware {simulated[0].plugin.value!r} needs a plugin of Gazebo that runs the "
+            "controller manager, but the robot has none",
+            severity=Severity.WARNING,
+            key="no plugin",
+        )
+    elif control.managers and others and not simulated:
+        plugin = control.managers[0]
+        yield finding(
+            others[0].plugin,
+            f"Gazebo runs the controller manager, but the hardware is {others[0].plugin.value!r}: "
+            "the simulated robot does not move",
+            severity=Severity.WARNING,
+            key="no hardware",
+            related=[(plugin, "the plugin of Gazebo")],
+        )
+
+
+def _arm(plugin: str, hardware: str = "<plugin>gz_ros2_control/GazeboSimSystem</plugin>") -> object:
+    return {
+        "@urdf": f"""
+<ros2_control name="arm" type="system">
+  <hardware>
+    {hardware}
+  </hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+{plugin}
+"""
+    }
+
+
+def _plugin(library: str, name: str, mark: str = "") -> str:
+    return f'<gazebo>\n<plugin filename="{library}" name="{name}"/>{mark}\n</gazebo>'
+
+
+_GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
+_IGNITION = "<plugin>ign_ros2_control/IgnitionSystem</plugin>"
+_MOCK = "<plugin>mock_components/GenericSystem</plugin>"
+_MARK = "  <!-- ^ R2C005 -->"
+GOOD = [
+    _arm(_plugin(*_GZ)),
+    _arm(_plugin("libgz_ros2_control-system.so", _GZ[1])),
+    _arm(_plugin("libacme_gz_ros2_control-system.so", "acme::Control")),
+    _arm("", _MOCK),
+]
+BAD = [
+    _arm(_plugin(_GZ[0], "gz_ros2_control", _MARK)),
+    _arm(_plugin("ign_ros2_control-system", "ros2_control", _MARK), _IGNITION),
+    _arm("", f"<plugin>gz_ros2_control/GazeboSimSystem</plugin>{_MARK}"),
+    _arm(_plugin(*_GZ), _MOCK + _MARK),
+    _arm(_plugin("libgazebo_ros2_control.so", "gazebo_ros2_control", _MARK)),
+    {"@urdf": _plugin(*_GZ, _MARK)},
+]

@@ -1,0 +1,121 @@
+"""A file of parameters that Gazebo's plugin names and that is not there, not installed, or no YAML.
+
+The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
+manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
+forgotten.
+
+Fix: correct the path, and install the file: `$(find package)/config/controllers.yaml`.
+Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
+"""
+
+from checker.expand.xacro.files import ROOT
+from checker.model.ros2_control.robot_control import ParametersFile, RobotControl
+from checker.package.installed import left_out, listed
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+
+
+@rule("R2C006", "parameter-file-not-found", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl, package: Package, papers: Paperwork) -> Findings:
+    """Report files that do not exist, and packages that nothing says to be needed.
+
+    A package that package.xml does not name either is a warning; if the file lies in this package
+    under the same path, it is an error. A plugin without `<parameters>` is a warning.
+    """
+    for fault in control.faults:
+        yield finding(fault.span, f"the file of parameters cannot be read: {fault.message}")
+    for reason in control.unread:
+        yield unchecked(reason)
+    for manager in control.managers:
+        if not manager.files:
+            yield finding(
+                manager,
+                f"{manager.plugin.called} has no <parameters>: the controller manager that it "
+                "starts has no parameters",
+                severity=Severity.WARNING,
+            )
+        for file in manager.files:
+            if file.path is None and file.package:
+                yield from _elsewhere(file, package, papers)
+            elif file.path is not None and not file.exists:
+                yield finding(file.text, f"{_shown(file)} does not exist (looked for {file.path})")
+            elif file.path is not None and file.package:
+                holder, path = listed(package, file.path)
+                # Under another path than in the source it was found because it is installed there.
+                left = left_out(package, holder, path) if path == _inside(file) else None
+                if left is not None:
+                    message = f"{_shown(file)} is not installed: {left.instead}"
+                    yield finding(file.text, message, key=left.around)
+
+
+def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
+    """Judge a file of a package that is not at hand."""
+    manifest = papers.manifest
+    if manifest is None or manifest.depends_on(file.package):
+        yield unchecked(f"package {file.package} is not available")
+        return
+    path = _inside(file)
+    here = bool(path) and package.exists(path)
+    yield finding(
+        file.text,
+        f"{_shown(file)} is in package {file.package!r}, which is not available and which "
+        f"package.xml does not depend on{f'; {path} lies in this package' if here else ''}",
+        severity=None if here else Severity.WARNING,
+    )
+
+
+def _inside(file: ParametersFile) -> str:
+    """Return the path below the folder of the installed package."""
+    return file.text.value.partition(file.package)[2].lstrip(")/")
+
+
+def _shown(file: ParametersFile) -> str:
+    return file.text.value.removeprefix(f"{ROOT}/")
+
+
+def _arm(parameters: str) -> dict[str, str]:
+    described = f"""
+<ros2_control name="arm" type="system">
+  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    {parameters}
+  </plugin>
+</gazebo>
+"""
+    return {"@urdf": described}
+
+
+_MARK = "  <!-- ^ R2C006 -->"
+_HERE = "$(find acme_arm_description)/config/control.yaml"
+_SELDOM = "$(find other_arm)/config"
+_BUILD = """project(acme_arm_description)
+install(DIRECTORY config/other urdf DESTINATION share/${PROJECT_NAME}/config)
+ament_package()
+"""
+_MOVED = "install(DIRECTORY bringup/config urdf DESTINATION share/${PROJECT_NAME})"
+GOOD = [
+    _arm(f"<parameters>{_HERE}</parameters>"),
+    {
+        **_arm(f"<parameters>{_HERE.replace('control', 'arm')}</parameters>"),
+        "CMakeLists.txt": f"project(acme_arm_description)\n{_MOVED}\nament_package()\n",
+        "bringup/config/arm.yaml": "a: 1\n",
+    },
+]
+BAD = [
+    {
+        **_arm(f"<parameters>{_HERE}</parameters>{_MARK}"),
+        "CMakeLists.txt": _BUILD,
+        "config/other/a.yaml": "a: 1\n",
+    },
+    _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
+    _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
+    _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),
+    {
+        **_arm("<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"),
+        "config/arm.yaml": "controller_manager:\n\tros__parameters:  # ^ R2C006\n",
+    },
+]

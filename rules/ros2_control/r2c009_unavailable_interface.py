@@ -1,0 +1,143 @@
+"""A controller of a joint, or of an interface, that the robot's hardware does not offer.
+
+A controller claims the interfaces of its joints when it is activated: `wheel_joint/velocity`. If a
+`<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
+controller that no launch file names, this is a warning: as it stands nothing starts it.
+
+Fix: write the joint's name as in `<ros2_control>`, or add the `<command_interface>` or
+`<state_interface>` that the controller needs: drives need `velocity` of wheels and `position` of
+steering joints.
+Source: ros2_control, ResourceManager; ros2_controllers, `command_interface_configuration` and
+`state_interface_configuration` of each controller.
+"""
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from checker.base.words import Suggestions, listed
+from checker.model.ros2_control.claims import Claim, claims_of, sensors_of
+from checker.model.ros2_control.controllers import Controller
+from checker.model.ros2_control.hardware import HardwareJoint
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.package.package import Package
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+
+@rule("R2C009", "unavailable-interface", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl, package: Package) -> Findings:
+    """Report what controllers of ros2_controllers need and do not find.
+
+    Where no plugin of the robot names the file, it may be for another robot: a warning. So is what
+    no launch file of any available package starts.
+    """
+    if control.has_variants or not control.hardware:
+        return
+    suggestions = Suggestions(control.components)
+    for controller in control.controllers:
+        for fault in _faults(control, controller, suggestions):
+            if not control.is_named:
+                yield replace(fault, severity=Severity.WARNING)
+            elif controller.name not in package.workspace.launch_words:
+                message = f"{fault.message} (no launch file starts this controller)"
+                yield replace(fault, severity=Severity.WARNING, message=message)
+            else:
+                yield fault
+
+
+def _faults(
+    control: RobotControl, controller: Controller, suggestions: Suggestions
+) -> Iterator[Finding]:
+    for claim in claims_of(controller):
+        name = claim.joint.value
+        joint = control.joints.get(name)
+        if joint is not None:
+            yield from _missing(controller, claim, joint)
+        elif name not in control.components:
+            exists = name in control.robot.joints_by_name
+            where = "is in no <ros2_control> tag" if exists else "the robot does not have"
+            yield finding(
+                claim.joint,
+                f"{controller.called} names joint {name!r}, which {where}{suggestions.hint(name)}",
+                key=f"{name} {controller.name}",
+            )
+    for sensor in sensors_of(controller):
+        if sensor.value not in control.components:
+            yield finding(
+                sensor,
+                f"{controller.called} reads {sensor.value!r}, which is not a sensor or gpio of "
+                f"<ros2_control>{suggestions.hint(sensor.value)}",
+            )
+
+
+def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iterator[Finding]:
+    for kind, needed, offered in (
+        ("command", claim.commands, joint.commands),
+        ("state", claim.states, joint.states),
+    ):
+        names = [interface.name.value for interface in offered]
+        for name in needed:
+            if name not in names:
+                has = f"it offers {listed(names)}" if names else "it offers none"
+                yield finding(
+                    claim.joint,
+                    f"{controller.called} needs the {kind} interface {name!r} of joint "
+                    f"{claim.joint.value!r}, but {has}",
+                    key=f"{controller.name} {kind} {name}",
+                    related=[(joint, "the joint in <ros2_control>")],
+                )
+
+
+def _arm(
+    parameters: str, kind: str = "joint_trajectory_controller/JointTrajectoryController"
+) -> object:
+    return {
+        "@urdf": """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  <joint name="shoulder">
+    <command_interface name="position"/>
+    <state_interface name="position"/>
+  </joint>
+  <sensor name="imu"><state_interface name="orientation.x"/></sensor>
+</ros2_control>
+<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
+  </plugin>
+</gazebo>
+""",
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    arm_controller:
+      type: {kind}
+arm_controller:
+  ros__parameters:
+    {parameters}
+""",
+    }
+
+
+def _follow(joint: str, state: str = "position") -> object:
+    return _arm(
+        f"joints: [{joint}]\n    command_interfaces: [position]\n    state_interfaces: [{state}]"
+    )
+
+
+_FORWARD = "forward_command_controller/ForwardCommandController"
+_IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
+GOOD = [
+    _follow("shoulder"),
+    _follow("$(var prefix)shoulder"),
+    _arm("interface_name: position\n    joints: [shoulder]", _FORWARD),
+    _arm("sensor_name: imu\n    frame_id: base_link", _IMU),
+]
+BAD = [
+    _arm("joints: [elbow]  # ^ R2C009"),
+    _arm(
+        "joints: [shoulder]  # ^ R2C009\n"
+        "    command_interfaces: [position]\n    state_interfaces: [position, velocity]"
+    ),
+    _arm("interface_name: velocity\n    joints: [shoulder]  # ^ R2C009", _FORWARD),
+    _arm("sensor_name: imu_sensor  # ^ R2C009\n    frame_id: base_link", _IMU),
+]

@@ -1,0 +1,132 @@
+"""A parameter that a controller needs and has not, or one of a wrong type.
+
+A controller without a parameter that has no default is not configured, nor is one whose wheel
+radius or wheel separation stays at 0. ROS knows the types of parameters and converts none: where a
+`double` is declared, `10` is an error and `10.0` is right.
+
+Fix: add the parameter to the controller's own block below `ros__parameters`, with a decimal point
+where it is a `double`.
+Source: parameter files of ros2_controllers, by branch; rclcpp, `InvalidParameterTypeException`.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from checker.base.words import Suggestions, listed
+from checker.model.ros2_control.controllers import Controller
+from checker.model.ros2_control.distributions import (
+    ControllerType,
+    controller_types,
+    distribution_of,
+)
+from checker.model.ros2_control.parameters import Parameter
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+)
+
+_OF_ALL: Mapping[str, str] = {"update_rate": "int", "use_sim_time": "bool", "is_async": "bool"}
+
+
+@rule("R2C010", "invalid-controller-parameter", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl, context: Context) -> Findings:
+    """Report what keeps controllers of ros2_controllers from being configured.
+
+    A controller without any block may get its parameters from the spawner: it is a warning.
+    """
+    distribution = distribution_of(context)
+    for file in control.files:
+        for block in file.managers:
+            rate = block.parameters.get("update_rate")
+            if rate is not None:
+                yield from _mistyped(rate, "int", "the controller manager")
+    blocks = Suggestions(
+        block.node for file in control.files for block in file.blocks if block not in file.managers
+    )
+    for controller in control.controllers:
+        known = controller_types().get(controller.type.value)
+        if known is None or not known.exists_in(distribution):
+            continue
+        yield from _missing(controller, known, distribution, blocks)
+        for name in sorted(controller.own):
+            declared = known.parameter(name)
+            kind = declared.type if declared and known.known_in(name, distribution) else ""
+            kind = kind or _OF_ALL.get(name, "")
+            yield from _mistyped(controller.parameters[name], kind, controller.called)
+
+
+def _missing(
+    controller: Controller, known: ControllerType, distribution: str, blocks: Suggestions
+) -> Iterator[Finding]:
+    needed = {*known.required, *known.params}
+    wanting = [
+        name
+        for name in sorted(needed)
+        if "<" not in name and known.requires(name, distribution)
+        if name not in controller.parameters
+    ]
+    if not wanting:
+        return
+    own = controller.block is not None
+    lacks = f"has no {listed(wanting)}" if own else f"has no block, but needs {listed(wanting)}"
+    yield finding(
+        controller.span,
+        f"{controller.called} {lacks}{'' if own else blocks.hint(controller.name)}",
+        severity=None if own else Severity.WARNING,
+    )
+
+
+def _mistyped(parameter: Parameter, kind: str, owner: str) -> Iterator[Finding]:
+    found = parameter.type
+    if not kind or not found or found == kind or not parameter.is_known:
+        return
+    number = found == "int" and kind == "double"
+    fix = replace_text(parameter, f"{parameter.span.text}.0") if number else None
+    written = parameter.span.text if len(parameter.span.text) <= 40 else "…"
+    yield finding(
+        parameter,
+        f"{parameter.name} of {owner} is {written}, of type {found}, expected {kind}"
+        + (f": write {written}.0" if number else ""),
+        fix=fix,
+    )
+
+
+def _arm(parameters: str, manager: str = "update_rate: 100") -> object:
+    return {
+        "@urdf": """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="velocity"/></joint>
+</ros2_control>
+""",
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    {manager}
+    drive_controller: {{type: diff_drive_controller/DiffDriveController}}
+drive_controller:{parameters}
+""",
+    }
+
+
+_JOINTS = "    left_wheel_names: [shoulder]\n    right_wheel_names: [shoulder]\n"
+_SIZES = "    wheel_radius: 0.1\n    wheel_separation: 0.5\n"
+_BLOCK = "\n  ros__parameters:\n"
+_MARK = "  # ^ R2C010"
+GOOD = [
+    _arm(_BLOCK + _JOINTS + _SIZES),
+    _arm(_BLOCK + _JOINTS + _SIZES + "    cmd_vel_timeout: 5e-1\n    open_loop: true"),
+    _arm(_BLOCK + _JOINTS + _SIZES + "    pose_covariance_diagonal: [0.0, 0.1, 1.0]"),
+]
+BAD = [
+    _arm(_MARK + _BLOCK + _JOINTS),
+    _arm(f"{_BLOCK}{_JOINTS}    wheel_radius: 0.1\n    wheel_separation: 1{_MARK}"),
+    _arm(_BLOCK + _JOINTS + _SIZES + f"    open_loop: 1{_MARK}"),
+    _arm(_BLOCK + _JOINTS + _SIZES + f"    twist_covariance_diagonal: [0, 1, 2]{_MARK}"),
+    _arm(_BLOCK + _JOINTS + _SIZES, f"update_rate: 100.0{_MARK}"),
+]

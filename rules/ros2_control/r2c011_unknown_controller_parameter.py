@@ -1,0 +1,91 @@
+"""A parameter that a controller does not know.
+
+Parameters that a controller does not declare are ignored without a word: the value has no effect.
+Usually a name is misspelt, belongs to another controller, or is of another distribution. Since
+Jazzy, the drives read `TwistStamped` only: `use_stamped_vel: false` is ignored, and messages of
+type `Twist` move nothing.
+
+Fix: remove the parameter, or correct its name. Publish `geometry_msgs/msg/TwistStamped` from Jazzy
+on.
+Source: parameter files of ros2_controllers, by branch.
+"""
+
+from checker.base.words import Suggestions
+from checker.model.ros2_control.distributions import (
+    COMMON_PARAMETERS,
+    ControllerType,
+    controller_types,
+    distribution_of,
+)
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+
+_STAMPED = "use_stamped_vel"
+_READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinematics.")
+"""Starts of parameters that rclcpp, filters and solvers of kinematics declare themselves."""
+
+
+@rule("R2C011", "unknown-controller-parameter", Severity.WARNING, Concern.INTERFACE)
+def check(control: RobotControl, context: Context) -> Findings:
+    """Report parameters of ros2_controllers that have no effect.
+
+    One that only other distributions know is information, but for `use_stamped_vel: false`.
+    """
+    distribution = distribution_of(context)
+    for controller in control.controllers:
+        known = controller_types().get(controller.type.value)
+        names = _known(known, distribution) if known is not None else ()
+        suggestions = Suggestions(names)
+        for name in sorted(controller.own) if known is not None and names else ():
+            if name in COMMON_PARAMETERS or name.startswith(_READ_OTHERWISE):
+                continue
+            if known is None or known.known_in(name, distribution):
+                continue
+            parameter = controller.parameters[name]
+            elsewhere = known.parameter(name) is not None
+            grave = name == _STAMPED and parameter.node.scalar is False
+            what = f"has no effect in ROS 2 {distribution.title()}"
+            if grave:
+                what += ": the controller reads TwistStamped, and Twist does not move the robot"
+            elif not elsewhere:
+                what = f"is not a parameter of it{suggestions.hint(name)}"
+            yield finding(
+                parameter.key,
+                f"{name} of {controller.called} ({controller.type.value}) {what}",
+                severity=Severity.INFO if elsewhere and not grave else None,
+            )
+
+
+def _known(kind: ControllerType, distribution: str) -> tuple[str, ...]:
+    return tuple(name for name in kind.params if kind.known_in(name, distribution))
+
+
+def _arm(parameter: str) -> object:
+    return {
+        "@urdf": """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="velocity"/></joint>
+</ros2_control>
+""",
+        "config/arm.yaml": f"""drive_controller:
+  ros__parameters:
+    type: diff_drive_controller/DiffDriveController
+    left_wheel_names: [shoulder]
+    {parameter}
+""",
+    }
+
+
+_MARK = "  # ^ R2C011"
+GOOD = [
+    _arm("linear.x.max_velocity: 1.0"),
+    _arm("linear: {x: {max_velocity: 1.0}}"),
+    _arm("use_sim_time: true"),
+]
+BAD = [
+    _arm(f"wheel_seperation: 0.5{_MARK}"),
+    _arm(f"use_stamped_vel: false{_MARK}"),
+    _arm(f"wheels_per_side: 1{_MARK}"),
+    _arm(f"constraints: {{goal_time: 1.0}}{_MARK}"),
+]

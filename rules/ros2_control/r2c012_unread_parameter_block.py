@@ -1,0 +1,87 @@
+"""A file of parameters whose blocks are for nodes in another namespace.
+
+A block of a parameter file is for the node of that full name: `controller_manager:` is
+`/controller_manager` and no other. A controller manager that Gazebo starts in a namespace does not
+read it, and neither do its controllers; the spawner then says that a type is not defined. Without
+`ros__parameters` below the name, nothing of the file is read.
+
+Fix: put the blocks below the key of the namespace, or below two asterisks for any namespace, as in
+the examples.
+Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
+"""
+
+from checker.model.ros2_control.controllers import ControllerFile
+from checker.model.ros2_control.parameters import NodeBlock
+from checker.model.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("R2C012", "unread-parameter-block", Severity.WARNING, Concern.INTERFACE)
+def check(control: RobotControl) -> Findings:
+    """Report blocks that no node of the robot's namespace reads."""
+    for file in control.files:
+        for key in file.bare:
+            message = f"{key.text} has no ros__parameters below it: nothing is read"
+            yield finding(key, message, covered_by=("WIR007",))
+    if len(control.managers) != 1:
+        return
+    names = {controller.name for controller in control.controllers}
+    for file in control.files if control.is_named else ():
+        for block in _unread(file, control.managers[0], names):
+            namespace = control.managers[0].namespace
+            yield finding(
+                block.span,
+                f"the parameters are for {block.name}, but the controller manager runs in "
+                f"{namespace.value}",
+                key=namespace.value,
+                related=[(namespace, "the namespace")],
+            )
+
+
+def _unread(file: ControllerFile, manager: GazeboManager, names: set[str]) -> list[NodeBlock]:
+    """Return the blocks of the manager and its controllers that are for another namespace."""
+    namespace = manager.namespace.value
+    return [
+        block
+        for block in file.blocks
+        if block.node in (manager.node, *names)
+        and "$(" not in block.name + namespace
+        and not block.is_for(block.node, namespace)
+    ]
+
+
+def _arm(blocks: str, ros: str = "<ros><namespace>robot</namespace></ros>") -> object:
+    return {
+        "@urdf": f"""
+<ros2_control name="arm" type="system">
+  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
+    {ros}
+  </plugin>
+</gazebo>
+""",
+        "config/arm.yaml": blocks,
+    }
+
+
+def _manager(name: str, mark: str = "") -> str:
+    return f"{name}:{mark}\n  ros__parameters:\n    update_rate: 100\n"
+
+
+_MARK = "  # ^ R2C012"
+GOOD = [
+    _arm(_manager("controller_manager"), ""),
+    _arm(_manager("/**/controller_manager")),
+    _arm(_manager("/robot/controller_manager")),
+    _arm(_manager("/**")),
+    _arm("robot:\n  controller_manager:\n    ros__parameters:\n      update_rate: 100\n"),
+]
+BAD = [
+    _arm(_manager("controller_manager", _MARK)),
+    _arm(_manager("/other/controller_manager", _MARK)),
+    _arm(f"controller_manager:{_MARK}\n  update_rate: 100\n", ""),
+]

@@ -1,0 +1,185 @@
+"""A controller that is spawned and that nothing can load.
+
+A spawner asks the controller manager to load controllers by their names. The manager must know the
+type of each: by `<name>: {type: …}` in its own parameters, or by the file that the spawner gets as
+`--param-file`. Otherwise the spawner ends with "The 'type' param was not defined".
+
+Without a controller manager, spawners wait forever: either `ros2_control_node` runs it, or a plugin
+in Gazebo. Both together fight for the robot: the node cannot load the hardware of Gazebo.
+
+A joint state broadcaster that is configured, and that no launch file starts beside the others, is a
+warning: nothing publishes /joint_states, and no moving link has a transform.
+
+Fix: write the same name in the launch file, below `controller_manager` and as the key of the
+controller's block, state its `type`, and start one controller manager.
+Source: ros2_control, controller_manager/spawner.py and `ControllerManager::load_controller`.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.words import Suggestions
+from checker.model.ros2_control.distributions import is_of_gazebo
+from checker.model.ros2_control.launched import LaunchedControl
+from checker.package.package import Package
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
+
+
+@rule("R2C013", "controller-not-spawnable", Severity.ERROR, Concern.INTERFACE)
+def check(launched: LaunchedControl, package: Package) -> Findings:
+    """Report controllers without a type, and launch files without a manager or with two.
+
+    Files that could not be read may say more: then nothing is reported of what they could hold. A
+    launch file without a manager is a warning.
+    """
+    yield from _two_managers(launched)
+    yield from _no_states(launched, package)
+    in_gazebo = [control for control in launched.controls if control.managers]
+    if not launched.managers and not in_gazebo:
+        yield from _no_manager(launched)
+        return
+    listed = launched.listed
+    for spawner in launched.spawners if listed is not None else ():
+        typed = launched.typed(spawner)
+        if typed is None or listed is None or spawner.states_type or not spawner.complete:
+            continue
+        suggestions = Suggestions((*listed, *typed))
+        for name in spawner.names:
+            if name.value not in listed and name.value not in typed:
+                yield finding(
+                    name,
+                    f"spawner names controller {name.value!r}, but nothing that it or the "
+                    f"controller manager reads states its type{suggestions.hint(name.value)}",
+                )
+
+
+def _two_managers(launched: LaunchedControl) -> Iterator[Finding]:
+    simulated = [
+        hardware
+        for control in launched.controls
+        for hardware in control.hardware
+        if control.managers and is_of_gazebo(hardware.plugin.value)
+    ]
+    if launched.simulates and simulated:
+        for node in launched.managers:
+            yield finding(
+                node,
+                "ros2_control_node runs a controller manager, and so does Gazebo, whose hardware "
+                "the node cannot load",
+                related=[(simulated[0].plugin, "the hardware")],
+            )
+
+
+def _no_states(launched: LaunchedControl, package: Package) -> Iterator[Finding]:
+    spawned = [name.value for spawner in launched.spawners for name in spawner.names]
+    complete = launched.is_complete and all(spawner.complete for spawner in launched.spawners)
+    broadcasters = [it for it in launched.controllers if it.type.value == _STATE_BROADCASTER]
+    own = [it.name for it in launched.controllers if it.name in spawned]
+    started = {it.name for it in broadcasters} & package.workspace.launch_words
+    for broadcaster in broadcasters if complete and own and not started else ():
+        yield finding(
+            broadcaster.span,
+            f"no launch file starts {broadcaster.name!r} beside {own[0]!r}: nothing publishes "
+            f"/joint_states; add {broadcaster.name} to the arguments of a spawner",
+            severity=Severity.WARNING,
+            key=broadcaster.name,
+        )
+
+
+def _no_manager(launched: LaunchedControl) -> Iterator[Finding]:
+    described = any(node.package.value == "robot_state_publisher" for node in launched.nodes)
+    if launched.controls and launched.is_complete and described:
+        for spawner in launched.spawners:
+            yield finding(
+                spawner.node,
+                "spawner waits for a controller manager that nothing starts: neither "
+                "ros2_control_node nor a plugin of Gazebo",
+                severity=Severity.WARNING,
+                key="no manager",
+            )
+
+
+_HARDWARE = """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>@</plugin></hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+_GAZEBO = """
+<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
+  </plugin>
+</gazebo>
+"""
+_YAML = """controller_manager:
+  ros__parameters:
+    arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}
+"""
+_OWN = """grip_controller:
+  ros__parameters:
+    type: forward_command_controller/ForwardCommandController
+"""
+_NODE = "Node(package='controller_manager', executable='ros2_control_node', parameters=[config])"
+_STATES = "Node(package='robot_state_publisher', executable='robot_state_publisher')"
+_CREATE = "Node(package='ros_gz_sim', executable='create', arguments=['-name', 'arm'])"
+
+
+def _spawner(*words: str, mark: str = "") -> str:
+    arguments = ", ".join(word if word == "config" else repr(word) for word in words)
+    inside = f"{arguments}{mark}\n        " if mark else arguments
+    return f"Node(package='controller_manager', executable='spawner', arguments=[{inside}])"
+
+
+def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> dict[str, object]:
+    hardware = "gz_ros2_control/GazeboSimSystem" if gazebo else "mock_components/GenericSystem"
+    started = ",\n        ".join(nodes)
+    return {
+        "@urdf": _HARDWARE.replace("@", hardware) + (_GAZEBO if gazebo else ""),
+        "config/arm.yaml": _YAML + more + _OWN,
+        "launch/arm.launch.py": f"""import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch_ros.actions import Node
+
+CLASSIC = get_package_share_directory('gazebo_ros') + '/launch/gazebo.launch.py'
+
+
+def generate_launch_description():
+    share = get_package_share_directory('acme_arm_description')
+    config = os.path.join(share, 'config', 'arm.yaml')
+    return LaunchDescription([
+        {started},
+    ])
+""",
+    }
+
+
+def _in_classic(*nodes: str, more: str) -> object:
+    """Return an arm in Gazebo Classic, whose own launch file starts no controller manager."""
+    plugin = _GAZEBO.replace("gz_ros2_control-system", "libgazebo_ros2_control.so")
+    return {
+        **_arm("IncludeLaunchDescription(CLASSIC)", *nodes, more=more),
+        "@urdf": _HARDWARE.replace("@", "gazebo_ros2_control/GazeboSystem") + plugin,
+    }
+
+
+_MARK = "  # ^ R2C013"
+_BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
+GOOD = [
+    _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
+    _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
+    _arm(_NODE, _spawner("arm_controller")),
+    _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
+    _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
+]
+BAD = [
+    _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
+    _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
+    _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
+    _arm(_NODE, _spawner("grip_controller", mark=_MARK)),
+    _arm(_STATES, _spawner("arm_controller").replace("Node(", f"Node({_MARK}\n            ")),
+    _arm(_NODE.replace("Node(", f"Node({_MARK}\n            "), _CREATE, gazebo=True),
+]

@@ -1,0 +1,81 @@
+"""An element occurs twice, but only one is allowed.
+
+Parsers use one of the two, usually the first, and print no message: the other has no effect.
+
+Fix: remove the wrong one.
+Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
+"""
+
+from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.schema import ElementType
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+ELSEWHERE = {("sdf", "model")}
+"""Parents and elements that another rule judges."""
+SEVERAL = {("contact", "collision")}
+"""Parents and elements of which simulators read several, despite the tables."""
+
+
+@rule("SDF013", "duplicate-element", Severity.WARNING, Concern.ROBOT)
+def check(sdf: SdfDocument) -> Findings:
+    """Report second elements of a kind that may occur once."""
+    for element, kind in sdf.typed_elements:
+        if kind is None or kind.free or len(element.children) < 2:
+            continue
+        first: dict[str, Element] = {}
+        contents: dict[str, list[tuple[object, ...]]] = {}
+        for child in element.children:
+            earlier = first.setdefault(child.tag, child)
+            if earlier is child or not _once(element, kind, child.tag):
+                continue
+            content = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
+            same = _content(child) == content
+            yield finding(
+                child,
+                f"<{element.tag}> contains a second <{child.tag}>, "
+                + ("the same as the first" if same else "different from the first"),
+                severity=Severity.INFO if same else None,
+                related=[(earlier, "the first")],
+            )
+
+
+def _once(parent: Element, kind: ElementType, tag: str) -> bool:
+    if (parent.tag, tag) in SEVERAL | ELSEWHERE:
+        return False
+    if (parent.tag, tag) == ("sensor", "camera") and parent.get("type") == "multicamera":
+        return False
+    child = kind.children.get(tag)
+    return child is not None and child.occurs in ("0", "1")
+
+
+def _content(element: Element) -> list[tuple[object, ...]]:
+    """Return the content of an element, without spaces and the order of attributes."""
+    return [
+        (node.tag, tuple(sorted(node.attributes.items())), " ".join(node.raw_text.split()))
+        for node in (element, *element.descendants())
+    ]
+
+
+GOOD = [
+    """
+<link name="arm">
+  <visual name="a"><geometry><box/></geometry></visual>
+  <visual name="b"><geometry><box/></geometry></visual>
+</link>
+"""
+]
+BAD = [
+    """
+<inertial>
+  <mass>1</mass>
+  <mass>2</mass>  <!-- ^ SDF013 -->
+</inertial>
+""",
+    """
+<inertial>
+  <mass>1</mass>
+  <mass> 1 </mass>  <!-- ^ SDF013 -->
+</inertial>
+""",
+]

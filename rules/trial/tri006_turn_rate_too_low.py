@@ -1,0 +1,95 @@
+"""A robot that turns far less than its wheels and loads predict.
+
+Wheels in fixed directions slide sideways in a turn: a skid-steer robot turns slower than commanded.
+How much slower depends on the places of its wheels and the load on each. If a robot turns far less
+than that, something else holds it back.
+
+Fix: look for a collision that drags on the ground, and for wheels that are tilted or do not turn.
+Source: quasi-static balance of Coulomb friction over the wheels; it predicts the turn rate of 20 of
+22 accepted skid-steer robots within 20 %.
+"""
+
+from checker.physics.trial.robot_trial import SettledTrial
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("TRI006", "turn-rate-too-low", Severity.WARNING, Concern.ROBOT)
+def check(
+    driven: SettledTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
+) -> Findings:
+    """Report a turn rate far below the predicted or the commanded one.
+
+    A robot that is not written for Gazebo gets warnings only, and one with steered wheels that
+    cannot roll is left to TRI003.
+
+    Options:
+        warning_below: Share of the turn rate that is predicted from the loads on wheels or tracks;
+            less is a warning.
+        error_below_command: Share of the commanded turn rate; less is an error, whatever the
+            prediction.
+    """
+    trial = driven.trial
+    rate, ratio = trial.value("yaw_rate"), trial.value("yaw_ratio")
+    if rate is None or ratio is None or driven.turns_backwards or driven.rigid_steering:
+        return
+    command = f"commanded to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
+    if ratio < error_below_command:
+        yield finding(
+            driven.drive,
+            f"{command}, the robot hardly moves: {round(rate, 3) + 0.0:g} rad/s",
+            severity=Severity.ERROR if driven.robot.is_for_gazebo else None,
+            key="yaw_of_predicted",
+        )
+        return
+    share, predicted = trial.value("yaw_of_predicted"), trial.value("yaw_predicted")
+    if share is not None and predicted is not None and share < warning_below:
+        yield finding(
+            driven.drive,
+            f"{command}, the robot turns at {rate:.2g} rad/s, but the places and loads of its "
+            f"wheels predict {predicted:.2g} rad/s",
+            key="yaw_of_predicted",
+        )
+
+
+_WHEEL = """
+<link name="{name}">
+  <pose>{x} {y} 0.1 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_joint" type="revolute">
+  <parent>base_link</parent><child>{name}</child><axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+_PLACES = {"fl": (1, 1), "rl": (-1, 1), "fr": (1, -1), "rr": (-1, -1)}
+
+
+def _rover(half_length: float, half_width: float, mark: str = "") -> str:
+    wheels = "".join(
+        _WHEEL.format(name=name, x=x * half_length, y=y * half_width)
+        for name, (x, y) in _PLACES.items()
+    )
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link">
+  <pose>0 0 0.15 0 0 0</pose>
+  <inertial><mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
+</link>
+{wheels}
+<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">{mark}
+  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
+  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
+  <wheel_separation>{2 * half_width}</wheel_separation>
+  <wheel_radius>0.1</wheel_radius>
+  <max_velocity>1</max_velocity><min_velocity>-1</min_velocity>
+  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
+</plugin>
+</model>
+</sdf>
+"""
+
+
+GOOD = [_rover(0.2, 0.2)]
+BAD = [_rover(0.6, 0.1, "  <!-- ^ TRI006 -->")]

@@ -1,0 +1,107 @@
+"""A `gazebo` tag for a link or joint that does not exist, or one without effect.
+
+Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
+change a colour, or how a joint is computed, is a warning. Controllers find no joints where
+`<ros2_control>` is inside a `<gazebo>`.
+
+Fix: write the exact name of the link or joint; put elements for links under a link, and elements
+for joints under a joint; put `<ros2_control>` directly into `<robot>`.
+Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link>` and `<joint>`;
+ros2_control, hardware_interface/src/component_parser.cpp: tags directly below `<robot>`.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.words import Suggestions
+from checker.model.robot import Robot
+from checker.model.urdf.description import GazeboTag, UrdfDescription
+from checker.model.urdf.extensions import OF_JOINTS, OF_LINKS
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_WITHOUT_EFFECT = frozenset(
+    {
+        *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
+        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
+    }
+)
+"""What changes neither how a robot moves nor what it senses."""
+
+
+@rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report `<gazebo>` tags that refer to nothing, and elements without effect."""
+    if description.for_rviz:
+        return
+    robot = description.robot
+    names = Suggestions([*robot.links_by_name, *robot.joints_by_name])
+    for tag in description.gazebo:
+        name = tag.reference.value
+        known = name in robot.links_by_name or name in robot.joints_by_name
+        if tag.reference.stated and not known:
+            yield finding(
+                tag.reference,
+                f"<gazebo> refers to {name!r}, which is not a link or joint{names.hint(name)}",
+                severity=None if _simulates(tag) else Severity.WARNING,
+                key=name,
+            )
+        else:
+            yield from _useless(tag, robot)
+
+
+def _simulates(tag: GazeboTag) -> bool:
+    """Say whether a tag changes what is simulated, not only how a link looks."""
+    return any(child.tag not in _WITHOUT_EFFECT for child in tag.element.children)
+
+
+def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
+    if not tag.element.children:
+        yield finding(tag, "<gazebo> is empty", severity=Severity.INFO, key="nothing")
+        return
+    name = tag.reference.value
+    for child in tag.element.children:
+        if child.tag == "self_collide" and not tag.reference.stated:
+            continue  # becomes a part of the model
+        if child.tag == "ros2_control":
+            yield finding(
+                child,
+                "<ros2_control> is inside <gazebo>, where nothing reads it, so no controller "
+                "finds its joints: move it out, directly into <robot>",
+            )
+            continue
+        if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
+            what = "a link" if child.tag in OF_LINKS else "a joint"
+            message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
+        elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
+            message = f"<{child.tag}> is for a joint, but {name!r} is a link"
+        elif child.tag == "sensor" and child.get("type") == "force_torque":
+            continue  # measures at a joint
+        elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
+            message = f"<{child.tag}> is for a link, but {name!r} is a joint"
+        else:
+            continue
+        yield finding(child, message, severity=Severity.WARNING)
+
+
+def _tag(inside: str, reference: str = "") -> dict[str, str]:
+    attribute = f' reference="{reference}"' if reference else ""
+    return {"@urdf": f"<gazebo{attribute}>\n{inside}\n</gazebo>"}
+
+
+_MARK = "  <!-- ^ URD006 -->"
+_PLUGIN = '<plugin name="p" filename="libgazebo_ros_control.so"/>'
+GOOD = [
+    {"@urdf": True},
+    _tag("<mu1>1</mu1><own_extension/>", "upper_arm"),
+    _tag('<sensor name="s" type="force_torque"/>', "shoulder"),
+    _tag("<provideFeedback>true</provideFeedback>", "shoulder"),
+    _tag("<static>true</static>" + _PLUGIN),
+    {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
+]
+BAD = [
+    {"@urdf": f'<gazebo reference="uper_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
+    _tag(f"<mu1>1</mu1>{_MARK}"),
+    _tag(f"<stopErp>0.2</stopErp>{_MARK}", "upper_arm"),
+    _tag(f"<selfCollide>true</selfCollide>{_MARK}", "shoulder"),
+    {"@urdf": f'<gazebo reference="upper_arm"/>{_MARK}'},
+    _tag(f'<ros2_control name="arm" type="system">{_MARK}\n</ros2_control>'),
+]

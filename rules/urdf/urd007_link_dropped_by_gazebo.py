@@ -1,0 +1,112 @@
+"""A link that Gazebo drops, or a link with mass but without collision or visual.
+
+Gazebo drops a link without `<inertial>`, or with a mass of zero, with its sensors and all links
+below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
+so they need no inertial. In a URDF without a `<gazebo>` element this is a warning: other tools keep
+such links.
+
+Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
+Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Link
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.fixed_joints import Lumping
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_NO_LINK = "world"
+
+
+@rule("URD007", "link-dropped-by-gazebo", Severity.ERROR, Concern.ROBOT)
+def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
+    """Report links without inertia, and links with mass that lack shapes.
+
+    Options:
+        share: Share of the robot's mass from which a link, with the links merged into it, must have
+            collisions and visuals.
+    """
+    if description.for_rviz:
+        return
+    robot = description.robot
+    for name, links in Lumping(description).groups.items():
+        if name == _NO_LINK or name not in robot.links_by_name:
+            continue
+        if not any(link.mass for link in links):
+            yield _left_out(description, robot.links_by_name[name], links)
+        elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
+            yield from _without_shapes(robot.links_by_name[name], links)
+
+
+def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Finding:
+    sensors = [sensor.name.value for link in links for sensor in link.sensors]
+    merged = {link.name.value for link in links}
+    below = [
+        joint.child.value
+        for joint in description.robot.joints
+        if joint.parent.value in merged and joint.child.value not in merged
+    ]
+    lost = [f"sensor {sensors[0]!r}"] if sensors else []
+    lost += [f"link {below[0]!r} below it"] if below else []
+    with_it = f", with {' and '.join(lost)}" if lost else ""
+    missed = lost or any(link.collisions or link.visuals for link in links)
+    lacks = "<inertial>" if link.inertial is None else "mass"
+    return finding(
+        link,
+        f"link {link.name.value!r} has no {lacks}, so Gazebo drops it{with_it}",
+        severity=None if missed and description.robot.is_for_gazebo else Severity.WARNING,
+    )
+
+
+def _without_shapes(link: Link, links: list[Link]) -> Iterator[Finding]:
+    mass = sum(link.mass for link in links)
+    collides = any(link.collisions for link in links)
+    is_seen = any(link.visuals for link in links)
+    missing = [*(() if collides else ("collision",)), *(() if is_seen else ("visual",))]
+    if missing:
+        yield finding(
+            link,
+            f"link {link.name.value!r} of {mass:g} kg has no <{'> and no <'.join(missing)}>",
+            severity=Severity.INFO,
+            key=" ".join(missing),
+            covered_by=("GEO002",) if not collides else (),
+        )
+
+
+_MOMENTS = 'ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"'
+_BODY = f'<inertial><mass value="1"/><inertia {_MOMENTS}/></inertial>'
+_BOX = '<geometry><box size="1 1 1"/></geometry>'
+_SHAPES = f"<collision>{_BOX}</collision><visual>{_BOX}</visual>"
+_FULL = _BODY + _SHAPES
+_FILE = "urdf/arm.urdf"
+
+
+def _robot(base: str, arm: str, kind: str = "revolute", more: str = "") -> dict[str, object]:
+    mark = "  <!-- ^ URD007 -->"
+    text = f"""<robot name="arm">
+<link name="base_link">{base.replace("MARK", mark)}
+</link>
+<link name="arm">{arm.replace("MARK", mark)}
+</link>
+<joint name="j" type="{kind}"><parent link="base_link"/><child link="arm"/></joint>
+{more}
+</robot>
+"""
+    return {"@urdf": True, _FILE: text}
+
+
+_KEPT = '<gazebo reference="j"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
+_SENSOR = '<gazebo reference="arm"><sensor name="camera" type="camera"/></gazebo>'
+GOOD = [
+    _robot(_FULL, _FULL),
+    _robot(_FULL, "", "fixed", _SENSOR),
+    _robot("", _FULL, "fixed"),
+    {"urdf/robot_from_sdf.xacro": '<robot name="r"><link name="a"/></robot>'},
+]
+BAD = [
+    _robot(_FULL, "MARK", "revolute", _SENSOR),
+    _robot("MARK", _FULL),
+    _robot(_FULL, "MARK", "fixed", _KEPT),
+    _robot(_FULL, "MARK" + _BODY),
+]

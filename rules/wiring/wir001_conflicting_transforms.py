@@ -1,0 +1,292 @@
+"""A frame gets its transform from two publishers of a launch.
+
+TF keeps what came last. With two publishers of one transform the robot jumps between two places,
+many times a second; with two parents for one frame the tree is a different one each time, and
+whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive plugin of
+Gazebo Classic, a drive controller of ros2_control) and a filter that takes its odometry
+(`ekf_node`) both publish `odom` to the base unless one of them is told not to. The joints of the
+robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
+at `base_link` where that is a child of `base_footprint`, makes two of one.
+
+It is reported where both are started with the defaults of all arguments, and the frames of both
+are known from their parameters.
+
+Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's transforms, or state
+`enable_odom_tf: false` for the controller, or `<publish_odom_tf>false</publish_odom_tf>` for the
+plugin of Gazebo Classic. Without: `publish_tf: false` for the filter. Odometry ends at the root of
+the robot.
+Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
+`publish_tf`; ros2_controllers, `enable_odom_tf`.
+"""
+
+from itertools import combinations
+
+from checker.model.components import Joint
+from checker.model.ros.wiring.transforms import Transform
+from checker.model.ros.wiring.wiring import Wiring
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_MOST = 8
+"""Publishers of one frame that are compared."""
+
+
+@rule("WIR001", "conflicting-transforms", Severity.WARNING, Concern.INTERFACE)
+def check(wiring: Wiring) -> Findings:
+    """Report each two publishers of a transform, or of two parents of one frame."""
+    by_frame: dict[tuple[str, str], list[Transform]] = {}
+    for transform in wiring.transforms:
+        by_frame.setdefault((transform.child, transform.topic), []).append(transform)
+    for same in by_frame.values():
+        for first, second in combinations(same[:_MOST], 2):
+            if first.source is not second.source and not isinstance(first.source, Joint):
+                yield finding(
+                    first.span,
+                    f"{_fault(first, second)}: {_cure(first, second)}",
+                    key=f"{first.child} {first.by} {second.by}",
+                    related=[(second.span, f"{second.by} publishes {second}")],
+                )
+
+
+def _cure(first: Transform, second: Transform) -> str:
+    """Return what to do; a joint itself is no fault, and its robot starts at its root."""
+    repeats = isinstance(second.source, Joint) and first.parent == second.parent
+    return first.cure if repeats or not second.cure else f"{first.cure}, or {second.cure}"
+
+
+def _fault(first: Transform, second: Transform) -> str:
+    if first.parent == second.parent:
+        return f"transform {first} has two publishers, {first.by} and {second.by}"
+    return (
+        f"frame {first.child!r} has two parents, {first.parent!r} from {first.by} and "
+        f"{second.parent!r} from {second.by}"
+    )
+
+
+_TRANSFORMS = """- ros_topic_name: /tf
+  gz_topic_name: /model/rover/tf{}
+  ros_type_name: tf2_msgs/msg/TFMessage
+  gz_type_name: gz.msgs.Pose_V
+  direction: GZ_TO_ROS
+"""
+_ROBOT = """<robot name="rover">
+  <link name="base_link"/>
+  <gazebo>
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+      <frame_id>odom</frame_id><child_frame_id>base_link</child_frame_id>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+_EKF = """LaunchDescription([
+        Node(package="robot_localization", executable="ekf_node",{} parameters=[
+            os.path.join(HERE, "config", "ekf.yaml"){}]),
+"""
+_LAUNCHED = "LaunchDescription([\n"
+_MARK = "  # ^ WIR001"
+
+
+def _filter(settings: str, mark: str = "", more: str = "", name: str = "") -> dict[str, object]:
+    return {
+        "@bridge": _TRANSFORMS.format(mark),
+        "@launch": {_LAUNCHED: _EKF.format(name, more)},
+        "urdf/rover.urdf": _ROBOT,
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}\n",
+    }
+
+
+_CONTROL = """
+  <ros2_control name="base" type="system">
+    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  </ros2_control>
+  <gazebo>
+    <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+      <parameters>$(find acme_rover_bringup)/config/base.yaml</parameters>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+_YAML = """controller_manager:
+  ros__parameters:
+    base_controller: {type: diff_drive_controller/DiffDriveController}
+base_controller:%
+  ros__parameters: {enable_odom_tf: @}
+"""
+_SPAWNER = """LaunchDescription([
+        Node(package="controller_manager", executable="spawner", arguments=["base_controller"]),
+"""
+
+
+def _controlled(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, object]:
+    return {
+        "@bridge": _TRANSFORMS.format(mark),
+        "@launch": {_LAUNCHED: _SPAWNER},
+        "urdf/rover.urdf": _ROBOT.replace("</robot>\n", _CONTROL),
+        "config/base.yaml": _YAML.replace("@", odom_tf).replace("%", yaml),
+    }
+
+
+_MANAGER = """        Node(package="controller_manager", executable="ros2_control_node",{}
+             parameters=[os.path.join(HERE, "config", "base.yaml")]),
+"""
+
+
+def _on_hardware(settings: str, mark: str = "", manager: str = "") -> dict[str, object]:
+    """Return a rover whose drive is run by ros2_control_node, beside a filter."""
+    nodes = _EKF.format("", "").partition("\n")[2]
+    return {
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _SPAWNER + nodes + _MANAGER.format(manager)},
+        "config/base.yaml": _YAML.replace("@", "true").replace("%", mark),
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}\n",
+    }
+
+
+_CLASSIC = """<launch>
+  <include file="$(find-pkg-share gazebo_ros)/launch/gazebo.launch.py"/>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/rover.urdf')"/>
+  </node>
+  <node pkg="gazebo_ros" exec="spawn_entity.py" args="-topic robot_description -entity rover"/>
+  <node pkg="robot_localization" exec="ekf_node">
+    <param name="base_link_frame" value="base_footprint"/>
+  </node>
+</launch>
+"""
+
+
+def _classic(plugin: str) -> dict[str, object]:
+    return {
+        "@bridge": True,
+        "launch/rover.launch.py": None,
+        "launch/classic.launch.xml": _CLASSIC,
+        "urdf/rover.urdf": f"""<robot name="rover">
+  <link name="base_footprint"/>
+  <gazebo><plugin name="drive" {plugin}</plugin></gazebo>
+</robot>
+""",
+    }
+
+
+_TF = "<publish_odom_tf>{}</publish_odom_tf>"
+_XML_MARK = "  <!-- ^ WIR001 -->"
+
+_STATIC = """LaunchDescription([
+        Node(package="tf2_ros", executable="static_transform_publisher", arguments=[@]),%
+"""
+
+
+def _static(words: str, mark: str = "") -> dict[str, object]:
+    """Return a rover, whose lidar has a joint, with a static transform."""
+    return {"@bridge": True, "@launch": {_LAUNCHED: _STATIC.replace("@", words).replace("%", mark)}}
+
+
+def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
+    """Return a rover whose base is a child of its footprint, with a filter."""
+    urdf = """<robot name="rover">
+  <link name="base_footprint"/>
+  <link name="base_link"/>
+  <joint name="base_joint" type="fixed">
+    <parent link="base_footprint"/>
+    <child link="base_link"/>
+  </joint>
+</robot>
+"""
+    return {
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _EKF.format("", "")},
+        "urdf/rover.urdf": urdf,
+        "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}{mark}\n",
+    }
+
+
+_CONTAINER = """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="nav" namespace="">
+    <composable_node pkg="nav2_amcl" plugin="nav2_amcl::AmclNode" name="amcl">
+      <param name="tf_broadcast" value="@"/>%
+    </composable_node>
+  </node_container>
+  <node pkg="robot_localization" exec="ekf_node">
+    <param name="world_frame" value="map"/>
+  </node>
+</launch>
+"""
+
+
+def _component(tf_broadcast: str, mark: str = "") -> dict[str, object]:
+    """Return a launch file with a component that localises beside a filter."""
+    launch = _CONTAINER.replace("@", tf_broadcast).replace("%", mark)
+    return {"@bridge": True, "launch/nav.launch.xml": launch}
+
+
+_INCLUDED = """<launch>
+  <node pkg="robot_localization" exec="ekf_node">%
+    <param name="world_frame" value="map"/>
+  </node>
+  <include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py">
+    <arg name="params_file" value="$(find-pkg-share acme_rover_bringup)/config/nav2.yaml"/>
+    <arg name="slam" value="@"/>
+  </include>
+</launch>
+"""
+
+
+def _included(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
+    """Return a filter for the map beside the navigation of another package."""
+    return {
+        "@bridge": True,
+        "launch/nav.launch.xml": _INCLUDED.replace("@", slam).replace("%", mark),
+        "config/nav2.yaml": yaml,
+    }
+
+
+GOOD = [
+    {"@bridge": True},
+    _included("True", "amcl: {ros__parameters: {}}"),
+    _included("False", "amcl: {ros__parameters: {tf_broadcast: false}}"),
+    _component("false"),
+    _static('"--frame-id", "lidar_link", "--child-frame-id", "lidar_optical"'),
+    _static('"0", "0", "0", "0", "0", "0", "map", "base_link"'),
+    _static(
+        '"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"], namespace="r1", '
+        'remappings=[("/tf_static", "tf_static")'
+    ),
+    _on_footprint("base_link_frame: base_footprint"),
+    _filter("publish_tf: false"),
+    _filter("world_frame: map"),
+    _filter("base_link_frame: base_footprint"),
+    _filter("publish_tf: true", more=", {'publish_tf': False}"),
+    {**_filter("publish_tf: true"), "@launch": {}},
+    {**_filter("publish_tf: true"), "@bridge": True},
+    {
+        **_filter("publish_tf: true"),
+        "@bridge": _TRANSFORMS.format("").replace("ros_topic_name: /tf", "ros_topic_name: /gz/tf"),
+    },
+    _filter("publish_tf: false", name=' name="ekf_filter_node",'),
+    _controlled("false"),
+    _on_hardware("publish_tf: false"),
+    _on_hardware("publish_tf: true", manager=' namespace="r1",'),
+    _classic('filename="libgazebo_ros_diff_drive.so">'),
+    _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
+]
+BAD = [
+    _included("False", "amcl: {ros__parameters: {}}", _XML_MARK),
+    _component("true", _XML_MARK),
+    _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
+    _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
+    _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),
+    _on_footprint("publish_tf: true", _MARK),
+    _filter("publish_tf: true", _MARK),
+    _filter("odom_frame: map, world_frame: map", _MARK),
+    _filter("publish_tf: false", _MARK, name=' name="ekf",'),
+    _controlled("true", _MARK),
+    _on_hardware("publish_tf: true", _MARK),
+    _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("true")}{_XML_MARK}'),
+    _classic(f'filename="libgazebo_ros_planar_move.so">{_XML_MARK}'),
+    {
+        **_controlled("true", yaml=_MARK),
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _SPAWNER + _EKF.format("", "").partition("\n")[2]},
+        "config/ekf.yaml": "/**:\n  ros__parameters: {publish_tf: true}\n",
+    },
+]

@@ -1,0 +1,146 @@
+"""A parameter file that has nothing for the node which is given it.
+
+The node starts with its defaults, and no message says so: a block of a parameter file is for the
+node whose full name is its key. With a `name` in the launch file, or a namespace, it is another
+node: `controller_server:` is not for `/follower`, and not for `/robot/controller_server`.
+
+It is reported where a block has the usual name of the program or the node's name in another
+namespace, and no node of the launch reads it; or where no node of the launch reads any of the
+file's blocks.
+
+Fix: write the same name in both files. Two asterisks in a key stand for any namespace, and alone
+for every node, as in the examples.
+Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`; ROS 2 design, "Parameters".
+"""
+
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import NodeKind, is_known
+from checker.model.ros.wiring.nodes import WiredNode
+from checker.model.ros.wiring.parameters import LoadedFile
+from checker.model.ros.wiring.wiring import Wiring
+from checker.model.ros2_control.parameters import MANAGER, NodeBlock
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_COSTMAPS = ("local_costmap", "global_costmap")
+"""Nodes that servers of Nav2 make themselves."""
+
+
+@rule("WIR003", "unused-parameter-file", Severity.WARNING, Concern.INTERFACE)
+def check(wiring: Wiring) -> Findings:
+    """Report nodes that get nothing of a file, where the file was meant for them."""
+    for node in wiring.nodes:
+        for file in node.files if _is_alone(node) else ():
+            orphans = _orphans(wiring, node, file)
+            meant = next((block for block in orphans if _is_meant(block, node)), None)
+            whole = wiring.knows_nodes and len(orphans) == len(file.blocks)
+            if meant is None and not (orphans and whole):
+                continue
+            block = meant or orphans[0]
+            keys = ", ".join(name.removeprefix("/") for name in file.names[:4])
+            more = " …" if len(file.names) > 4 else ""
+            yield finding(
+                node.node.name or file.given.span,
+                f"{node.called} gets no parameter from {file.path}, whose keys are {keys}{more}: "
+                f"expected the key {node.full_name.removeprefix('/')}, or a node of that name",
+                key=f"{node.full_name} {file.path}",
+                related=[(block.span, "no node of this launch has this name")],
+            )
+
+
+def _is_alone(node: WiredNode) -> bool:
+    """Whether a process has no nodes but its own, as far as is known."""
+    kinds = (NodeKind.CONTAINER, NodeKind.INCLUDED)
+    hosts = node.node.kind in kinds or node.node.package.value == MANAGER
+    return bool(node.full_name) and not hosts and not node.node.unread
+
+
+def _orphans(wiring: Wiring, node: WiredNode, file: LoadedFile) -> list[NodeBlock]:
+    """Return the blocks of a file that no node reads; none where the node reads one."""
+    if any(node.reads(block) for block in file.blocks):
+        return []
+    if not all(is_known(block.name) and "<" not in block.name for block in file.blocks):
+        return []
+    others = [other for other in wiring.every_node if other.full_name]
+    return [block for block in file.blocks if not any(other.reads(block) for other in others)]
+
+
+def _is_meant(block: NodeBlock, node: WiredNode) -> bool:
+    """Whether a block has the name of a node but for its namespace, or its program's usual name."""
+    return block.node in _names(node) and block.node not in _COSTMAPS
+
+
+def _names(node: WiredNode) -> Iterator[str]:
+    yield node.name
+    yield node.node.executable.value
+    if node.facts is not None and node.facts.name:
+        yield node.facts.name
+
+
+_NODE = """LaunchDescription([
+        Node(package="{}", executable="{}",{}
+             parameters=[os.path.join(HERE, "config", "a.yaml")]),
+"""
+_IN_NAMESPACE = _NODE.format("nav2_controller", "controller_server", ' namespace="rover",')
+_HEAD = "LaunchDescription([\n"
+_MARK = "  # ^ WIR003"
+
+
+def _given(
+    key: str, name: str, package: str = "nav2_controller", program: str = "controller_server"
+) -> dict[str, object]:
+    return {
+        "@bridge": True,
+        "@launch": {_HEAD: _NODE.format(package, program, name)},
+        "config/a.yaml": f"{key}:\n  ros__parameters: {{rate: 10}}\n",
+    }
+
+
+_CONTAINER = """LaunchDescription([
+        ComposableNodeContainer(package="rclcpp_components", executable="component_container",
+             name="box", namespace="", composable_node_descriptions=[ComposableNode(
+             package="nav2_amcl", plugin="nav2_amcl::AmclNode",{}
+             parameters=[os.path.join(HERE, "config", "a.yaml")])]),
+"""
+_IMPORTS = "from launch_ros.actions import Node\n"
+_MORE = """from launch_ros.actions import ComposableNodeContainer, Node
+from launch_ros.descriptions import ComposableNode
+"""
+
+
+def _component(name: str) -> dict[str, object]:
+    """Return a container with a component, and parameters for `amcl`."""
+    launch = {_HEAD: _CONTAINER.format(name), _IMPORTS: _MORE}
+    return {**_given("amcl", ""), "@launch": launch}
+
+
+_LIDAR = ("acme_lidar", "lidar_node")
+GOOD = [
+    _component(' name="amcl",'),
+    _component(""),
+    _given("controller_server", ""),
+    _given("follower", ' name="follower",'),
+    _given("/**", ' name="follower",'),
+    _given("/**/controller_server", ' namespace="rover",'),
+    _given("rover/controller_server", ' namespace="rover",'),
+    _given("lidar", "", *_LIDAR),
+    _given("lidar", ' name="lidar",', *_LIDAR),
+    _given("wheel_controller", ' name="manager",', "controller_manager", "ros2_control_node"),
+    {
+        **_given("lidar", ' name="follower",'),
+        "@launch": {
+            _HEAD: _NODE.format(*_LIDAR, "")
+            + _NODE.format("nav2_controller", "controller_server", "").partition("\n")[2]
+        },
+    },
+]
+BAD = [
+    _component(f' name="localizer",{_MARK}'),
+    _given("controller_server", f' name="follower",{_MARK}'),
+    {
+        **_given("controller_server", ""),
+        "@launch": {_HEAD: _IN_NAMESPACE.replace('"a.yaml")]', f'"a.yaml")]{_MARK}\n')},
+    },
+    _given("laser", f' name="lidar",{_MARK}', *_LIDAR),
+    _given("rover/lidar", f' name="lidar",{_MARK}', *_LIDAR),
+]

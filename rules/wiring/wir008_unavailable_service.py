@@ -1,0 +1,109 @@
+"""A node waits for a service or action that nothing in the launch offers.
+
+Bringing up stops there: a lifecycle manager asks each of its `node_names` for its state and waits
+until the node answers, so that a name that no node has holds up all others; `bt_navigator` does not
+become active without the servers of its behaviour tree. A namespace on only one of two nodes, or a
+`name` in the launch file, makes the names differ as well.
+
+It is reported where all nodes of the launch file are known, and no other launch file of the package
+starts a node that offers it. Behaviour trees of one's own may need other servers, and are not
+judged.
+
+Fix: start the node that is missing, or correct its name or namespace.
+Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design, "Managed nodes".
+"""
+
+from checker.expand.ros2_launch.graph import LaunchGraph, Node, Ros2Launch
+from checker.model.ros.wiring.facts import NodeFacts, node_facts, program_of
+from checker.model.ros.wiring.services import Wanted, offered, wanted
+from checker.model.ros.wiring.wiring import Wiring
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+
+
+@rule("WIR008", "unavailable-service", Severity.WARNING, Concern.INTERFACE)
+def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
+    """Report services and actions that known nodes wait for, and that no node offers."""
+    there = {name for node in wiring.every_node for name in offered(node)}
+    others = [graph for graph in launch.entries if graph is not wiring.graph]
+    for node in wiring.nodes:
+        for each in wanted(node):
+            if each.name in there or any(_may_offer(graph, each) for graph in others):
+                continue
+            if unknown := _unknown(wiring):
+                yield unchecked(f"whether something offers {each.name} is not known: {unknown}")
+                continue
+            what = f"node {each.item!r}" if each.item else each.name
+            yield finding(
+                each.span,
+                f"{node.called} waits for {what}: nothing in this launch offers {each.name}",
+                key=f"{node.called} {each.name}",
+            )
+
+
+def _may_offer(graph: LaunchGraph, each: Wanted) -> bool:
+    """Whether another launch file, in whatever namespace, starts what offers it."""
+    short = each.item or each.name.rpartition("/")[2]
+    included = (node for include in graph.includes for node in include.nodes)
+    return any(short in _names(node) for node in (*graph.nodes, *included))
+
+
+def _names(node: Node) -> tuple[str, ...]:
+    facts = node_facts().get(program_of(node), NodeFacts())
+    name = node.name.value if node.name is not None else facts.name
+    return (name, node.executable.value, *facts.offers)
+
+
+def _unknown(wiring: Wiring) -> str:
+    """Say why there may be more nodes and services than those known; else nothing."""
+    strange = (node for node in wiring.every_node if node.facts is None or not node.full_name)
+    reasons = (f"what {node.program} offers is not known" for node in strange)
+    return next(iter((*wiring.unread, *reasons)), "")
+
+
+_LAUNCH = """<launch>
+  <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+  <node pkg="nav2_amcl" exec="amcl" name="amcl"@/>
+  <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
+    <param from="$(find-pkg-share acme_rover_bringup)/config/nav2.yaml"/>
+  </node>
+</launch>
+"""
+_TREE = """<launch>
+  <node pkg="nav2_planner" exec="planner_server"/>
+  <node pkg="nav2_controller" exec="controller_server"@/>
+  <node pkg="nav2_bt_navigator" exec="bt_navigator">%
+    <param name="odom_topic" value="/odom"/>
+  </node>
+</launch>
+"""
+_MARK = "  # ^ WIR008"
+_ELSEWHERE = '<launch><node pkg="nav2_controller" exec="controller_server"/></launch>'
+
+
+def _managed(names: str, more: str = "") -> dict[str, object]:
+    """Return a lifecycle manager of two nodes."""
+    return {
+        "@bridge": True,
+        "launch/nav.launch.xml": _LAUNCH.replace("@", more),
+        "config/nav2.yaml": f"manager:\n  ros__parameters:\n    node_names: {names}\n",
+    }
+
+
+def _tree(controller: str, mark: str = "") -> dict[str, object]:
+    """Return a navigator with the servers of its behaviour tree."""
+    launch = _TREE.replace("@", controller).replace("%", mark)
+    return {"@bridge": True, "launch/nav.launch.xml": launch}
+
+
+_WITHOUT = ' if="false"'
+GOOD = [
+    _managed("[map_server, amcl]"),
+    _managed("[map_server]", ' namespace="r1"'),
+    _tree(""),
+    {**_tree(_WITHOUT), "launch/control.launch.xml": _ELSEWHERE},
+]
+BAD = [
+    _managed(f"[map_server, amcl, planner_server]{_MARK}"),
+    _managed(f"[map_server, amcl]{_MARK}", ' namespace="r1"'),
+    _tree(' namespace="r1"', "  <!-- ^ WIR008 -->"),
+]

@@ -1,0 +1,66 @@
+"""A world whose time does not run as it says.
+
+At each step Gazebo adds `<max_step_size>` to the time of the world: with zero, time stands still
+and nothing moves; a negative one is no time at all. `<real_time_factor>` is how fast time should
+run against the clock on the wall: of zero or less, Gazebo can make no pace.
+
+Fix: state a step above zero, usually 0.001 to 0.004 s, and a factor above zero, usually 1.
+Source: gz-sim, SimulationRunner (from memory).
+"""
+
+from checker.model.sdf.world import World
+from checker.model.values import parse_number
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+_EFFECTS = {
+    "max_step_size": "time stands still, and nothing moves",
+    "real_time_factor": "Gazebo cannot keep any pace",
+}
+
+
+@rule("WLD007", "non-positive-physics-step", Severity.WARNING, Concern.ROBOT)
+def check(world: World) -> Findings:
+    """Report steps and factors of the physics in force that are not above zero."""
+    physics = _in_force(world)
+    for tag, effect in _EFFECTS.items() if physics is not None else ():
+        stated = physics.child(tag) if physics is not None else None
+        value = parse_number(stated.text.value) if stated is not None else None
+        if stated is not None and value is not None and value <= 0:
+            yield finding(
+                stated.text,
+                f"<{tag}> of world {world.name!r} is {value:g}, expected more than 0: {effect}",
+            )
+
+
+def _in_force(world: World) -> Element | None:
+    """Return the `<physics>` that says it is the default, else the first."""
+    every = [*world.element.all("physics")]
+    said = [it for it in every if (it.get("default") or "").lower() in ("1", "true")]
+    return next(iter((*said, *every)), None)
+
+
+def _world(*physics: str) -> str:
+    lines = "\n    ".join(physics)
+    return f'\n<sdf version="1.9">\n  <world name="hall">\n    {lines}\n  </world>\n</sdf>\n'
+
+
+def _physics(step: str, factor: str = "1", default: str = "", mark: str = "") -> str:
+    stated = f' default="{default}"' if default else ""
+    return (
+        f'<physics name="p" type="ode"{stated}><max_step_size>{step}</max_step_size>'
+        f"<real_time_factor>{factor}</real_time_factor></physics>{mark}"
+    )
+
+
+_MARK = "  <!-- ^ WLD007 -->"
+GOOD = [
+    _world(),
+    _world(_physics("0.001")),
+    _world(_physics("0"), _physics("0.001", default="true")),
+]
+BAD = [
+    _world(_physics("0", mark=_MARK)),
+    _world(_physics("-0.001", mark=_MARK)),
+    _world(_physics("0.001", "0", mark=_MARK)),
+]
