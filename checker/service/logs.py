@@ -5,7 +5,6 @@ An id opens a report; the key of a check, which tells it apart as well, opens no
 
 from __future__ import annotations
 
-import hashlib
 import json
 import logging
 import sys
@@ -152,8 +151,3 @@ def log_to_stderr() -> None:
         logger.setLevel(logging.INFO)
     of_addresses = logging.getLogger(_WITH_ADDRESSES)
     of_addresses.handlers, of_addresses.propagate = [], False
-
-
-def short(id: str) -> str:
-    """Return what tells checks apart in logs and opens none of them."""
-    return hashlib.sha256(id.encode("utf-8", "replace")).hexdigest()[:12]

@@ -25,6 +25,14 @@ def test_an_id_is_128_random_bits(tmp_path: Path) -> None:
     assert all(len({bits[at] for bits in drawn}) > 1 for at in range(16))
 
 
+def test_an_id_is_no_option_of_a_command() -> None:
+    """Of 500 plain ids eight would begin with a hyphen."""
+    order = Order("0" * 64, "robot.zip")
+    ids = [receipt_for(order, str(seed)).id for seed in range(500)]
+    assert {len(id) for id in ids} == {22}
+    assert not [id for id in ids if id.startswith("-")]
+
+
 def test_the_key_of_a_check_is_a_digest_of_its_own() -> None:
     id = "0123456789abcdefghijkl"
     digest = hashlib.sha256(b"subt-check: key of a check\0" + id.encode()).hexdigest()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from checker.service.jobs.durable.receipts import key_of_check
 from checker.service.jobs.port import Stage
 from tests.jobs.site import site_in
 
@@ -28,4 +29,9 @@ def test_workers_log_json_lines_without_ids(tmp_path: Path) -> None:
     )
     [fault] = [line for line in lines if line["level"] == "error"]
     assert "as a fault of ours would" in fault["trace"]
+    [ended] = [line for line in lines if line.get("outcome") == "done"]
+    assert (ended["stage"], ended["try"], ended["seconds"] > 0) == ("trial", 1, True)
+    assert {fault["check"], ended["check"]} == {
+        key_of_check(each.id)[:12] for each in (fails, warns)
+    }
     assert not [word for each in (fails, warns) for word in (each.id, each.secret) if word in text]

@@ -18,8 +18,9 @@ from hypothesis import strategies as st
 from prometheus_client.parser import text_string_to_metric_families
 
 from checker.base.sandbox.layers import Layer
+from checker.service.jobs.durable.receipts import SHOWN_DIGITS, key_of_check
 from checker.service.jobs.port import Alive, JobsUnreachable, Pace, State
-from checker.service.logs import FIELDS, JsonLines, short
+from checker.service.logs import FIELDS, JsonLines
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
@@ -274,7 +275,7 @@ def test_logs_hold_no_token_no_id_and_no_name(
             assert hidden not in line
     first = json.loads(lines[0])
     assert (first["route"], first["status"]) == ("/api/checks/{id}", 200)
-    assert first["check"] == short(ID)
+    assert first["check"] == key_of_check(ID)[:SHOWN_DIGITS]
 
 
 @given(st.text(), st.text())

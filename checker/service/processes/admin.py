@@ -15,14 +15,13 @@ from checker.base.output import EXIT_CLEAN, show
 from checker.service.jobs.durable.admin import Admin, Listed
 from checker.service.jobs.durable.database import database_url, open_database, reachable
 from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.receipts import SHOWN_DIGITS
 from checker.service.jobs.durable.retention import Retention
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.place import DATABASE, choose, data_folder
 from checker.service.store.store import opened
 
-_SHOWN_KEY = 12
-"""Characters; enough to tell checks apart."""
 _UNITS = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"))
 
 
@@ -95,7 +94,7 @@ def _table(listed: Sequence[Listed]) -> str:
     rows = [("KEY", "STAGE", "TRY", "AGE", "WORKER", "WORDS")]
     rows += [
         (
-            *(each.key[:_SHOWN_KEY], each.stage.value, str(each.number), _age(each.age)),
+            *(each.key[:SHOWN_DIGITS], each.stage.value, str(each.number), _age(each.age)),
             *(each.worker or "-", each.words),
         )
         for each in listed

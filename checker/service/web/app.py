@@ -15,8 +15,9 @@ from checker.base.resources import version_of
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import database_url
+from checker.service.jobs.durable.receipts import SHOWN_DIGITS, key_of_check
 from checker.service.jobs.port import Jobs
-from checker.service.logs import FIELDS, LOGGER, log_to_stderr, short
+from checker.service.logs import FIELDS, LOGGER, log_to_stderr
 from checker.service.store.store import Store, opened
 from checker.service.web import health
 from checker.service.web.answers.bodies import Heads
@@ -98,7 +99,7 @@ def _about(scope: Scope) -> dict[str, Any]:
     method = scope["method"] if scope["method"] in _METHODS else "other"
     about = {"method": method, "route": _route(scope)}
     if id := scope.get("path_params", {}).get("id"):
-        about["check"] = short(str(id))
+        about["check"] = key_of_check(str(id))[:SHOWN_DIGITS]
     if cause := scope["state"].get(CAUSE):
         about["refused"] = cause
     return about

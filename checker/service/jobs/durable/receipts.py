@@ -10,7 +10,9 @@ from checker.service.jobs.port import Order, Receipt
 _CHARACTERS = 22
 """Of an id and of a secret, six bits each."""
 _KEY = b"subt-check: key of a check\0"
-"""Keeps keys apart from other digests of ids, such as those in logs."""
+"""Keeps keys apart from other digests of ids."""
+SHOWN_DIGITS = 12
+"""Of a key, in logs and lists: enough to tell checks apart."""
 
 
 def receipt_for(order: Order, seed: str) -> Receipt:
@@ -47,7 +49,8 @@ def digest_of_secret(secret: str) -> str:
 
 def _derived(*parts: str) -> str:
     digest = sha256(_joined(*parts)).digest()
-    return urlsafe_b64encode(digest).decode("ascii")[:_CHARACTERS]
+    # Where it began with "-", a command would take it for an option.
+    return urlsafe_b64encode(digest).decode("ascii").lstrip("-")[:_CHARACTERS]
 
 
 def _joined(*parts: str) -> bytes:

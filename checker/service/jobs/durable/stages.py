@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import msgspec
@@ -21,6 +21,7 @@ from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import reachable
+from checker.service.jobs.durable.receipts import SHOWN_DIGITS
 from checker.service.jobs.durable.tasks import End, Task
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,
@@ -31,6 +32,7 @@ from checker.service.jobs.outcome import (
     Refused,
 )
 from checker.service.jobs.port import JobsUnreachable, Stage
+from checker.service.logs import FIELDS
 from checker.service.store.store import Store
 
 _T = TypeVar("_T")
@@ -67,12 +69,15 @@ class Stages(Record):
         Returns:
             The end of its check (`tasks.End`), as JSON has it; empty where a further task follows.
         """
-        task = msgspec.convert(given, Task)
+        task, begun = msgspec.convert(given, Task), time.monotonic()
         try:
             end = task.end or task.given_up or self._done(task)
         except Exception:  # noqa: BLE001 - whatever it is
-            _LOG.exception("a check fails in its stage %s", task.stage)
+            _LOG.exception("the checker failed", extra=_about(task))
             end = End(Stage.FAILED, FAILED_INSIDE, task.result, task.packages)
+        seconds = round(time.monotonic() - begun, 3)
+        outcome = end.stage.value if end else "continued"
+        _LOG.info("stage ended", extra=_about(task, seconds=seconds, outcome=outcome))
         return msgspec.to_builtins(end) if end else {}
 
     def _done(self, task: Task) -> End | None:
@@ -86,7 +91,7 @@ class Stages(Record):
                 if self.hand_back.is_set():
                     patiently(lambda: self.checks.hand_back(task))
             case Disturbed(reason):
-                _LOG.warning("a check comes to nothing in its stage %s: %s", task.stage, reason)
+                _LOG.warning("to be tried again: %s", reason, extra=_about(task))
                 patiently(lambda: self.checks.again(task, reason))
             case Checked() if task.stage is Stage.STATIC:
                 cost = _TRIAL_SECONDS + _TRIAL_SHARE * (time.monotonic() - begun)
@@ -144,3 +149,9 @@ def patiently(ask: Callable[[], _T]) -> _T:
                 _LOG.warning("%s; asks again each second", error)
             is_away = True
             time.sleep(_RETRY_SECONDS)
+
+
+def _about(task: Task, **more: object) -> Mapping[str, Mapping[str, object]]:
+    """Return what a line of the log says of a task."""
+    key = task.key[:SHOWN_DIGITS]
+    return {FIELDS: {"check": key, "stage": task.stage.value, "try": task.number, **more}}
