@@ -54,6 +54,7 @@ lint: .venv/dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
+	$(BIN)/pytest -q tests/test_words.py
 
 types: .venv/dev
 	$(BIN)/mypy

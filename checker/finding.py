@@ -120,7 +120,7 @@ class Edit(Record):
 
     Attributes:
         place: Where the text stands.
-        replacement: What shall stand there.
+        replacement: The new text.
         original: What stands there. Where the file holds something else, as a spawner does that
             puts a text together, the edit cannot be made.
     """

@@ -75,7 +75,7 @@ def check_paths(
 
 
 Checked = tuple[PackageReport | NotOpened, ...]
-"""What comes of one task."""
+"""The result of one task."""
 
 
 class Task(Record):
@@ -167,7 +167,7 @@ def _is_folder(path: Path) -> bool:
 
 
 def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
-    """Yield what comes of each task, in their order.
+    """Yield the result of each task, in their order.
 
     Args:
         tasks: As `tasks_of` returns them.

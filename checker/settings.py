@@ -59,10 +59,10 @@ class Settings(Record):
         thorough: Whether they are driven again at half the time step.
         cache: Whether results are kept on disk, and taken from there.
         devices: Sensor devices of the user's, each in the form of `devices.json`.
-        display: Whether the report shall hold the robot in 3D.
+        display: Whether the report contains the robot in 3D.
         package_path: Folders in which further packages are found.
         xacro_args: Arguments for xacro files, before those that launch files give.
-        suppress: Findings that shall not count.
+        suppress: Findings that do not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
         target_reason: What of the package's content chose profile or distribution.

@@ -28,8 +28,8 @@ def work_key(request: Iterable[bytes | str], code: Iterable[str], libraries: Ite
     """Return the key of a result: a hash of all that it depends on.
 
     Args:
-        request: What is worked out.
-        code: Folders and files of this program that work it out, relative to `checker`.
+        request: What is computed.
+        code: Folders and files of this program that compute it, relative to `checker`.
         libraries: Names of the distributions that they use.
     """
     return key_of(*request, code_hash(*code), *map(version_of, libraries))
@@ -40,7 +40,7 @@ def _always(_: object) -> bool:
 
 
 class Work(Record, Generic[T], eq=False):
-    """What is to be worked out: some items, by one process.
+    """What is to be computed: some items, by one process.
 
     Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with
     a JSON list of as many results; in place of one, `failed` says why there is none.
@@ -55,7 +55,7 @@ class Work(Record, Generic[T], eq=False):
         common: What all items need.
         files: Returns paths of files that go with items, and how many bytes each may have.
         lasts: Whether a result holds next time as well.
-        here: Works out one item in this process, where that takes less than to start another.
+        here: Computes one item in this process, where that takes less than to start another.
     """
 
     kind: str
@@ -93,7 +93,7 @@ class Background(Generic[T]):
         return not self._unknown
 
     def begin(self) -> None:
-        """Look up what is known, and have a process work out the rest; `results` waits for it."""
+        """Look up what is known, and have a process compute the rest; `results` waits for it."""
         if self._unknown is not None:
             return
         for key in self._work.items:

@@ -1,6 +1,6 @@
 """Results on disk by the hash of everything that they depend on.
 
-A cache never fails: what cannot be read or written is worked out again. Entries are JSON, never
+A cache never fails: what cannot be read or written is computed again. Entries are JSON, never
 pickles, so that a foreign file in the folder can at most be wrong, not run.
 """
 

@@ -21,7 +21,7 @@ class NotAvailable(Record):
 
 
 class WorkerFailed(Record):
-    """No result came of a process: it died, ran out of what it may use, or answered with nonsense.
+    """A process gave no result: it died, ran out of what it may use, or answered with nonsense.
 
     Attributes:
         reason: Why, as the end of a sentence whose subject is the work.

@@ -203,7 +203,7 @@ def _token(options: argparse.Namespace) -> str:
 
 
 def _waited(check: Check, say: Say) -> Standing:
-    """Wait for the end; who interrupts is asked whether the check shall end as well."""
+    """Wait for the end; who interrupts is asked whether the check ends as well."""
     try:
         return check.wait(say)
     except KeyboardInterrupt:

@@ -19,7 +19,7 @@ class Measured(Record, eq=False):
 
     Attributes:
         package: In the state that was checked.
-        report: What came of it.
+        report: The result.
         rules: Ids of the rules that need what is measured.
     """
 

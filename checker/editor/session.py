@@ -132,7 +132,7 @@ class Session:
             self.check(unit)
 
     def check(self, unit: Unit) -> State:
-        """Check a unit with the texts of the editor, and remember what comes of it."""
+        """Check a unit with the texts of the editor, and remember the result."""
         before = self._states.get(unit.key, State(unit))
         settings = self._settings_of(unit)
         if isinstance(settings, Problem):

@@ -88,7 +88,7 @@ class RobotDisplay(Record, eq=False, dict=True):
         robots: At least one.
         cache: Where results are kept.
         stages: Told of what takes long.
-        processes: Processes that wait; whoever has started them ends them.
+        processes: Processes that wait; the caller ends them.
     """
 
     robots: tuple[Robot, ...]

@@ -1,4 +1,4 @@
-"""What settings say about rules, held against the rules that there are."""
+"""What settings say about rules, compared with the rules."""
 
 from __future__ import annotations
 

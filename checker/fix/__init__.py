@@ -1,1 +1,1 @@
-"""The edits of findings, made in memory: which go together, and what comes of them."""
+"""The edits of findings, made in memory: which go together, and the result."""

@@ -17,7 +17,7 @@ from checker.package.package import Package
 from checker.report.report import ReportedFinding
 from checker.source.text import SourceText
 
-# Edits of one text: which of them go together, and what comes of them.
+# Edits of one text: which of them go together, and the result.
 
 
 @dataclass(frozen=True, order=True)

@@ -81,7 +81,7 @@ class Drive(Record, eq=False):
 
 
 def drive_of(robot: Robot, wheels: Wheels, wishes: MigrationOptions) -> Drive:
-    """Work out the drive plugin of a robot with wheels.
+    """Compute the drive plugin of a robot with wheels.
 
     Raises:
         NotMigrated: The wheels have no size or stand in one place.

@@ -1,4 +1,4 @@
-"""URIs of models on Fuel, and the packages at hand that were uploaded under their names."""
+"""URIs of models on Fuel, and the available packages that were uploaded under their names."""
 
 from __future__ import annotations
 

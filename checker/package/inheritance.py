@@ -31,7 +31,7 @@ URDF_FOLDER = "urdf"
 
 
 class Part(StrEnum):
-    """A part that a sibling may lend, as reports call it."""
+    """A part that may be inherited from a sibling, by its name in reports."""
 
     MODEL = "model"
     SPAWNER = "spawner"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 USUAL_FOLDERS = ("launch", "meshes", "materials", "urdf", "config", "worlds", "thumbnails")
-"""Folders that a package installs, whether anything at hand names their files or not."""
+"""Folders that a package installs, whether anything available names their files or not."""
 MANIFEST = "package.xml"
 """It is installed by `ament_package()`."""
 _SHARE = "share/"
@@ -75,7 +75,7 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
     """Return a file that is there in the source, and that certainly nothing installs there.
 
     None for what lies in one of the usual folders of the checked package if nothing of that is
-    installed: it is reported as such, whoever names its files.
+    installed: it is reported as such, whichever file names it.
 
     Args:
         package: That is checked.

@@ -150,7 +150,7 @@ class Package(Record, eq=False, dict=True):
 
     @property
     def others(self) -> tuple[Package, ...]:
-        """The other packages at hand; what is edited in memory is the same package."""
+        """The other available packages; what is edited in memory is the same package."""
         packages = self.workspace.packages.values()
         return tuple(package for package in packages if package.root != self.root)
 
@@ -393,7 +393,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def base(self) -> Reference | None:
-        """The mention of the sibling that lends its model, when the package has none."""
+        """The mention of the sibling with the model, when the package has none."""
         return base_of(self)
 
     @cached_property

@@ -70,7 +70,7 @@ def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
 
     Args:
         units: Loose files are no siblings of anything.
-        near: Whoever looks for siblings lies there: of two with one name he means the nearer.
+        near: Where siblings are looked up: of two with one name, the nearer one counts.
     """
     homes = dict.fromkeys(unit.home for unit in units if not unit.only)
     return tuple(sorted(homes, key=lambda home: -len(_common(home, near).parts)))

@@ -1,7 +1,7 @@
 """What a package puts on the path that Gazebo searches for meshes and models.
 
-Environment hooks do so in whoever sources the workspace; `<gazebo_ros>` in package.xml, in what
-`gz_sim.launch.py` of ros_gz_sim and `gzserver.launch.py` of gazebo_ros start.
+Environment hooks do so in each shell that sources the workspace; `<gazebo_ros>` in package.xml, in
+what `gz_sim.launch.py` of ros_gz_sim and `gzserver.launch.py` of gazebo_ros start.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where the URI of a mesh, texture or model leads among the packages at hand."""
+"""Where the URI of a mesh, texture or model leads among the available packages."""
 
 from __future__ import annotations
 

@@ -214,7 +214,7 @@ _FACTS: Mapping[str, Any] = {
 
 
 class PackageJson(Record, kw_only=True):
-    """A package; whoever reads a report works out the verdict from the rest."""
+    """A package; readers of a report compute the verdict from the rest."""
 
     name: str
     path: Annotated[str, Meta(description="As given to the checker.")]

@@ -11,7 +11,7 @@ from checker.report.report import PackageReport
 
 
 class TrialVerdict(Record):
-    """What came of a trial.
+    """The result of a trial.
 
     Attributes:
         word: `ok`, `info`, `warning`, `error`; `not judged`; `not driven`; empty without a trial.
@@ -51,7 +51,7 @@ class ReportedRobot(Record):
 
     @property
     def verdict(self) -> TrialVerdict:
-        """What came of its trial."""
+        """The result of its trial."""
         if self.trial is None:
             why_not = str(self.facts.get("not_driven", ""))
             return TrialVerdict("not driven" if why_not else "", why_not)

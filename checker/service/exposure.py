@@ -17,8 +17,7 @@ from checker.base.words import plain, shortened
 from checker.service.web.config import config_from
 
 _ENDING_SECONDS, _PAUSE_SECONDS = 3.0, 0.1
-"""A service that was killed holds its address until its processes have ended, and whoever watches
-over it starts the next one at once."""
+"""A killed service holds its address until its processes end; the next one starts at once."""
 
 # Whether a host is the machine itself: nobody stands on the way to it.
 

@@ -100,7 +100,7 @@ def scan_start_tag(text: str, start: int, end: int) -> AttributeSpans:
 def locate_tags(source: SourceText, max_depth: int) -> LocatedTags | XmlFault:
     """Find every tag, or the first fault.
 
-    What tinyxml2 forgives, and hence Gazebo loads, is blanked out (offsets stay the same) and
+    What tinyxml2 forgives, and Gazebo therefore loads, is blanked out (offsets stay the same) and
     reported as tolerated.
     """
     text, tolerated = mend_declaration(source)

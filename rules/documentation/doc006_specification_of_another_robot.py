@@ -1,11 +1,10 @@
 """The title or commands of specifications.md are about another robot or configuration.
 
-A copied specification sheet that keeps the other number or command starts the other robot: whoever
-follows it drives something else. Mentions of other configurations are fine; only what
-specifications.md says about itself counts. Another team is reported in the title, in the text below
-it, in the first paragraph of the description and in the description of model.config, unless the
-sentence names the own team too, or says with words such as "based on" where the robot comes from.
-PKG012 reports names of other packages.
+A copied specification sheet that keeps the other number or command starts the other robot. Mentions
+of other configurations are fine; only what specifications.md says about itself counts. Another team
+is reported in the title, in the text below it, in the first paragraph of the description and in the
+description of model.config, unless the sentence names the own team too, or says with words such as
+"based on" where the robot comes from. PKG012 reports names of other packages.
 
 Fix: write this package's name and number.
 Source: SubT reviews of sheets copied from another configuration.

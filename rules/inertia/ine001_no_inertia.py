@@ -5,7 +5,7 @@ adds an unintended kilogram to the total. This includes links on fixed joints. A
 fixed joints connect to the world never moves, nor does one of a static model, so its mass does not
 matter. In URDF a link without
 `<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks. From SDF 1.11
-on `<inertial auto="true">` has the simulator work it out from collisions and densities.
+on `<inertial auto="true">` has the simulator compute it from collisions and densities.
 
 Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
 the link is only a frame, lump it into its parent.
@@ -24,7 +24,7 @@ from checker.rule import Concern, Context, Finding, Findings, Severity, finding,
 
 _MOMENTS = 6
 _FIRST_AUTOMATIC = (1, 11)
-"""SDF version since which the simulator works out an inertia."""
+"""SDF version since which the simulator computes an inertia."""
 
 
 @rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
@@ -69,13 +69,13 @@ def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:
 
 
 def _left_to_the_simulator(link: Link, inertial: Inertial, *, automatic: bool) -> Iterator[Finding]:
-    """Report what SDF 1.11 cannot work out, and targets that read older versions."""
+    """Report what SDF 1.11 cannot compute, and targets that read older versions."""
     name = link.name.value
     if not automatic:
         message = f"link {name!r} has an automatic inertia, which only SDF 1.11 and later know"
         yield finding(inertial, message, key="automatic")
     elif not link.collisions:
-        message = f"link {name!r} has an automatic inertia, but no <collision> to work it out from"
+        message = f"link {name!r} has an automatic inertia, but no <collision> to compute it from"
         yield finding(inertial, message, severity=Severity.WARNING, key="automatic")
 
 

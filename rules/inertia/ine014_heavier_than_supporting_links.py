@@ -9,7 +9,7 @@ What is fixed counts as one body; all bodies up to the base carry. Of the robots
 were chosen from, wheels weigh up to 0.6 of what carries them where the masses are right, and from
 1.6 where they are not; other parts up to 8 times as much, the first link of an arm on a light base.
 
-Fix: weigh the part, or take its mass from the data sheet, in kg.
+Fix: weigh the part, or take its mass from its datasheet, in kg.
 Source: comparison of the masses of about 150 robot descriptions.
 """
 

@@ -1,7 +1,7 @@
 """A robot description that launch reads as YAML, and cannot.
 
 A parameter that substitutions make, such as `Command(['xacro …'])`, is read as YAML unless its
-type is stated. A colon before a blank anywhere in the expanded text, mostly in a comment, is no
+type is stated. A colon before a blank anywhere in the expanded text, usually in a comment, is no
 plain YAML text: the launch ends with "Unable to parse the value of parameter robot_description as
 yaml".
 

@@ -1,6 +1,6 @@
 """An argument of a launch file that is used, and that nothing declares before.
 
-The launch ends with "launch configuration 'x' does not exist", unless whoever starts it gives
+The launch ends with "launch configuration 'x' does not exist", unless the user gives
 `x:=…`. Actions are visited in order: a declaration counts for what follows it. What an included
 file that is not available may declare is not judged, nor are files that another available file
 names.
@@ -31,7 +31,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
 
 
 def _is_named(package: Package, file: str) -> bool:
-    """Whether another launch file at hand names a file, and may give it arguments."""
+    """Whether another available launch file names a file, and may give it arguments."""
     name = posixpath.basename(file)
     stem = name.partition(".")[0]
     others = {id(other): other for other in (package, *package.workspace.packages.values())}

@@ -43,7 +43,7 @@ _NAMED = re.compile(r"(?:package|model)://([^/]+)/.")
 
 @rule("LCH012", "mesh-not-on-resource-path", Severity.WARNING, Concern.INTERFACE)
 def check(simulations: Simulations, package: Package) -> Findings:
-    """Report each package once whose meshes a launch file has Gazebo look for in vain."""
+    """Report each package once whose meshes are not on the resource path."""
     for simulation in simulations.launched:
         classic = bool(simulation.classic_robots)
         if simulation.graph is None or not (simulation.starts_gazebo or classic):
@@ -80,7 +80,7 @@ def _fix(package: Package, name: str) -> Fix | None:
 
 
 def _packages(package: Package, robot: Robot) -> dict[str, str]:
-    """Return the first mesh that is named by its package, of each package at hand."""
+    """Return the first mesh that is named by its package, of each available package."""
     return dict(reversed([*_named(package, robot)]))
 
 

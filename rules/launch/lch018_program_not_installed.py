@@ -38,7 +38,7 @@ _NOT_PLAIN = {
 
 @rule("LCH018", "program-not-installed", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
-    """Report programs of packages at hand that their build files do not name."""
+    """Report programs of available packages that their build files do not name."""
     for graph in launch.entries:
         for node in _own(graph):
             holder = package.workspace.package(node.package.value)

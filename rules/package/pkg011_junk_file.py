@@ -97,7 +97,7 @@ def _build_files(package: Package) -> Iterator[Finding]:
 
 
 def _added_folders(package: Package) -> Iterator[str | None]:
-    """Yield the folders that CMake files add or build; None for one that they work out."""
+    """Yield the folders that CMake files add or build; None for one that they compute."""
     for file in package.index.with_suffix("cmakelists.txt", ".cmake"):
         source = package.read(file.path)
         if not isinstance(source, SourceText):

@@ -1,9 +1,9 @@
 """A dependency in package.xml that neither the ROS distribution nor rosdep has.
 
-`rosdep install` ends with "Cannot locate rosdep definition", so whoever clones the package cannot
-build it. A name that is a slip of the pen for one that exists is a warning. Others are information:
-a package may be built from source that is not available here, such as one that only an older
-distribution has released. Dependencies with a `condition` are skipped.
+`rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
+cannot build it. A name that is a slip of the pen for one that exists is a warning. Others are
+information: a package may be built from source that is not available here, such as one that only an
+older distribution has released. Dependencies with a `condition` are skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and say so in the README.
 Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`).

@@ -109,7 +109,7 @@ def _is_told_elsewhere(stem: str, context: Context) -> bool:
 
 
 def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity | None:
-    """Say how grave it is that a library is not at hand.
+    """Say how grave it is that a library is not available.
 
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own. Those of

@@ -50,7 +50,7 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
 
 
 def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
-    """Judge a file of a package that is not at hand."""
+    """Judge a file of a package that is not available."""
     manifest = papers.manifest
     if manifest is None or manifest.depends_on(file.package):
         yield unchecked(f"package {file.package} is not available")

@@ -29,7 +29,7 @@ def check(
 ) -> Findings:
     """Report empty ranges, and in SubT ranges of RGBD and thermal cameras that are too large.
 
-    In SubT also RGBD cameras whose picture ends where depth may, for want of a range for depth.
+    In SubT also RGBD cameras without a range for depth, whose picture ends where depth may.
 
     Options:
         depth_far: Greatest distance, metres, at which an RGBD camera may measure depth in the SubT

@@ -83,7 +83,7 @@ def _missing(
 def _effects(
     loaded: _Loaded, spawned: SpawnedRobot, release: str
 ) -> Iterator[tuple[str, str, list[Sensor]]]:
-    """Yield each system that is missing, what comes of it, and the sensors that need it."""
+    """Yield each system that is missing, its effect, and the sensors that need it."""
     name = spawned.name or spawned.robot.name.value
     if not holds(loaded.systems, "user-commands"):
         yield "user-commands", f"{name!r} is not spawned", []

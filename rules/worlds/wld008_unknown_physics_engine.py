@@ -35,7 +35,7 @@ def check(world: World, package: Package, context: Context) -> Findings:
     yield finding(
         name,
         f"nothing moves: {release_label(context.release)} has no physics engine {stem!r}, and no "
-        f"package at hand builds it{hint}",
+        f"available package builds it{hint}",
     )
 
 

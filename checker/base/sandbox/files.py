@@ -120,7 +120,7 @@ def read(
     """Return the message and the files that somebody has written.
 
     Args:
-        descriptor: Of what they were written to; whoever wrote may be hostile.
+        descriptor: Of what they were written to; the writer may be hostile.
         limit: Bytes of the message.
         start: Where they begin.
         end: Where they end; where the file does when None.

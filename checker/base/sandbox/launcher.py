@@ -244,7 +244,7 @@ def module_path() -> str:
 
 
 def _environment(work: str) -> dict[str, str]:
-    """Return what a process shall know of our environment: no token, no password, no home."""
+    """Return the part of our environment that a process gets: no token, no password, no home."""
     known = {
         name: value
         for name, value in os.environ.items()

@@ -74,7 +74,7 @@ def _shown(path: str) -> tuple[str, ...]:
 
 @once
 def bubblewrap() -> str:
-    """Return why bubblewrap is of no use here; empty if it is."""
+    """Return why bubblewrap cannot be used here; empty if it is."""
     if shutil.which("bwrap") is None:
         return "bubblewrap (bwrap) is not installed"
     command = wrapped(["/usr/bin/true"], program_paths())

@@ -1,7 +1,7 @@
 """A filter of system calls: what this process can no longer ask of the kernel.
 
 Forbidden are the calls that reach other processes, other machines and other programs, and those
-by which holes in the kernel are mostly reached; all others are left. A forbidden call fails with
+by which holes in the kernel are usually reached; all others are left. A forbidden call fails with
 EPERM, so that a library which merely tries goes on. See seccomp(2).
 """
 

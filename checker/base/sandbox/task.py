@@ -143,7 +143,7 @@ def end_with_parent() -> None:
 
 
 def hold_to(seconds: int, memory: int) -> None:
-    """Take from this process what it shall not use; no limit that it has already is raised."""
+    """Take from this process what it must not use; no limit that it has already is raised."""
     from resource import RLIMIT_AS, RLIMIT_CPU
 
     tighten(RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1)

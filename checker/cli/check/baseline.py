@@ -21,7 +21,7 @@ from checker.rulebook.suppression.finding_places import spots_of
 
 
 def baseline_to_renew(file: Path) -> Baseline:
-    """Return the baseline that shall be written anew; an empty one when there is none yet.
+    """Return the baseline to update; an empty one when there is none yet.
 
     Raises:
         InvalidSettings: The file is something else, which is not overwritten, or cannot be read.

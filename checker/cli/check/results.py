@@ -64,7 +64,7 @@ def check_and_print(
 
 
 def _watched(tasks: Sequence[Task], jobs: int, progress: ProgressLine) -> Iterator[Checked]:
-    """Yield what comes of each task; in between, the progress is shown."""
+    """Yield the result of each task; in between, the progress is shown."""
     for checked in check_tasks(tasks, jobs):
         progress.clear()
         yield checked

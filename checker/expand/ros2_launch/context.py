@@ -24,7 +24,7 @@ class State:
         namespace: Absolute.
         parameters: Of every node that follows.
         remaps: Of every node that follows; the last one counts.
-        beyond: Whether a file was included that is not at hand: it may declare arguments.
+        beyond: Whether a file was included that is not available: it may declare arguments.
     """
 
     configurations: dict[str, Value] = field(default_factory=dict)

@@ -97,7 +97,7 @@ def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, st
 
 
 def _as_listed(package: Package, path: str) -> str | None:
-    """Return how xacro sees a file that is installed at a path; None when it is not at hand."""
+    """Return how xacro sees a file that is installed at a path; None when it is not available."""
     local = local_file(package, path) if path.startswith(f"{ROOT}/") else None
     return None if local is None else path_of(package, local)
 

@@ -105,7 +105,7 @@ def _named(text: str, span: Span, *, needed: bool, include: bool = False) -> Ite
 
 
 def is_missing(package: Package, path: SharePath) -> bool:
-    """Whether a package at hand has no such file, and does not make it either.
+    """Whether a available package has no such file, and does not make it either.
 
     Args:
         package: That is checked.

@@ -1,4 +1,4 @@
-"""Files of the packages at hand, by the paths that launch files give them."""
+"""Files of the available packages, by the paths that launch files give them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from checker.source.text import SourceText
 
 
 def holder_of(package: Package, name: str) -> Package | None:
-    """Return the package at hand of a name, the checked one among them.
+    """Return the available package of a name, the checked one among them.
 
     Args:
         package: That is checked.
@@ -28,7 +28,7 @@ def own_names(package: Package) -> tuple[str, ...]:
 
 
 def local_file(package: Package, path: str) -> str | None:
-    """Return a path below a share folder as the package lists it; None when it is not at hand."""
+    """Return a path below a share folder as the package lists it; None when it is not available."""
     target = share_path(path)
     if target is None:
         return None

@@ -59,7 +59,7 @@ def _outermost(graphs: Mapping[str, LaunchGraph]) -> list[LaunchGraph]:
 
 
 def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
-    """Yield the launch files of other packages at hand that name a package, each with its own.
+    """Yield the launch files of other available packages that name a package, each with its own.
 
     Args:
         package: That ought to be named, as in `FindPackageShare("arm_description")`.

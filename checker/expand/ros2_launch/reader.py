@@ -168,7 +168,7 @@ class LaunchReader:
             self._visit_file(source, inner)
         context.used |= inner.used
         context.declared |= inner.declared
-        # A file that is not at hand may take arguments that are set around it.
+        # A file that is not available may take arguments that are set around it.
         beyond = any(include.is_unknown for include in self._found.includes[includes:])
         complete = len(self._found.unread) == unread and not beyond
         accepts = frozenset(inner.used | inner.declared) if complete else None
@@ -194,7 +194,7 @@ class LaunchReader:
         return package_files.exists(self._package, path)
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:
-        """Return the names of a Python module of a package at hand."""
+        """Return the names of a Python module of a available package."""
         del node
         if path not in self._modules:
             self._modules[path] = None

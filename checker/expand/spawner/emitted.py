@@ -14,8 +14,8 @@ from checker.source.text import SourceText, Span
 class EmittedText(SourceText, dict=True, kw_only=True):
     """A source whose places lie in the Ruby files that made it.
 
-    Offsets, lines (`line`, `position`) count in the emitted text; `place` and hence every span
-    on it answers in the Ruby (or YAML) file.
+    Offsets, lines (`line`, `position`) count in the emitted text; `place` and therefore every span
+    on it answer in the Ruby (or YAML) file.
 
     Attributes:
         origin: The Ruby function that emitted it.

@@ -126,7 +126,7 @@ _TOKEN = re.compile(
 def text_value(text: str, symbols: Any, allowance: Allowance) -> Any:
     """Return what a text comes to; if it is one expression alone, that value as it is.
 
-    Stands in for `xacro.eval_text`.
+    Replaces `xacro.eval_text`.
 
     Raises:
         xacro.XacroException: It is no such text, or an expression in it fails.
@@ -188,7 +188,7 @@ LoadYaml = Callable[[str, Budget], Any]
 
 
 def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:
-    """Return what stands in for `xacro.create_global_symbols()`."""
+    """Return the replacement of `xacro.create_global_symbols()`."""
     named = functions(
         [
             ("load_yaml", lambda budget, filename: load_yaml(filename, budget)),

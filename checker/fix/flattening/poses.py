@@ -134,7 +134,7 @@ def _write(draft: Draft, holder: Element, pose: Transform) -> None:
 
 
 def _names_frame(holder: Element) -> str:
-    """Return the frame that the pose of an element names; mostly none."""
+    """Return the frame that the pose of an element names; usually none."""
     pose = holder.child("pose")
     return pose.get(_OF_FRAME) or "" if pose is not None else ""
 

@@ -144,7 +144,7 @@ class ControlSystem(Record, eq=False, dict=True):
         simulator_gains: Of `gazebo_ros_control` itself.
         launches: One for each launch file that no other one starts.
         dormant: Controllers started by nodes that a condition leaves out.
-        faults: Files of parameters that launch files load in vain.
+        faults: Files of parameters that launch files name and that do not exist.
         file: The file that describes the robot.
         unread_robot: Why robots, joints and transmissions are not known; else empty.
         unread: Why parts of what the launch files start and load are not known.

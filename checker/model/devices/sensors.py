@@ -1,8 +1,8 @@
 """Finds out which sensor of a robot stands for which device.
 
 The specification sheet's list of sensors counts most; where it is silent or leaves a choice, names
-and comments of the model do, then the rest of the sheet. Two answers are as good as none: whoever
-compares figures must not compare them with those of another device.
+and comments of the model do, then the rest of the sheet. Two answers count as none: figures must
+not be compared with those of another device.
 """
 
 from __future__ import annotations

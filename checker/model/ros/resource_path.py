@@ -33,8 +33,8 @@ class ResourcePath(Record, eq=False):
     """The folders that Gazebo searches when a launch file starts it.
 
     Attributes:
-        folders: What the packages at hand and the launch file put on the path.
-        complete: Whether these are all that anything at hand tells of.
+        folders: What the available packages and the launch file put on the path.
+        complete: Whether these are all folders that the available files name.
     """
 
     folders: tuple[SearchedFolder, ...]

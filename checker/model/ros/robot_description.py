@@ -15,7 +15,7 @@ from checker.source.xml import Element, XmlDocument
 NAME = "robot_description"
 _WORD = re.compile(r"""'([^']*)'|"([^"]*)"|((?:\$\([^()]*\)|[^\s'"])+)""")
 _COMPUTED = re.compile(r"\$\([^()]*\)/?|\$\{[^{}]*\}/")
-"""What a name may begin with: `$(arg prefix)`, `${name}/`; `${side}_wheel` is worked out whole."""
+"""What a name may begin with: `$(arg prefix)`, `${name}/`; `${side}_wheel` is computed whole."""
 
 
 class DescriptionFile(Record):
@@ -97,7 +97,7 @@ def _files(words: list[str]) -> Iterator[DescriptionFile]:
 def fixed_frames(document: XmlDocument) -> dict[str, Element]:
     """Return the links that fixed joints of a URDF or xacro file attach, by name.
 
-    Names that only xacro can work out are left out, prefixes such as `$(arg prefix)` are cut.
+    Names that only xacro can compute are left out, prefixes such as `$(arg prefix)` are cut.
     """
     frames: dict[str, Element] = {}
     for joint in document.root.descendants("joint"):
@@ -111,7 +111,7 @@ def fixed_frames(document: XmlDocument) -> dict[str, Element]:
 
 
 def _plain(name: str) -> str:
-    """Return a name without the prefix that xacro works out; empty when more is computed."""
+    """Return a name without the prefix that xacro computes; empty when more is computed."""
     at = 0
     while match := _COMPUTED.match(name, at):
         at = match.end()

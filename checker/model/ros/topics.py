@@ -40,7 +40,7 @@ class Channel(Record, eq=False):
         ign_types: Message types on Gazebo's side.
         direction: Which way its messages go.
         need: What it means when nothing bridges it.
-        group: Channels of one owner and one group stand in for each other.
+        group: Channels of one owner and one group replace each other.
         ros_name: Regular expression for its name in ROS, below the robot's namespace; empty where
             any name will do.
         ros_example: A name that fits.

@@ -43,7 +43,7 @@ class ParametersFile(Record, eq=False):
     Attributes:
         text: What the plugin says.
         package: Name of the package that it is in; empty where that is not known.
-        path: As the checked package lists it; None where no such package is at hand.
+        path: As the checked package lists it; None where no such package is available.
         exists: Whether the file is there.
     """
 

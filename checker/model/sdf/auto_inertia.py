@@ -1,4 +1,4 @@
-"""Mass and inertia that SDF 1.11 works out from collisions: `<inertial auto="true">`."""
+"""Mass and inertia that SDF 1.11 computes from collisions: `<inertial auto="true">`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def is_automatic(inertial: Element | None) -> bool:
 
 
 def automatic_inertial(element: Element, collisions: Iterable[Collision]) -> Inertial:
-    """Return what the simulator works out; a mass that is not a number where it needs a mesh.
+    """Return what the simulator computes; a mass that is not a number where it needs a mesh.
 
     Args:
         element: The `<inertial>`.

@@ -72,7 +72,7 @@ class World(Record, eq=False, dict=True):
     def is_settled(self) -> bool:
         """Whether all that it loads is known.
 
-        It names plugins, so that Gazebo adds none; they are Gazebo's own; its models are at hand.
+        It names plugins, so that Gazebo adds none; they are Gazebo's own; its models are available.
         """
         stems = (library_stem(plugin.filename.value) for plugin in self.plugins)
         whole = not any(model.missing_parts for model in self.models) and not self.unknown

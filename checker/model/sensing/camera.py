@@ -50,7 +50,7 @@ class Intrinsics(Record, eq=False):
 
     @property
     def are_measured(self) -> bool:
-        """Whether they look calibrated: those worked out have a centre on half a pixel."""
+        """Whether they look calibrated: those computed have a centre on half a pixel."""
         return any(math.isfinite(c.value) and 2.0 * c.value % 1.0 for c in (self.cx, self.cy))
 
 

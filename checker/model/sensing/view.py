@@ -71,7 +71,7 @@ class SensorViews(Record, eq=False):
     """A robot and the views of its cameras and lidars.
 
     Attributes:
-        views: Those that could be worked out, in the order of the sensors.
+        views: Those that could be computed, in the order of the sensors.
         unseen: Why something that may stand in a view is not known, as ends of sentences.
         covered: Its lights in the boxes around concave meshes.
     """

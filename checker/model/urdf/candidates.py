@@ -33,7 +33,7 @@ class Candidate(Record):
         args: Arguments for xacro.
         loaded: Whether a launch file loads it.
         by_xacro: Whether xacro reads it, whatever it holds.
-        missing: Arguments that whoever starts it must give, and the launch file that says so.
+        missing: Arguments that a launch file leaves to the user, and that launch file.
         choices: The values that it allows for these, where it names them.
         offered: The values that it allows for arguments to which it gives one of them.
     """

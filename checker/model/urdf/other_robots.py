@@ -29,7 +29,7 @@ class Made(Record, eq=False):
 
     Attributes:
         wish: What was expanded.
-        document: What came of it.
+        document: The result.
         allowed: Values that a launch file allows for arguments, by name.
     """
 

@@ -195,7 +195,7 @@ class PackageDescriptions:
         return not candidate.loaded or any(name in fault.message for name in left)
 
     def _unread(self, candidate: Candidate, reason: str) -> str:
-        """Return a reason; it says which arguments a launch file leaves to whoever starts it."""
+        """Return a reason; it says which arguments a launch file leaves to the user."""
         known = self._args.keys() | candidate.choices.keys()
         missing = [name for name in candidate.missing if name not in known]
         if not missing:
@@ -219,7 +219,7 @@ class PackageDescriptions:
     ) -> tuple[list[tuple[Candidate, str]], dict[str, str]]:
         """Expand with another choice for an argument what the first one does not fit.
 
-        What comes of it takes its place in `expanded`. Return why the first one does not fit, and
+        The result takes its place in `expanded`. Return why the first one does not fit, and
         what is assumed, by path.
         """
         assuming = [each for each in self._candidates if each.assumed(0, self._args)]
@@ -264,7 +264,7 @@ class PackageDescriptions:
     def _expand_as_melodic(self, expanded: dict[str, Outcome]) -> tuple[XacroFault, ...]:
         """Expand what a newer xacro refuses as Melodic's does, and return what is refused.
 
-        What comes of it takes its place in `expanded`.
+        The result takes its place in `expanded`.
         """
         refused = {path: old for path in expanded if (old := _refusal(expanded[path], path))}
         again = [replace(wish, as_melodic=True) for wish in self._wanted if wish.path in refused]

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of a robot, and what its joints hold against gravity."""
+"""Mass, centre of mass and inertia of a robot, and the load of its joints under gravity."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def _held(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | No
     return torque if math.isfinite(torque) else None
 
 
-# What Pinocchio works out of masses and moments; known weights need no Pinocchio.
+# What Pinocchio computes of masses and moments; known weights need no Pinocchio.
 #
 # Loading it takes longer than all else that a check of a known robot does.
 

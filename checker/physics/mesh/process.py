@@ -57,7 +57,7 @@ def mesh_work(
         decode: Makes a result of an answer.
         lasts: Whether a result holds next time as well.
         files: That go with an item.
-        here: Works out one item in this process.
+        here: Computes one item in this process.
     """
     request = {"wanted": wanted, "seconds": SECONDS_FOR_ONE, "seconds_for_all": SECONDS_FOR_ALL}
     return Work(wanted, _MODULE, _limits(), items, decode, request, files, lasts, here)

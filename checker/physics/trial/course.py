@@ -25,7 +25,7 @@ CLIMB_SECONDS = 4.0
 CLIMB_METRES = 1.0
 
 _STEADY_SECONDS = 2.0
-"""Of a leg that shall be driven at one speed, once the ramp is over."""
+"""Of a leg that is driven at one speed, once the ramp is over."""
 _LONGEST_RAMP = 6.0
 """Seconds that a leg may be longer so that a slow ramp ends."""
 
@@ -96,7 +96,7 @@ def flying_legs() -> tuple[Leg, ...]:
 
 
 def holding_legs() -> tuple[Leg, ...]:
-    """Return the legs of a robot that shall only stand."""
+    """Return the legs of a robot that only stands."""
     return _one_after_another(((SETTLE, SETTLE_SECONDS, 0.0, 0.0), (HOLD, HOLD_SECONDS, 0.0, 0.0)))
 
 

@@ -1,4 +1,4 @@
-"""What shall happen in a trial, as data: the child that simulates needs nothing of the robot."""
+"""The plan of a trial, as data: the child that simulates needs nothing of the robot."""
 
 from __future__ import annotations
 

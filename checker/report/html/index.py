@@ -29,7 +29,7 @@ class Entry(Record):
         link: Address of its page; empty without.
         rank: Of its verdict, for sorting; 0 needs most work.
         counts: Findings by severity, the gravest first.
-        trial: What came of it, in words.
+        trial: Its result, in words.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""The first screen: what to do first, and what came of the trial in words."""
+"""The first screen: what to do first, and the result of the trial in words."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _unseen(package: PackageReport) -> Iterator[Task]:
 
 
 def told_trial(trial: Mapping[str, Any], name: str = "the robot", unseen: str = "") -> list[str]:
-    """Return what came of a trial as sentences.
+    """Return the result of a trial as sentences.
 
     Args:
         trial: As `PackageReport.trial` has it.

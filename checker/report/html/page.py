@@ -146,7 +146,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
 
 
 def _told(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
-    """Return what came of the trial as sentences; of several robots, that of the first driven."""
+    """Return the result of the trial as sentences; of several robots, that of the first driven."""
     driven = next((robot for robot in robots if robot.trial), None)
     if driven is None or driven.trial is None:
         return []

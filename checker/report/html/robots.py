@@ -23,7 +23,7 @@ class ShownRobot(Record):
     Attributes:
         anchor: By which a link leads to its trial.
         in_view: Whether it is the one in 3D.
-        badge: `ok` or a severity: what came of the trial; empty where it was not judged.
+        badge: `ok` or a severity: the result of the trial; empty where it was not judged.
         verdict: The same in words, and why it was not driven.
         facts: Names and values.
         trial: As `PackageReport.trial`; None where nothing was driven.

@@ -63,7 +63,7 @@ def sphere_around(hung: Iterable[tuple[str, Item]], frames: Mapping[str, Transfo
 
 
 def _corners(surfaces: Iterable[Surface], boxes: dict[int, Array]) -> Iterable[Array]:
-    """Yield the corners of each surface's box; those of shared vertices are worked out once."""
+    """Yield the corners of each surface's box; those of shared vertices are computed once."""
     import numpy as np
 
     for surface in surfaces:

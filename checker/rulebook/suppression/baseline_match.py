@@ -1,4 +1,4 @@
-"""Findings of now held against those of the baseline, place by place."""
+"""Current findings compared with those of the baseline, place by place."""
 
 from __future__ import annotations
 

@@ -17,11 +17,11 @@ _LIMITS = {"file": PATTERN_LIMIT, "element": PATTERN_LIMIT, "reason": REASON_LIM
 
 
 class SettingsEntry(Record):
-    """Findings of a rule that shall not count.
+    """Findings of a rule that do not count.
 
     Attributes:
         rule: Id or name.
-        reason: Why they shall not.
+        reason: Why they do not.
         file: Pattern of the files they stand in, relative to the package; `.` is its folder.
             Empty for all.
         element: A part of the path of their element, such as `link[base]`. Empty for all.

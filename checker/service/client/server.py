@@ -21,7 +21,7 @@ class Server(Record):
         scheme: `http` or `https`.
         host: Name or address, without brackets.
         port: Of TCP.
-        base: Path below which it lies, without a slash at its end; mostly empty.
+        base: Path below which it lies, without a slash at its end; usually empty.
     """
 
     scheme: str

@@ -49,7 +49,7 @@ LIMITS: Mapping[Stage, StageLimits] = {
 UPLOAD_LIMIT = 2_000_000_000
 """Bytes of an upload that is read here; the service takes no larger ones."""
 _FILES_LIMIT = 50_000
-"""Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
+"""Of a result and of what was computed for it: what has no content takes room on a disk, too."""
 _PARTS_LIMIT = 10_000
 """Of one upload, by all of its checks."""
 _NAME_LIMIT = 255
@@ -189,7 +189,7 @@ def _write_result(folder: Path, files: Files) -> None:
 
 
 def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
-    """Yield what was worked out in an earlier check of the same upload: of no other one."""
+    """Yield what was computed in an earlier check of the same upload: of no other one."""
     folder = store.parts(upload)
     if folder is not None:
         for path in sorted(folder.glob(f"{CACHE}/*/??/*.json")):
@@ -198,7 +198,7 @@ def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
 
 
 def _keep_parts(store: Store, upload: str, files: Files, folder: Path) -> None:
-    """Keep what a check has worked out, for later checks of the same upload alone."""
+    """Keep what a check has computed, for later checks of the same upload alone."""
     known = store.parts(upload)
     left = _PARTS_LIMIT - (sum(1 for _ in known.rglob("*.json")) if known else 0)
     for name in islice(filter(is_part, files.names), max(0, left)):

@@ -70,7 +70,7 @@ _NEEDED = (f"{PACKAGE}.engine.review", f"{PACKAGE}.report.files", "markdown_it",
 """What nearly every check loads; some of it starts threads."""
 _IDLE = 0.5
 """Seconds without a check, after which the next one is taken for that of a new upload: of one that
-has waited, and of the second stage, the meshes are mostly known."""
+has waited, and of the second stage, the meshes are usually known."""
 
 
 def prepare() -> None:

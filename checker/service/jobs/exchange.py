@@ -138,7 +138,7 @@ GIVEN = "given/upload"
 TEMPORARY = "temporary"
 """Folder of what is unpacked."""
 CACHE = "cache"
-"""Folder of what was worked out, kept from the first stage of a check for its second."""
+"""Folder of what was computed, kept from the first stage of a check for its second."""
 _PART = re.compile(r"cache/([a-z]{1,40})/([0-9a-f]{2})/(\2[0-9a-f]{62})\.json")
 _PART_LIMIT = 200_000_000
 _LOOKED_AT = 20_000
@@ -179,7 +179,7 @@ def is_part(name: str) -> bool:
 
 
 def new_parts(place: Path, known: Iterable[str]) -> Iterator[tuple[str, Content]]:
-    """Yield what a check has worked out: names, and what is in them.
+    """Yield what a check has computed: names, and what is in them.
 
     Args:
         place: Where it worked.

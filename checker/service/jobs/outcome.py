@@ -1,4 +1,4 @@
-"""What can come of one stage of a check."""
+"""The possible results of one stage of a check."""
 
 from __future__ import annotations
 

@@ -52,10 +52,10 @@ class Order(Record):
 
 
 class Receipt(Record):
-    """What is given for an order, and to nobody else than who gave it.
+    """What is given for an order, and to nobody but its sender.
 
     Attributes:
-        id: Of the check, unguessable; whoever is told it may read the report.
+        id: Of the check, unguessable; anyone who has it may read the report.
         secret: Ends and deletes the check; it does not follow from the id.
     """
 

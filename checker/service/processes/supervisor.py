@@ -39,7 +39,7 @@ class Pace(Record):
 
 @dataclass
 class Process:
-    """A process that shall run.
+    """A process to run.
 
     Attributes:
         name: For messages.
@@ -134,7 +134,7 @@ def keep_running(processes: Sequence[Process], stop: threading.Event, pace: Pace
 
 
 def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace) -> bool:
-    """End processes: those who are told to finish what they do, unless it shall be at once.
+    """End processes: those who are told to finish what they do, unless they must end at once.
 
     Returns:
         Whether all have ended by themselves.

@@ -1,4 +1,4 @@
-"""Uploads and results by hash and key: whole or not at all, whoever dies meanwhile.
+"""Uploads and results by hash and key: whole or not at all, whichever process dies meanwhile.
 
 Work in progress lies in the folder `incoming/` of this machine; what is kept lies behind a port
 (`checker.service.store.objects`). Many processes use it at once, on any number of machines.
@@ -77,11 +77,11 @@ class Store(Record):
             yield place
 
     def parts(self, hash: str) -> Path | None:
-        """Return the folder of what checks of an upload have worked out; None if there is none."""
+        """Return the folder of what checks of an upload have computed; None if there is none."""
         return self._find(Kind.PARTS, hash)
 
     def add_parts(self, hash: str, folder: Path) -> None:
-        """Keep what a check of an upload has worked out, for others of the same."""
+        """Keep what a check of an upload has computed, for others of the same."""
         self.objects.add(Kind.PARTS, hash, folder)
 
     def upload(self, hash: str) -> Path | None:
@@ -136,7 +136,7 @@ class Store(Record):
         used = (Kind.UPLOAD, Kind.RESULT)
         gone = {kind: self.objects.expire(kind, before, still_used) for kind in used}
         gone[Kind.PARTS] = self.objects.expire(Kind.PARTS, before - CACHE_SECONDS, ())
-        # 0.1.0 shared what it had worked out between uploads.
+        # 0.1.0 shared what it had computed between uploads.
         with self.workplace() as place, suppress(FileNotFoundError):
             (self.folder / "cache").rename(place / "cache")
         return gone
@@ -147,7 +147,7 @@ class Store(Record):
         return self.folder / "workers"
 
     def sweep(self) -> None:
-        """Remove the temporary files of processes that have died, and copies of no use."""
+        """Remove the temporary files of processes that have died, and spare copies."""
         sweep(self.folder / "incoming")
         self.objects.sweep()
 

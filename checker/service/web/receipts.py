@@ -17,7 +17,7 @@ SECRET = "Subt-Check-Secret"  # noqa: S105 - the name of a header
 KEY = "Idempotency-Key"
 """Brings a key of the client's own: the same upload with the same key is one check."""
 KEY_PATTERN = re.compile("[ -~]{22,200}")
-"""Whoever guesses a key and has the upload knows the link of its check."""
+"""Anyone who guesses a key and has the upload knows the link of its check."""
 _COOKIE = "subt-check-secret"
 
 

@@ -88,7 +88,7 @@ class BridgeEntry(Record, eq=False):
         gz_topic: Absolute, on Gazebo's side; empty when it is not known before the launch.
         ros_topic: Absolute, on ROS's side, after remaps; empty when it is not known.
         remapped: Whether a remap gives it another name in ROS.
-        node: That bridges it; None for a file that no launch file at hand names.
+        node: That bridges it; None for a file that no available launch file names.
     """
 
     passed: Passed

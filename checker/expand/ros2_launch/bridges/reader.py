@@ -127,7 +127,7 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
 
 
 def loose_bridges(package: Package, named: Iterable[str]) -> Bridges:
-    """Read files of bridges that no launch file at hand names.
+    """Read files of bridges that no available launch file names.
 
     Args:
         package: That is checked.

@@ -44,10 +44,10 @@ class World(Protocol):
         """Return the text of a file below a share folder, or why it cannot be had."""
 
     def exists(self, path: str) -> bool | None:
-        """Whether there is a file or folder; None when its package is not at hand."""
+        """Whether there is a file or folder; None when its package is not available."""
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:
-        """Return the names of a Python module of a package at hand."""
+        """Return the names of a Python module of a available package."""
 
     def perform(self, value: Value, span: Span) -> Value:
         """Return the text that substitutions stand for."""

@@ -197,7 +197,7 @@ def at_rest(robot: Robot, joints: Iterable[str], legs: tuple[Leg, ...]) -> dict[
 
 
 def plan_of(robot: Robot) -> Plan:
-    """Return what a robot shall do in its trial.
+    """Return the commands of a trial.
 
     Joints that plugins move otherwise stand still, and of URDF those that have a motor and turn no
     wheel: some controller holds them.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-# The contacts with the ground: copied while the robot drives, worked out when it has stopped.
+# The contacts with the ground: copied while the robot drives, computed when it has stopped.
 
 
 class Touches(Record):

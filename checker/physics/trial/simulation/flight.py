@@ -42,7 +42,7 @@ class Allocation(Record):
 
     @classmethod
     def of(cls, rotors: Sequence[PlannedRotor], centre: Array, weight: float) -> Allocation:
-        """Work out the shares.
+        """Compute the shares.
 
         Args:
             rotors: In the robot's frame.

@@ -58,7 +58,7 @@ class Samples:
 
 
 def take(samples: Samples, rig: Rig, time: float) -> None:
-    """Add a sample of what MuJoCo worked out in its last step."""
+    """Add a sample of what MuJoCo computed in its last step."""
     import mujoco
     import numpy as np
 
@@ -151,7 +151,7 @@ def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
 
     Args:
         scene: The robot.
-        plan: What it shall do.
+        plan: Its commands.
         timestep: Seconds.
 
     Raises:

@@ -109,7 +109,7 @@ def _add_ground(spec: Any, item: Mapping[str, Any]) -> None:
 def set_stage(model: Any, shot: Mapping[str, Any]) -> float:
     """Have tiles and light suit what one shot shows.
 
-    Returns how far around the middle of the picture shadows shall fall, metres.
+    Returns how far around the middle of the picture shadows may fall, metres.
 
     Args:
         model: From `model_of`.

@@ -15,7 +15,7 @@ from checker.service.jobs.port import JobsUnreachable
 _SECONDS, _PAUSE_SECONDS = 2, 1.0
 """At most for a look (libpq takes no shorter time to connect), and between two."""
 _LOOKS = 2
-"""In vain, after which a server stands still: one that is busy may be late once."""
+"""Missed looks after which a server counts as stopped: a busy one may be late once."""
 
 
 def watch(engine: sa.Engine) -> None:

@@ -138,7 +138,7 @@ def _trial_after(task: Task, outcome: Checked, cost: float) -> Task:
 
 
 def patiently(ask: Callable[[], _T]) -> _T:
-    """Ask the database until it answers: what came of minutes of work is not thrown away."""
+    """Ask the database until it answers: the result of minutes of work is not thrown away."""
     is_away = False
     while True:
         try:

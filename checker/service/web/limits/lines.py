@@ -1,4 +1,4 @@
-"""Places for work that takes its time: whoever has much of it waits in a line of its own."""
+"""Places for work that takes its time: clients with much of it wait in lines of their own."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Lines:
                 self._give_back(sender)
 
     def _call(self) -> None:
-        """Let in whoever may come next, one of each line after the other."""
+        """Let in those that may come next, one of each line after the other."""
         while self._free and (sender := self._next()) is not None:
             turn = self._lines[sender].popleft()
             self._lines.move_to_end(sender)

@@ -139,7 +139,7 @@ def too_large(limit: int) -> Refused:
 
 
 def _announced(request: Request, config: Config) -> int:
-    """Return how many bytes a request may bring; without a word on it, as many as any.
+    """Return how many bytes a request may bring; as many as any if it does not say.
 
     Raises:
         Refused: It says of itself that it is too large.
