@@ -1,11 +1,10 @@
-"""The page of the API tells all that its description does, and its examples work."""
+"""docs/service-api.md tells all that the description of the API does, and its examples work."""
 
 from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Sequence
-from html import unescape
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,11 @@ from checker.service.jobs.port import Event, Stage
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
-from checker.service.web.pages.description import Operation, groups_of, shapes_of
 from tests.web.board import DONE, ID, SECRET, BoardJobs, keep_result
 
-ADDRESS = "http://localhost"
+ADDRESS = "https://check.example"
+PAGE = (Path(__file__).parents[2] / "docs/service-api.md").read_text("utf-8")
+EXAMPLES = re.findall("^```sh\n(.*)\n```$", PAGE, re.M)
 FILES = ("report.html", "report.sarif", "robot.glb", "index.html", "a/report.html", "a/robot.glb")
 
 
@@ -39,75 +39,34 @@ def client(tmp_path: Path) -> TestClient:
     return TestClient(app, base_url=ADDRESS, follow_redirects=False)
 
 
-@pytest.fixture
-def description(client: TestClient) -> Any:
-    return client.get("/api/openapi.json").json()
+def section(title: str) -> str:
+    """Return what stands below a heading; nothing without it."""
+    return "".join(re.findall(rf"^### {re.escape(title)}\n(.*?)(?=^#|\Z)", PAGE, re.M | re.S))
 
 
-def operations(description: Any) -> list[Operation]:
-    groups = groups_of(description, ADDRESS)
-    return [operation for group in groups for operation in group.operations]
-
-
-def words_of(html: str) -> str:
-    text = re.sub("</?code>", "", html)
-    return " ".join(unescape(re.sub("<[^>]*>", " ", text)).split())
-
-
-def test_the_page_tells_all_of_the_description(client: TestClient, description: Any) -> None:
-    answer = client.get("/api")
-    assert answer.status_code == 200
-    words = words_of(answer.text)
+def operations(description: Any) -> Iterator[tuple[str, Any]]:
     for path, methods in description["paths"].items():
         for method, told in methods.items():
-            assert f"{method.upper()} {path}" in words
-            assert told["description"].replace("`", "") in words
-            for each in told.get("parameters", ()):
-                assert each["name"] in words
-            for answered in told["responses"].values():
-                assert answered["description"] in [*words_in(answer.text), "Successful Response"]
+            yield f"{method.upper()} {path}", told
+
+
+def test_the_page_tells_all_of_the_description(client: TestClient) -> None:
+    description = client.get("/api/openapi.json").json()
+    told_of = dict(operations(description))
+    assert re.findall("^### ([A-Z]+ /.*)$", PAGE, re.M) != []
+    assert {*re.findall("^### ([A-Z]+ /.*)$", PAGE, re.M)} == {*told_of}
+    for title, told in told_of.items():
+        names = [each["name"] for each in told.get("parameters", ()) if each["in"] != "path"]
+        form = told.get("requestBody", {}).get("content", {}).get("multipart/form-data", {})
+        for name in (*names, *form.get("schema", {}).get("properties", ())):
+            assert f"`{name}`" in section(title)
+        for status in told["responses"]:
+            assert re.search(rf"\b{status}\b", PAGE) or status == "200"
     for name, schema in description["components"]["schemas"].items():
-        assert f'id="shape-{name}"' in answer.text
         for member in schema.get("properties", {}):
-            assert f"<code>{member}</code>" in answer.text
-
-
-def words_in(html: str) -> list[str]:
-    """Return what is in the entries of lists of definitions."""
-    return [
-        unescape(re.sub("<(a|span).*", "", entry)).strip()
-        for entry in re.findall("<dd>(.*?)</dd>", html)
-    ]
-
-
-def test_every_operation_has_its_place_and_its_example(
-    client: TestClient, description: Any
-) -> None:
-    found = operations(description)
-    assert len(found) == sum(map(len, description["paths"].values()))
-    assert len({each.anchor for each in found}) == len(found)
-    page = client.get("/api").text
-    for each in found:
-        assert f'id="{each.anchor}"' in page
-        assert each.example in unescape(page)
-        assert {outcome.status for outcome in each.outcomes} == set(
-            description["paths"][each.path][each.method.lower()]["responses"]
-        )
-
-
-def test_kinds_are_said_in_words(description: Any) -> None:
-    kinds = {
-        f"{shape.name}.{member.name}": member.kind
-        for shape in shapes_of(description)
-        for member in shape.members
-    }
-    assert kinds["CheckView.packages"] == "list of PackageView"
-    assert kinds["CheckView.files"] == "list of text"
-    assert kinds["CheckView.final"] == "true or false"
-    assert kinds["CheckView.created"] == "number"
-    assert kinds["CheckView.ahead"] == "whole number"
-    (stage,) = (shape for shape in shapes_of(description) if shape.name == "Stage")
-    assert stage.words[0] == "queued"
+            assert f"`{member}`" in section(name)
+        for word in schema.get("enum", ()):
+            assert f"`{word}`" in section("CheckView")
 
 
 def request_of(example: str) -> dict[str, Any]:
@@ -137,23 +96,28 @@ def request_of(example: str) -> dict[str, Any]:
     return request
 
 
-def test_every_example_is_a_request_that_goes_well(client: TestClient, description: Any) -> None:
-    found = operations(description)
-    ends = [each for each in found if each.method == "DELETE"]
-    for each in [*(each for each in found if each not in ends), *ends]:
-        if each.path == "/api/checks":
-            continue  # last, or it would put its own check in the place of the other
-        answer: httpx.Response = client.request(**request_of(each.example))
-        assert answer.status_code in (200, 204), (each.example, answer.text)
-    (upload,) = (each for each in found if each.path == "/api/checks")
-    request = request_of(upload.example)
-    request["files"]["file"] = ("rover.sdf", request["files"]["file"][1])
-    assert client.request(**request).status_code == 201
+def title_of(request: dict[str, Any]) -> str:
+    """Return the operation that a request asks for."""
+    path = request["url"].removeprefix(ADDRESS).replace(ID, "{id}").replace("/a/", "/{folder}/")
+    return f"{request['method']} {path}"
+
+
+def test_every_operation_has_an_example_that_goes_well(client: TestClient) -> None:
+    requests = {title_of(request): request for request in map(request_of, EXAMPLES)}
+    description = client.get("/api/openapi.json").json()
+    assert requests.keys() == dict(operations(description)).keys()
+    upload, delete = requests.pop("POST /api/checks"), requests.pop("DELETE /api/checks/{id}")
+    for request in (*requests.values(), delete):
+        answer: httpx.Response = client.request(**request)
+        assert answer.status_code in (200, 204), (request, answer.text)
+    upload["files"]["file"] = ("rover.sdf", upload["files"]["file"][1])
+    assert client.request(**upload).status_code == 201
 
 
 @pytest.mark.parametrize("tokens", [(), ("s3cret",)])
 def test_a_token_is_told_of_where_one_is_needed(tmp_path: Path, tokens: tuple[str, ...]) -> None:
-    app = create_app(BoardJobs(), Store(tmp_path), Config(tokens=tokens))
+    app = create_app(BoardJobs(), Store(tmp_path), Config(tokens=tokens, base_url=ADDRESS))
     page = TestClient(app, base_url=ADDRESS).get("/api").text
-    assert ("Authorization: Bearer $TOKEN" in unescape(page)) is bool(tokens)
+    assert 'href="/api/openapi.json"' in page
+    assert ("Authorization: Bearer" in page) is bool(tokens)
     assert "s3cret" not in page

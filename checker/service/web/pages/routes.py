@@ -19,7 +19,6 @@ from checker.service.web import receipts
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
 from checker.service.web.pages import progress
-from checker.service.web.pages.description import groups_of, shapes_of
 from checker.service.web.pages.progress import glance
 from checker.service.web.pages.remaining import Forecast
 from checker.service.web.pages.site import FOLDER, html, static_file
@@ -228,16 +227,9 @@ class _Pages(Record):
         receipts.take(answer, state.id)
         return answer
 
-    def api(self, request: Request) -> Response:
-        """Show the description of the API."""
-        described, address = request.app.openapi(), self.services.address(request)
-        return html(
-            "api.html.j2",
-            here="api",
-            groups=groups_of(described, address),
-            shapes=shapes_of(described),
-            needs_token=bool(self.services.config.tokens),
-        )
+    def api(self, _: Request) -> Response:
+        """Say where the API is described."""
+        return html("api.html.j2", here="api", needs_token=bool(self.services.config.tokens))
 
 
 def _rules(_: Request) -> Response:
