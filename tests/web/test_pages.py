@@ -17,7 +17,7 @@ from checker.report.files import package_folders
 from checker.report.json_report import to_json
 from checker.report.report import PackageReport, Report
 from checker.rulebook.discovery import all_rules
-from checker.service.jobs.port import Event, Pace, Stage, State
+from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
@@ -336,21 +336,6 @@ def test_a_check_is_called_as_its_package_as_soon_as_that_is_known(
         assert title(text) == f"{name}: {lead} – subt-check"
         assert f"<h1><bdi>{name}</bdi></h1>" in text
         assert ("uploaded as <bdi>rover.zip</bdi>" in text) is (name == "acme_rover")
-
-
-def test_who_waits_is_told_how_long_where_that_is_known(client: Client, jobs: BoardJobs) -> None:
-    jobs.states[ID] = replace(QUEUED, ahead=3)
-    assert "The report will be ready" not in client.get(f"/checks/{ID}").text
-    jobs.paced = Pace(2.0, 28.0)  # asked for once in a while: this client has its answer
-    assert "The report will be ready" not in client.get(f"/checks/{ID}").text
-
-
-def test_how_long_a_check_takes_is_said_in_words(jobs: BoardJobs, store: Store) -> None:
-    jobs.paced = Pace(2.0, 28.0)
-    client = client_of(jobs, store)
-    jobs.states[ID] = replace(QUEUED, ahead=3)
-    page = Elements(client.get(f"/checks/{ID}").text)
-    assert "The report will be ready in about 2 minutes." in page.words
 
 
 NOWHERE = (

@@ -200,13 +200,12 @@ def title(state: State, packages: Sequence[PackageLine]) -> str:
     return main.name if main else plain(state.order.name)
 
 
-def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> Headline:
+def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
     """Say in a sentence where a check stands.
 
     Args:
         state: Of the check.
         packages: What is known of them so far.
-        left: How long it will still take, in words; may be empty.
     """
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
     match state.stage:
@@ -223,15 +222,11 @@ def headline(state: State, packages: Sequence[PackageLine], left: str = "") -> H
             return _verdict(words, packages)
         case Stage.QUEUED:
             ahead = _ahead(state) or "it starts in a moment"
-            return Headline("Waiting", ahead, "", _ready_in(left))
+            return Headline("Waiting", ahead)
         case _:
             found = _so_far(packages)
-            doing = f"{sentence(words)} " if found and words else ""
-            return Headline("Checking", found or words, "", f"{doing}{_ready_in(left)}".strip())
-
-
-def _ready_in(left: str) -> str:
-    return f"The report will be ready in {left}." if left else ""
+            doing = sentence(words) if found and words else ""
+            return Headline("Checking", found or words, "", doing)
 
 
 def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:

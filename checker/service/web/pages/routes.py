@@ -20,7 +20,6 @@ from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
 from checker.service.web.pages import progress
 from checker.service.web.pages.progress import glance
-from checker.service.web.pages.remaining import Forecast
 from checker.service.web.pages.site import FOLDER, html, static_file
 from checker.service.web.services import Services
 from checker.service.web.uploads.transfer import new_check
@@ -124,7 +123,7 @@ def router(services: Services) -> APIRouter:
     """
     from fastapi import APIRouter
 
-    pages = _Pages(services, Forecast(services.jobs))
+    pages = _Pages(services)
     site = APIRouter()
     add = partial(site.add_route, include_in_schema=False)
     add("/", pages.start, methods=["GET"])
@@ -147,7 +146,6 @@ class _Pages(Record):
     """
 
     services: Services
-    forecast: Forecast
 
     def start(self, request: Request) -> Response:
         """Show the form, and what becomes of what is sent."""
@@ -191,7 +189,7 @@ class _Pages(Record):
             file=plain(state.order.name),
             final=state.stage.is_final,
             mine=bool(receipts.kept(request)),
-            headline=progress.headline(state, packages, self.forecast.of(state)),
+            headline=progress.headline(state, packages),
             steps=progress.steps_of(state, told.get(state.id, ())),
             packages=packages,
             main=progress.main_package(packages),
