@@ -1,4 +1,4 @@
-"""A bridge of a topic that nothing in Gazebo has.
+"""A bridge of a topic that does not exist in Gazebo.
 
 The bridge starts, but no message ever arrives. Names that a sensor states in `<topic>` are taken as
 they are; all others begin with the names that world and model have in Gazebo, which `-name` of the
@@ -106,7 +106,7 @@ def _difference(
     for before, part, name in zip(["", *parts], parts, written, strict=False):
         known = {"model": models, "world": worlds}.get(before, frozenset())
         if part == "*" and known and name not in known:
-            return f"no {before} is called {name!r}, but {', '.join(sorted(known))}"
+            return f"there is no {before} {name!r}; expected {', '.join(sorted(known))}"
         if part not in ("*", name):
             return f"the topic is {'/'.join(parts)}"
     return ""

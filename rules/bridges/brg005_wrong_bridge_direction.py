@@ -1,4 +1,4 @@
-"""A bridge passes messages in a direction in which there are none.
+"""A bridge whose direction is not that of its messages.
 
 A sensor publishes in Gazebo; a bridge of it from ROS to Gazebo brings nothing to ROS. Commands come
 from ROS; a bridge of them from Gazebo to ROS moves no robot. A bridge in both directions of what

@@ -1,4 +1,4 @@
-"""A bridge leaves out what its YAML file says.
+"""A YAML file of a bridge that is not valid, or an entry that the bridge ignores.
 
 The file must be a sequence of mappings: each entry begins with `- `. Otherwise nothing at all is
 bridged. An entry without types, with a direction that is spelt otherwise, or with `topic_name`

@@ -35,7 +35,7 @@ def _reason(name: str) -> str:
     if digit := _DIGIT.search(name):
         return f"{digit[1]!r} begins with a digit"
     if strange := _STRANGE.search(name):
-        return f"it holds {strange[0]!r}"
+        return f"it contains {strange[0]!r}"
     return "a part of it is empty"
 
 

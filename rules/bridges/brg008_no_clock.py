@@ -1,4 +1,4 @@
-"""Nodes take their time from /clock, and nothing bridges it.
+"""Nodes use simulated time, but /clock is not bridged from Gazebo.
 
 With `use_sim_time` a node's time stands at zero until somebody publishes /clock. Gazebo publishes
 it on its own side only: without a bridge, timers do not run, transforms are never recent, and
@@ -39,8 +39,8 @@ def check(simulations: Simulations) -> Findings:
         others = f" and {len(waiting) - 1} more" if len(waiting) > 1 else ""
         yield finding(
             parameter or waiting[0],
-            f"node {waiting[0].executable.value!r}{others} with use_sim_time: nothing bridges "
-            "/clock from Gazebo, which this launch file starts",
+            f"node {waiting[0].executable.value!r}{others} with use_sim_time: no message "
+            "arrives on /clock, because no bridge passes it from Gazebo, which this launch starts",
         )
 
 

@@ -1,4 +1,4 @@
-"""Gazebo and a controller both say where the robot is.
+"""Gazebo and a controller both publish the robot's odometry.
 
 A drive of Gazebo (DiffDrive, OdometryPublisher …) reports odometry, and so does a drive controller
 of ros2_control, which publishes the transform from `odom` to the robot's base by itself. With
@@ -43,7 +43,7 @@ def check(wiring: Wiring) -> Findings:
                     f"{plugin.class_name} reports the odometry of {transform.child!r}, bridged to "
                     f"{_TOPIC}, while {controller.called} publishes the transform of that frame",
                     key=controller.name,
-                    related=[(plugin, "reports odometry"), (controller, "publishes it, too")],
+                    related=[(plugin, "reports odometry"), (controller, "also publishes it")],
                 )
 
 

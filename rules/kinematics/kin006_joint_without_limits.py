@@ -69,7 +69,7 @@ def _left_out(robot: Robot) -> Iterator[Finding]:
         ):
             yield finding(
                 joint,
-                f"nothing drives wheel joint {joint.name.value!r}, but its opposite, "
+                f"wheel joint {joint.name.value!r} is not driven, but its opposite, "
                 f"{opposite.joint.name.value!r}, is driven",
                 related=[(opposite.joint, "is driven")],
                 key="opposite",

@@ -125,7 +125,9 @@ def _still(joint: Joint, axis: Axis, *, held: bool) -> Iterator[Finding]:
     if not axis.velocity.stated or axis.velocity.value != 0.0 or axis.effort.value == math.inf:
         return
     moves = (
-        "Gazebo does not let it move" if held else "whatever keeps to it does not move the joint"
+        "Gazebo does not let it move"
+        if held
+        else "controllers that respect the limit do not move the joint"
     )
     yield finding(
         axis.velocity,

@@ -31,13 +31,13 @@ def check(robot: Robot, context: Context) -> Findings:
             carries = link.scoped_name in carrying
             severity = Severity.WARNING if carries else Severity.INFO
             advice = "remove the setting" if carries else "expected only where springs balance it"
-            message = f"no gravity acts on link {name!r}, by the value {stated}: {advice}"
+            message = f"no gravity acts on link {name!r}, because its value is {stated}: {advice}"
             yield finding(link.gravity, message, severity=severity, key="gravity")
         if link.kinematic.value:
-            ignored = "Gazebo's default engine ignores it, others let no force move it"
+            ignored = "Gazebo's default engine ignores it; in others, no force moves the link"
             message = (
                 f"<kinematic> of link {link.name.value!r} is {link.kinematic.span.text}: "
-                f"{ignored if context.of_gazebo_sim else 'no force moves it'}"
+                f"{ignored if context.of_gazebo_sim else 'no force moves the link'}"
             )
             yield finding(link.kinematic, message, key="kinematic")
 

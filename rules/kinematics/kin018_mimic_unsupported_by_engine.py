@@ -47,7 +47,7 @@ def _loose(robot: Robot, use: EngineUse, release: str) -> Iterator[Finding]:
             yield finding(
                 leader,
                 f"joint {joint.name.value!r} mimics {leader.value!r}, but the physics engine "
-                f"{engine.title}{chosen} has no such constraint: nothing couples them; expected "
+                f"{engine.title}{chosen} has no such constraint: they move independently; expected "
                 "gz-physics-bullet-featherstone-plugin, or a controller for this joint",
                 related=use.places,
                 key=f"mimic {engine.key}",

@@ -32,8 +32,8 @@ def check(robot: Robot, context: Context) -> Findings:
         if limited and math.isinf(axis.effort.value) and not forces:
             yield finding(
                 axis,
-                f"{joint.name.value!r} turns past its position limits: DART keeps them under "
-                "speed commands only where <effort> is limited, and it is not",
+                f"joint {joint.name.value!r} moves past its position limits under speed "
+                "commands: DART enforces them only if the joint has an <effort> limit",
                 related=[(plugin, "commands its speed")],
             )
 

@@ -1,4 +1,4 @@
-"""A robot description that launch reads as YAML, and cannot.
+"""A robot description that launch parses as YAML, although it is not valid YAML.
 
 A parameter that substitutions make, such as `Command(['xacro …'])`, is read as YAML unless its
 type is stated. A colon before a blank anywhere in the expanded text, usually in a comment, is no
@@ -34,8 +34,8 @@ def check(launch: Ros2Launch, package: Package, description: UrdfDescription) ->
         if local_path(package, loaded.load.path) == description.document.source.file:
             yield finding(
                 loaded,
-                "the robot description is read as YAML, which its text is not: "
-                "expected ParameterValue(…, value_type=str) around it",
+                "the robot description is parsed as YAML, but is not valid YAML: "
+                "write ParameterValue(…, value_type=str) around it",
                 key="without type",
             )
 

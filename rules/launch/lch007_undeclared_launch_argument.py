@@ -1,4 +1,4 @@
-"""An argument of a launch file that is used, and that nothing declares before.
+"""A launch argument that is used before it is declared, or never declared.
 
 The launch ends with "launch configuration 'x' does not exist", unless the user gives
 `x:=…`. Actions are visited in order: a declaration counts for what follows it. What an included

@@ -39,8 +39,8 @@ def check(simulations: Simulations, package: Package) -> Findings:
     for plugin, holder, folder in named:
         yield finding(
             plugin.filename,
-            f"{plugin.filename.value} is installed into {folder} of {holder.name}, where Gazebo "
-            "does not look: nothing sets GZ_SIM_SYSTEM_PLUGIN_PATH",
+            f"{plugin.filename.value} is installed into {folder} of {holder.name}, which is not "
+            "on the plugin path of Gazebo: set GZ_SIM_SYSTEM_PLUGIN_PATH",
             key=plugin.filename.value,
         )
 

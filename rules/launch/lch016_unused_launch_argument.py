@@ -1,4 +1,4 @@
-"""An argument that a launch file declares, and that nothing in it asks for.
+"""A launch argument that is declared, but never used.
 
 `ros2 launch --show-args` lists it, and whatever the user gives has no effect. Often the value was
 meant for a node, or for an included file that asks for another name. Files that are not read, or
@@ -28,7 +28,7 @@ def check(launch: Ros2Launch) -> Findings:
                 near = others.near(argument.name)
                 yield finding(
                     argument,
-                    f"argument {argument.name!r} has no effect: nothing in this launch uses it"
+                    f"argument {argument.name!r} is declared, but never used in this launch"
                     f"{others.hint(argument.name)}",
                     severity=Severity.WARNING if near else None,
                     key=argument.name,

@@ -1,4 +1,4 @@
-"""A command that asks ros2_control for a state of Galactic and older.
+"""A controller state of ROS 2 Galactic and older in a command of ros2_control.
 
 `ros2 control` ends with "invalid choice: 'start'", so the controller is not loaded and the robot
 does not move. Since Humble, states are called `active` and `inactive`.

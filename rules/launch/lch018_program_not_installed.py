@@ -81,7 +81,7 @@ def _missing(program: str, build: SourceText) -> str:
     if program in words:
         return ""
     if f"{program}.py" in words:
-        return f"{build.file} installs {program}.py, with the ending of the file"
+        return f"{build.file} installs {program}.py, with the file extension"
     return f"nothing in {build.file} builds or installs it"
 
 

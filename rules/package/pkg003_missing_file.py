@@ -84,7 +84,7 @@ def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
     if spelt not in (None, SHEET):
         yield finding(
             package.folder_place(),
-            f"{SHEET} is missing: {spelt} is read in its place; rename it",
+            f"{SHEET} is missing: {spelt} is read instead; rename it",
             severity=Severity.WARNING,
             key=SHEET,
             related=[(package.place(spelt), "specifications.md by another name")],
@@ -93,7 +93,7 @@ def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
     holder = next(filter(partial(_describes, package), package.workspace.packages.values()), None)
     where = f" here: that of {holder.name} describes this configuration" if holder else ""
     severity = Severity.WARNING if holder else Severity.ERROR
-    purpose = where or ", without which no review begins"
+    purpose = where or ", which each review requires"
     yield from _missing_part(package, package.part(SHEET), SHEET, purpose, severity)
 
 

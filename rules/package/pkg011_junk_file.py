@@ -75,7 +75,7 @@ def _second_models(package: Package) -> Iterator[Finding]:
         if file.path.casefold() not in package.mentioned_names:
             yield finding(
                 package.place(file.path),
-                f"{file.path} is a second model next to {model.path}, but nothing names it: "
+                f"{file.path} is a second model next to {model.path}, but no file refers to it: "
                 "delete it",
             )
 

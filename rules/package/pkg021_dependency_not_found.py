@@ -74,7 +74,7 @@ def _shown(dependency: Dependency) -> str:
     name = dependency.package.value
     removed = table("removed_packages")["names"].get(name)
     if removed is not None:
-        return f"{name} ({removed['instead']} took its place)"
+        return f"{name} (replaced by {removed['instead']})"
     having = [distro.capitalize() for distro in distributions_with(name)]
     return f"{name} ({having[-1]} has it)" if having else name
 

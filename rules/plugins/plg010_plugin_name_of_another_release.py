@@ -1,4 +1,4 @@
-"""A system of Gazebo by its name of the time when Gazebo was called Ignition.
+"""A system of Gazebo under its name in Ignition Gazebo.
 
 From Garden on the systems are called `gz-sim-…-system` and `gz::sim::systems::…`. Harmonic rewrites
 the older names and warns; Ionic and Jetty do not: they find no library, and the robot has no drive,

@@ -24,7 +24,7 @@ def check(robot: Robot) -> Findings:
         if is_of_gazebo(stem) and of_worlds.intersection(systems_of(plugin)):
             yield finding(
                 plugin,
-                f"{plugin.called} serves the whole world: a world that names it, too, has it twice",
+                f"{plugin.called} serves the whole world: a world that loads it too runs it twice",
                 key=plugin.called,
             )
 

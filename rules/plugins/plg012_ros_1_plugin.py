@@ -65,7 +65,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
 
 def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
     instead, how = known["instead"], known.get("how", "")
-    advice = f"use {instead}" if instead else "nothing takes its place"
+    advice = f"use {instead}" if instead else "it has no replacement"
     return finding(
         plugin.filename,
         f"{plugin.filename.value} is a plugin of ROS 1, which Gazebo does not find with ROS 2: "
@@ -81,7 +81,7 @@ def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Fin
         if element.tag not in names:
             continue
         instead = names[element.tag]
-        advice = f"ROS 2 reads {_shown(instead)}" if instead else "nothing in ROS 2 reads it"
+        advice = f"ROS 2 reads {_shown(instead)}" if instead else "ROS 2 does not read it"
         yield finding(
             element,
             f"<{element.tag}> is a parameter of ROS 1 that {library} ignores: {advice}",

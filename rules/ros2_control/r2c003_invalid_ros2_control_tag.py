@@ -29,7 +29,7 @@ from checker.source.xml import Element
 def check(control: RobotControl) -> Findings:
     """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there.
 
-    A joint that stands twice in a tag is a warning, and so is a plugin that a condition of xacro
+    A joint that occurs twice in a tag is a warning, and so is a plugin that a condition of xacro
     leaves out: the robot may be meant to be shown alone then.
     """
     for hardware in control.hardware:
@@ -72,7 +72,7 @@ def _strange(hardware: Hardware) -> Iterator[Finding]:
     for child in hardware.element.children:
         if child.tag not in KNOWN_CHILDREN:
             hint = suggestions.hint(child.tag)
-            inside = "; it belongs into <hardware>" if child.tag == "param" else hint
+            inside = "; move it into <hardware>" if child.tag == "param" else hint
             yield finding(child, f"<{child.tag}> does not belong below <ros2_control>{inside}")
 
 
@@ -83,7 +83,7 @@ def _twice(hardware: Hardware) -> Iterator[Finding]:
         if before is not joint and joint.name.value:
             yield finding(
                 joint,
-                f"joint {joint.name.value!r} stands twice in <ros2_control> "
+                f"joint {joint.name.value!r} occurs twice in <ros2_control> "
                 f"{hardware.name.value!r}",
                 severity=Severity.WARNING,
                 key="twice",

@@ -1,4 +1,4 @@
-"""A file of parameters that Gazebo's plugin names and that is not there, not installed, or no YAML.
+"""A parameter file of Gazebo's plugin that is missing, not installed, or not valid YAML.
 
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
@@ -20,11 +20,11 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 def check(control: RobotControl, package: Package, papers: Paperwork) -> Findings:
     """Report files that do not exist, and packages that nothing says to be needed.
 
-    A package that package.xml does not name either is a warning; if the file lies in this package
+    A package that package.xml does not name either is a warning; if the file is in this package
     under the same path, it is an error. A plugin without `<parameters>` is a warning.
     """
     for fault in control.faults:
-        yield finding(fault.span, f"the file of parameters cannot be read: {fault.message}")
+        yield finding(fault.span, f"the parameter file cannot be read: {fault.message}")
     for reason in control.unread:
         yield unchecked(reason)
     for manager in control.managers:
@@ -60,7 +60,7 @@ def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Fin
     yield finding(
         file.text,
         f"{_shown(file)} is in package {file.package!r}, which is not available and which "
-        f"package.xml does not depend on{f'; {path} lies in this package' if here else ''}",
+        f"package.xml does not depend on{f'; {path} is in this package' if here else ''}",
         severity=None if here else Severity.WARNING,
     )
 

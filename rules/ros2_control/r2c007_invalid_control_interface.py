@@ -44,8 +44,8 @@ def _misspelt(
     if name not in STANDARD_INTERFACES and (near := suggestions.near(name)):
         yield finding(
             interface.name,
-            f"joint {joint.name.value!r} has the interface {name!r}, which no controller looks "
-            f"for; did you mean {near!r}?",
+            f"joint {joint.name.value!r} has the interface {name!r}, which no controller "
+            f"uses; did you mean {near!r}?",
         )
 
 

@@ -1,4 +1,4 @@
-"""A parameter that a controller needs and has not, or one of a wrong type.
+"""A required parameter of a controller is missing, or a parameter has the wrong type.
 
 A controller without a parameter that has no default is not configured, nor is one whose wheel
 radius or wheel separation stays at 0. ROS knows the types of parameters and converts none: where a

@@ -21,7 +21,7 @@ def check(control: RobotControl) -> Findings:
     """Report blocks that no node of the robot's namespace reads."""
     for file in control.files:
         for key in file.bare:
-            message = f"{key.text} has no ros__parameters below it: nothing is read"
+            message = f"{key.text} has no ros__parameters below it, so its parameters are not read"
             yield finding(key, message, covered_by=("WIR007",))
     if len(control.managers) != 1:
         return

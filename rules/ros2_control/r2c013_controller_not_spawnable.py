@@ -1,4 +1,4 @@
-"""A controller that is spawned and that nothing can load.
+"""A spawned controller that the controller manager cannot load.
 
 A spawner asks the controller manager to load controllers by their names. The manager must know the
 type of each: by `<name>: {type: …}` in its own parameters, or by the file that the spawner gets as
@@ -49,8 +49,8 @@ def check(launched: LaunchedControl, package: Package) -> Findings:
             if name.value not in listed and name.value not in typed:
                 yield finding(
                     name,
-                    f"spawner names controller {name.value!r}, but nothing that it or the "
-                    f"controller manager reads states its type{suggestions.hint(name.value)}",
+                    f"controller {name.value!r} has no type in the parameters of the controller "
+                    f"manager or of its spawner{suggestions.hint(name.value)}",
                 )
 
 
@@ -65,8 +65,8 @@ def _two_managers(launched: LaunchedControl) -> Iterator[Finding]:
         for node in launched.managers:
             yield finding(
                 node,
-                "ros2_control_node runs a controller manager, and so does Gazebo, whose hardware "
-                "the node cannot load",
+                "two controller managers run: in Gazebo, and in ros2_control_node, which cannot "
+                "load the hardware of Gazebo",
                 related=[(simulated[0].plugin, "the hardware")],
             )
 
@@ -93,8 +93,8 @@ def _no_manager(launched: LaunchedControl) -> Iterator[Finding]:
         for spawner in launched.spawners:
             yield finding(
                 spawner.node,
-                "spawner waits for a controller manager that nothing starts: neither "
-                "ros2_control_node nor a plugin of Gazebo",
+                "spawner waits forever: no controller manager is started, neither by "
+                "ros2_control_node nor by a plugin of Gazebo",
                 severity=Severity.WARNING,
                 key="no manager",
             )

@@ -1,4 +1,4 @@
-"""A drive controller whose odometry is that of a frame which the robot does not have.
+"""A drive controller whose base frame is not a link of the robot.
 
 The controller publishes the transform from `odom` to its `base_frame_id`; robot_state_publisher
 publishes those of the links. If no link has that name, there are two trees: nothing can be

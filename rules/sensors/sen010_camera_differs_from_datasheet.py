@@ -1,4 +1,4 @@
-"""A camera whose settings its device does not have.
+"""A camera whose settings differ from those of its device.
 
 Teams plan with the camera in specifications.md. More pixels, a higher rate or a wider view
 make the simulated robot better than the real one, and fewer pixels make it worse; reviewers ask

@@ -118,7 +118,7 @@ def _inside(light: Light, visual: Placed, limit: float) -> Finding:
     position = (
         "which blocks its light, because it casts shadows"
         if light.casts_shadows
-        else "where nobody sees it"
+        else "where it is not visible"
     )
     return finding(
         light,

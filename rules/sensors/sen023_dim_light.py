@@ -46,7 +46,7 @@ def check(
         for light in link.lights:
             diffuse = light.element.child("diffuse")
             if diffuse is not None and not any(_colour(diffuse)):
-                yield finding(diffuse, f"light {light.name.value!r} is black: it lights nothing")
+                yield finding(diffuse, f"light {light.name.value!r} is black, so it has no effect")
                 continue
             attenuation = light.attenuation
             if attenuation is None or light.type == "directional" or not attenuation.is_stated:

@@ -64,7 +64,7 @@ def _copied(stated: dict[str, Element], frames: FrameIds, release: str) -> Itera
     """Report a name that is read, and of which libsdformat warns."""
     for tag, element in stated.items():
         if tag in frames.deprecated and "frame_id" not in stated:
-            message = f"<{tag}> is out of use since SDF 1.12; expected <frame_id>"
+            message = f"<{tag}> is deprecated since SDF 1.12; expected <frame_id>"
         elif tag in frames.read and tag not in (*frames.deprecated, "frame_id", _OF_SDFORMAT):
             message = f"<{tag}> is not an element of SDF: libsdformat warns, and {release} reads it"
         else:

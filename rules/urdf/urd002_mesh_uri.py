@@ -53,8 +53,8 @@ def check(package: Package, description: UrdfDescription) -> Findings:
         elif named is None:
             yield finding(
                 uri,
-                f"mesh {uri.value!r} does not start with package://, so at most the author's "
-                "machine finds it",
+                f"mesh {uri.value!r} does not start with package://, so it is "
+                "found on the author's machine at most",
                 key="no package",
             )
         elif description.for_rviz:

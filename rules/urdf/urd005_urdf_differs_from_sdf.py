@@ -92,9 +92,7 @@ def _lacking(simulated: _Bodies, shown: _Bodies, description: UrdfDescription) -
         message = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
         if len(lacking) == len(simulated.links) and shown.links:
             other = next(iter(shown.links))
-            message = (
-                f"no link has the name that it has in the model, for example {other!r}; expected "
-            )
+            message = f"no link name matches the model, for example {other!r}; expected "
         yield finding(
             description.document.root,
             message + ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else ""),

@@ -64,13 +64,13 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
         if child.tag == "ros2_control":
             yield finding(
                 child,
-                "<ros2_control> is inside <gazebo>, where nothing reads it, so no controller "
-                "finds its joints: move it out, directly into <robot>",
+                "<ros2_control> inside <gazebo> is not read, so controllers do not find its "
+                "joints: move it directly into <robot>",
             )
             continue
         if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
             what = "a link" if child.tag in OF_LINKS else "a joint"
-            message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
+            message = f"<{child.tag}> has no effect in a <gazebo> without the reference of {what}"
         elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
             message = f"<{child.tag}> is for a joint, but {name!r} is a link"
         elif child.tag == "sensor" and child.get("type") == "force_torque":

@@ -78,7 +78,7 @@ def _problem(text: Located[str], count: int) -> str:
     for word in words:
         value = parse_number(word)
         if value is None:
-            return f"holds {short(word)!r}, which is not a number"
+            return f"contains {short(word)!r}, which is not a number"
         if value in (float("inf"), float("-inf")):
             return f"is {word}, which URDF readers refuse; expected a finite number"
     if len(words) != count:

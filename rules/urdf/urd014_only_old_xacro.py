@@ -21,7 +21,7 @@ def check(files: UrdfFiles) -> Findings:
         hint = f": {refused.hint}" if refused.hint else ""
         yield finding(
             refused,
-            f"only xacro of ROS Melodic expands {refused.file}; later ones say: "
+            f"{refused.file} expands with xacro of ROS Melodic only; later versions fail with: "
             f"{refused.message}{hint}",
         )
 

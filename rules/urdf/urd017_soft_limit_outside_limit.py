@@ -1,4 +1,4 @@
-"""Soft limits of a safety controller that lie outside the limits of the joint.
+"""Soft limits of a safety controller that are outside the limits of the joint.
 
 Between the soft limit and the limit a controller slows the joint down, so that it never hits the
 stop. A soft limit beyond the stop never acts, and the joint hits it at full speed; usually one of

@@ -32,7 +32,8 @@ def check(description: UrdfDescription) -> Findings:
         hinge = tag.element.child(_HINGE)
         yield finding(
             hinge or tag,
-            f"fixed joint {name!r} becomes a revolute joint with both limits at 0 in Gazebo",
+            f"fixed joint {name!r} becomes a revolute joint with both limits at 0 in Gazebo: "
+            "write <preserveFixedJoint>",
             key="hinge",
             fix=_renamed(hinge),
         )

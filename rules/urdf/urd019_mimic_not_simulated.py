@@ -1,4 +1,4 @@
-"""A joint that mimics another, in a release that does not know it.
+"""A joint that mimics another, in a release that does not support mimic joints.
 
 Gazebo converts `<mimic>` from Harmonic on. Fortress drops it: the second finger of a gripper swings
 freely, or has to be driven by itself. What ros2_control reads for itself is not affected: there a
@@ -30,8 +30,8 @@ def check(robot: Robot, context: Context) -> Findings:
         for leader in joint.mimics:
             yield finding(
                 leader,
-                f"joint {joint.name.value!r} mimics {leader.value!r}, which Gazebo "
-                f"{context.release.capitalize()} does not know: it moves freely",
+                f"joint {joint.name.value!r} moves freely instead of following {leader.value!r}: "
+                f"Gazebo {context.release.capitalize()} does not support <mimic>",
                 key="mimic",
             )
 

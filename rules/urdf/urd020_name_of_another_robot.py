@@ -30,9 +30,9 @@ def check(files: UrdfFiles) -> Findings:
         for other in _owners(files, description):
             yield finding(
                 name,
-                f"the robot of {description.file} is called {name.value!r}, as that of "
-                f"{other.file}, which has other links",
-                related=[(other.robot.name, "this file bears the name")],
+                f"the robots of {description.file} and {other.file} are both named {name.value!r}, "
+                "but have different links",
+                related=[(other.robot.name, "the other robot")],
             )
             break
 

@@ -1,12 +1,11 @@
-"""A macro that makes links, and that no file calls.
+"""A macro with links that no file calls.
 
-A package may hold a part for other robots to include: an arm, a gripper, a sensor. Nothing
-available includes it, so it is judged as the smallest call makes it: what has a default keeps it, a
-prefix is empty, and the parent is the link `world`. What its values would be on a real robot is not
-known.
+A package may contain a part for other robots to include: an arm, a gripper, a sensor. No available
+file includes it, so it is checked as expanded by the shortest call: parameters keep their defaults,
+a prefix is empty, and the parent is the link `world`. The values on a real robot are not known.
 
-Fix: nothing needs correction. A small xacro file that calls the macro, and is not included
-elsewhere, lets the author choose what is judged.
+Fix: no correction is needed. To choose what is checked, add a small xacro file that calls the macro
+and that no other file includes.
 Source: xacro, macros and their default values.
 """
 
@@ -21,7 +20,7 @@ def check(description: UrdfDescription) -> Findings:
     if call is not None:
         yield finding(
             call,
-            f"no file calls the macro {call.name!r}: it is judged as {call.shown} makes it",
+            f"macro {call.name!r} is not called by any file; checked with {call.shown}",
         )
 
 

@@ -1,4 +1,4 @@
-"""An element in a link or joint of a URDF, where no reader looks for it.
+"""An element in a link or joint of a URDF that no reader reads there.
 
 URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
 it no friction, a `<gazebo>` tag inside a link loads no plugin, and `<joint_properties>` adds no

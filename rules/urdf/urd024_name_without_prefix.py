@@ -59,7 +59,7 @@ def _lacking(elements: list[Element], plain: set[str]) -> Iterator[Finding]:
             if whole is not None and name.value.strip() not in plain:
                 yield finding(
                     name,
-                    f"<{element.tag}> names {name.value.strip()!r}, which exists only while the "
+                    f"<{element.tag}> names {name.value.strip()!r}, which exists only if the "
                     f"prefix is empty: write {whole}",
                 )
 

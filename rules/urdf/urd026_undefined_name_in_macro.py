@@ -108,7 +108,7 @@ def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
             for name in _names(EXPRESSION.findall(value)) - defined - _SYMBOLS:
                 yield finding(
                     place,
-                    f"{name!r} {where} is not defined: xacro ends when it is called"
+                    f"{name!r} {where} is not defined: xacro fails when the macro is called"
                     f"{suggestions.hint(name)}",
                     key=name,
                 )

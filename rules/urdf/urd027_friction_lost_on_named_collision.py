@@ -1,4 +1,4 @@
-"""A friction that Gazebo drops, since the collision has a name of its own.
+"""A friction that Gazebo drops, because the collision has its own name.
 
 `<mu1>` and `<mu2>` below `<gazebo reference="link">` are for the collisions of that link. Gazebo
 finds these by their names in SDF, which it makes of the link's name where a collision has none. A
@@ -39,8 +39,8 @@ def check(description: UrdfDescription) -> Findings:
         for name in _lost(link, merged=is_merged):
             yield finding(
                 mu,
-                f"Gazebo drops <{first}> {mu.value:g} of {link.name.value!r} for its collision "
-                f"{name.value!r}: expected no name, or {link.name.value!r}",
+                f"Gazebo drops <{first}> {mu.value:g} of link {link.name.value!r}, because its "
+                f"collision has the name {name.value!r}: remove it, or write {link.name.value!r}",
                 related=[(name, "the collision")],
                 key=first,
             )

@@ -1,4 +1,4 @@
-"""A continuous joint states limits of its angle, which nobody keeps.
+"""A continuous joint with limits of its angle, which are ignored.
 
 Readers of URDF ignore `lower` and `upper` of a continuous joint: simulators and planners let it
 turn for ever. Limits of a whole turn and more are harmless, and so are two zeros; none is reported.
@@ -33,8 +33,8 @@ def check(description: UrdfDescription) -> Findings:
         if 0.0 < upper - lower < _NEARLY * _TURN:
             yield finding(
                 limit,
-                f"joint {joint.name.value!r} turns beyond its limits {lower:g} and {upper:g} rad: "
-                "a continuous joint has none, expected a revolute one",
+                f"continuous joint {joint.name.value!r} ignores its limits {lower:g} and {upper:g} "
+                'rad: write type="revolute", or remove the limits',
                 key="limits of a continuous joint",
             )
 
