@@ -25,7 +25,7 @@ SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CLIENTS, SECONDS = 8, 10.0
 GOAL = 300.0
 """Compressed reports a second."""
-GZIP = {"Accept-Encoding": "gzip"}
+GZIP = {"Accept-Encoding": "gzip", "Accept": "text/html"}
 
 
 def fetched(address: str, path: str, headers: Mapping[str, str], ends: float) -> tuple[int, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import time
 from collections.abc import Iterator
@@ -17,6 +18,8 @@ from hypothesis import strategies as st
 
 from checker.service.store.store import SUMMARY, Store, TooLarge
 from tests.store.filled import KEY, OTHER, made, uploaded
+
+BACK = '<p class="back"><a href="../../">Back to the check</a></p>'
 
 
 @pytest.fixture
@@ -159,6 +162,23 @@ def test_a_result_that_is_too_large_is_refused(
     made(store, {"report.json": "x" * 10})
     with pytest.raises(ValueError, match="at most"):
         made(store, {"report.json": "x" * 6, "report.html": "x" * 5}, key=OTHER)
+
+
+def test_files_of_a_result_lie_there_compressed_as_well(store: Store) -> None:
+    page = "<header>\n" + "a report " * 1_000
+    made(store, {"report.json": page, "a/report.html": page, "a/robot.glb": "short"})
+    assert store.names(KEY) == ("a/report.html", "a/robot.glb", "report.json")
+    for name, expected in (
+        ("report.json", page),
+        ("a/report.html", page.replace("<header>", f"<header>\n{BACK}")),
+    ):
+        path = store.file(KEY, name)
+        assert path is not None
+        packed = path.with_name(f"{path.name}.gz").read_bytes()
+        assert len(packed) < len(page) / 10
+        assert gzip.decompress(packed).decode() == expected
+        assert store.file(KEY, f"{name}.gz") is None
+    assert [*store.folder.rglob("robot.glb.gz")] == []
 
 
 def test_what_nobody_needs_any_more_expires(store: Store) -> None:

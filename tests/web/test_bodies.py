@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import secrets
 from pathlib import Path
 
@@ -14,12 +13,11 @@ from hypothesis import strategies as st
 from starlette.datastructures import Headers
 
 from checker.service.store.store import Store
-from checker.service.web.answers.compression import CompressedFiles, takes_gzip
-from checker.service.web.answers.headers import file_response
+from checker.service.web.answers.compression import takes_gzip
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.pages.site import FOLDER, release
-from tests.web.board import DONE, ID, QUEUED, BoardJobs, keep_result
+from tests.web.board import DONE, ID, KEY, QUEUED, BoardJobs, keep_result
 from tests.web.server import eventually, served
 
 
@@ -28,6 +26,7 @@ def static(name: str) -> str:
 
 
 PAGE = "<meta content=\"script-src 'sha256-" + "A" * 43 + "='\">" + "a report " * 9_000
+BROWSER = {"Accept": "text/html,*/*;q=0.8", "Accept-Encoding": "br, gzip"}
 RESULT = ("report.html", "report.sarif", "robot.glb")
 COMPRESSED = (
     *("/", "/rules", "/api/openapi.json", static("site.css"), static("watch.js")),
@@ -60,7 +59,7 @@ def test_the_head_is_that_of_the_whole_answer(client: TestClient, address: str) 
 @pytest.mark.parametrize("address", COMPRESSED)
 def test_a_client_that_takes_gzip_gets_less(client: TestClient, address: str) -> None:
     plain = client.get(address, headers={"Accept-Encoding": "identity"})
-    packed = client.get(address, headers={"Accept-Encoding": "br, gzip"})
+    packed = client.get(address, headers=BROWSER)
     assert packed.headers["content-encoding"] == "gzip"
     assert int(packed.headers["content-length"]) < len(plain.content) / 2
     assert packed.content == plain.content  # the client unpacks it
@@ -69,7 +68,7 @@ def test_a_client_that_takes_gzip_gets_less(client: TestClient, address: str) ->
         each for each in plain.headers.items() if each[0] not in changed
     ]
     assert "Accept-Encoding" in plain.headers["vary"]
-    assert client.head(address).headers == packed.headers
+    assert client.head(address, headers=BROWSER).headers == packed.headers
 
 
 @pytest.mark.parametrize("address", ["/healthz", f"/api/checks/{ID}", "/metrics"])
@@ -112,55 +111,15 @@ def test_nothing_that_a_client_says_fails(said: str) -> None:
     takes_gzip(Headers({"Accept-Encoding": said.encode("latin-1", "replace").decode("latin-1")}))
 
 
-def file_of(folder: Path, content: bytes, name: str = "report.json") -> Path:
-    path = folder / name
-    path.write_bytes(content)
-    return path
-
-
-def packed_by(compressed: CompressedFiles, path: Path) -> bytes:
-    with path.open("rb") as file:
-        packed = compressed.of(path, file)
-        assert file.tell() == 0
-    return packed
-
-
-def test_a_file_is_compressed_once(tmp_path: Path) -> None:
-    compressed, path = CompressedFiles(), file_of(tmp_path, PAGE.encode())
-    first = packed_by(compressed, path)
-    assert gzip.decompress(first) == PAGE.encode()
-    assert packed_by(compressed, path) is first
-    path.unlink()
-    other = file_of(tmp_path, PAGE.encode() * 2)
-    assert gzip.decompress(packed_by(compressed, other)) == PAGE.encode() * 2
-
-
 def test_what_is_compressed_already_is_sent_as_it_is(tmp_path: Path) -> None:
-    path = file_of(tmp_path, secrets.token_bytes(50_000), "robot.glb")
-    answer = file_response(path, CompressedFiles())
+    store, noise = Store(tmp_path / "data"), secrets.token_bytes(50_000)
+    (tmp_path / "made").mkdir()
+    (tmp_path / "made/robot.glb").write_bytes(noise)
+    store.keep(KEY, tmp_path / "made")
+    client = TestClient(create_app(BoardJobs({ID: DONE}), store, Config()), "http://localhost")
+    answer = client.get(f"/api/checks/{ID}/robot.glb", headers={"Accept-Encoding": "gzip"})
     assert "content-encoding" not in answer.headers
-    assert TestClient(answer).get("/").content == path.read_bytes()
-
-
-def test_files_that_are_kept_have_bounded_room(tmp_path: Path) -> None:
-    def noise(number: int) -> Path:
-        return file_of(tmp_path, secrets.token_hex(5_000).encode(), f"{number}.json")
-
-    compressed, paths = CompressedFiles(room=20_000), [noise(n) for n in range(10)]
-    first = [packed_by(compressed, path) for path in paths]
-    assert sum(map(len, compressed._kept.values())) <= 20_000
-    assert len(compressed._kept) >= 3
-    assert packed_by(compressed, paths[9]) is first[9]
-    again = packed_by(compressed, paths[0])
-    assert again is not first[0]
-    assert again == first[0]
-
-
-def test_who_comes_while_another_is_compressed_does_not_wait(tmp_path: Path) -> None:
-    compressed, path = CompressedFiles(), file_of(tmp_path, PAGE.encode())
-    with compressed._packing:
-        assert packed_by(compressed, path) == b""
-    assert packed_by(compressed, path) != b""
+    assert answer.content == noise
 
 
 @pytest.mark.parametrize("address", ["/checks", "/api/checks", f"/checks/{ID}/cancel"])

@@ -18,6 +18,7 @@ from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
 from checker.service.store.folder import FolderObjects
 from checker.service.store.objects import Kind, Objects
+from checker.service.store.packed import pack
 from checker.service.store.place import DATABASE, data_folder
 from checker.service.store.workplace import Incoming, TooLarge, sweep, work_file, workplace
 
@@ -105,6 +106,7 @@ class Store(Record):
         if not _KEY.fullmatch(key):
             raise ValueError(f"{key!r} is not the key of a result")
         _check_result(folder)
+        pack(folder)
         self.objects.put(Kind.RESULT, key, folder)
 
     def file(self, key: str, name: str) -> Path | None:

@@ -11,7 +11,6 @@ from msgspec import field
 from checker.base.record import Record
 from checker.service.jobs.port import Jobs, State
 from checker.service.store.store import Store
-from checker.service.web.answers.compression import CompressedFiles
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config
@@ -42,7 +41,6 @@ class Services(Record):
         indexes: Reads those of archives.
         watchers: Follow checks.
         space: Room on the disk for uploads.
-        compressed: Files of results, for clients that take gzip.
         threads: For uploads that have come whole, to be looked at, kept and ordered.
         lines: Before these threads, one for each sender.
     """
@@ -55,7 +53,6 @@ class Services(Record):
     indexes: ArchiveIndexes
     watchers: Watchers
     space: Space
-    compressed: CompressedFiles = field(default_factory=CompressedFiles)
     threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(AT_ONCE))
     lines: Lines = field(default_factory=lambda: Lines(AT_ONCE, OF_ONE))
 

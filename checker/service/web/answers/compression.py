@@ -7,12 +7,7 @@ No answer that brings a secret is compressed, such as that to an upload: its len
 from __future__ import annotations
 
 import gzip
-import os
-from collections import OrderedDict
 from functools import partial
-from pathlib import Path
-from threading import Lock
-from typing import BinaryIO
 
 from anyio.to_thread import run_sync
 from starlette.datastructures import Headers, MutableHeaders
@@ -22,12 +17,6 @@ from checker.base.record import Record
 
 LEAST = 1_000
 """Bytes of an answer that is worth it: less fits into one packet."""
-LARGEST = 32_000_000
-"""Bytes of a file that is compressed; a larger one would take seconds."""
-ROOM = 64_000_000
-"""Bytes of memory for compressed files."""
-GAIN = 0.9
-"""Of its bytes: a file that stays larger is sent as it is, as one of pictures."""
 _AT_ONCE = 50_000
 """Bytes that take a millisecond; what is longer is done in a thread."""
 _TEXT = ("text/html", "text/css", "text/javascript", "application/json", "image/svg+xml")
@@ -89,47 +78,3 @@ async def _compressed(start: Message, message: Message, *, takes: bool) -> Messa
     packed = _pack(body) if len(body) <= _AT_ONCE else await run_sync(_pack, body)
     headers.update({**_GZIP, "content-length": str(len(packed))})
     return {**message, "body": packed}
-
-
-class CompressedFiles:
-    """Files of results, compressed once; those that were asked for last are kept."""
-
-    def __init__(self, room: int = ROOM) -> None:
-        self._left = room
-        self._kept: OrderedDict[tuple[object, ...], bytes] = OrderedDict()
-        self._keeping, self._packing = Lock(), Lock()
-
-    def of(self, path: Path, file: BinaryIO, begin: bytes = b"", kind: str = "") -> bytes:
-        """Return a file compressed; empty if that is not worth it, or not to be had at once.
-
-        Args:
-            path: Of the file.
-            file: The same, open; it is where the rest begins, before and after.
-            begin: What stands before the rest.
-            kind: Tells one beginning from others of the same file.
-        """
-        status, at = os.fstat(file.fileno()), file.tell()
-        key = (path, kind, status.st_ino, status.st_mtime_ns, status.st_size)
-        with self._keeping:
-            if key in self._kept:
-                self._kept.move_to_end(key)
-                return self._kept[key]
-        # One at a time, and nobody waits: the file as it is serves as well.
-        if status.st_size > LARGEST or not self._packing.acquire(blocking=False):
-            return b""
-        try:
-            packed = _pack(begin + file.read())
-        finally:
-            self._packing.release()
-        file.seek(at)
-        return self._keep(key, packed if len(packed) < GAIN * status.st_size else b"")
-
-    def _keep(self, key: tuple[object, ...], packed: bytes) -> bytes:
-        with self._keeping:
-            if key not in self._kept:
-                self._kept[key] = packed
-                self._left -= len(packed)
-            while self._left < 0:
-                _, oldest = self._kept.popitem(last=False)
-                self._left += len(oldest)
-        return packed

@@ -5,16 +5,17 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from html import escape
+from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from starlette.datastructures import MutableHeaders
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import Response, StreamingResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.base.record import Record
-from checker.service.web.answers.compression import CompressedFiles
+from checker.service.store.packed import SUFFIX
+from checker.service.web.answers.compression import takes_gzip
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -79,10 +80,7 @@ KINDS = {
 """Media types by name."""
 _HEAD = 4_096
 """Bytes of a page that hold its own policy."""
-_BEGIN = 65_536
-"""Bytes of a page that hold its style as well, and the start of its header."""
-_HEADER = re.compile(rb'<header(?: class="[a-z_ ]*")?>')
-_PIECE = 262_144
+_PIECE = 1_000_000
 """Bytes that are sent at once."""
 _SCRIPT = re.compile(rb"script-src '(sha256-[A-Za-z0-9+/]{43}=)'")
 _REPORT = (
@@ -94,54 +92,52 @@ _REPORT = (
 )
 
 
-def file_response(
-    path: Path, compressed: CompressedFiles | None = None, back: str = ""
-) -> Response:
+def file_response(path: Path, asked: Headers | None = None) -> Response:
     """Return the answer that sends a file of a result, as what its name says.
 
     The file is open from here on: deleted meanwhile, it is sent all the same.
 
     Args:
         path: Of the file.
-        compressed: Compresses it, for a client that takes that.
-        back: Address to which a page gets a link at its top, relative to its own: what is sent is
-            the same for all checks that share the file. Empty for none.
+        asked: Headers of the request, which tell who takes it compressed.
 
     Raises:
         FileNotFoundError: It has been deleted.
     """
     kind, file = KINDS[path.name], path.open("rb")
-    headers, begin = {"vary": "Accept, Accept-Encoding"}, file.read(_BEGIN)
+    headers = {"vary": "Accept, Accept-Encoding"}
     if kind.startswith("text/html"):
-        headers[POLICY] = _policy(begin)
-        begin = _with_link(begin, back) if back else begin
+        headers[POLICY] = _policy(file.read(_HEAD))
+        file.seek(0)
     if path.name == "robot.glb":
         headers["content-disposition"] = f'attachment; filename="{path.name}"'
-    packed = compressed.of(path, file, begin, back) if compressed else b""
-    if packed:
-        file.close()
-        headers |= {"content-length": str(len(packed)), "content-encoding": "gzip"}
-        return Response(packed, media_type=kind, headers=headers)
-    left = os.fstat(file.fileno()).st_size - file.tell()
-    headers["content-length"] = str(len(begin) + left)
-    return StreamingResponse(_pieces(begin, file), media_type=kind, headers=headers)
+    if asked is not None and _takes_packed(asked, kind):
+        with suppress(FileNotFoundError):
+            packed = path.with_name(path.name + SUFFIX).open("rb")
+            file.close()
+            file = packed
+            headers["content-encoding"] = "gzip"
+    size = os.fstat(file.fileno()).st_size
+    if size <= _PIECE:
+        with file:
+            return Response(file.read(), media_type=kind, headers=headers)
+    headers["content-length"] = str(size)
+    return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
 
 
-def _pieces(begin: bytes, file: BinaryIO) -> Iterator[bytes]:
+def _takes_packed(asked: Headers, kind: str) -> bool:
+    """Whether a client takes a compressed file: of pages, those for browsers alone are."""
+    is_for_it = not kind.startswith("text/html") or "text/html" in asked.get("accept", "")
+    return is_for_it and takes_gzip(asked)
+
+
+def _pieces(file: BinaryIO) -> Iterator[bytes]:
     with file:
-        if begin:
-            yield begin
         while piece := file.read(_PIECE):
             yield piece
 
 
 def _policy(begin: bytes) -> str:
     """Return the policy of a report: its own script runs, which its head names by hash."""
-    match = _SCRIPT.search(begin, 0, _HEAD)
+    match = _SCRIPT.search(begin)
     return _REPORT + (f"'{match[1].decode('ascii')}'" if match else "'none'")
-
-
-def _with_link(begin: bytes, back: str) -> bytes:
-    """Return the beginning of a page with a link in its header, as that to all packages."""
-    link = f'<p class="back"><a href="{escape(back)}">Back to the check</a></p>'
-    return _HEADER.sub(lambda header: header[0] + b"\n" + link.encode(), begin, count=1)

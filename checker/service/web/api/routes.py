@@ -14,7 +14,6 @@ from starlette.responses import RedirectResponse, Response
 from checker.base.record import Record
 from checker.service.jobs.port import State
 from checker.service.web import receipts
-from checker.service.web.answers.compression import takes_gzip
 from checker.service.web.answers.headers import KINDS, file_response
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused
@@ -235,12 +234,11 @@ class Api(Record):
 
     def _file(self, request: Request, id: str, name: str) -> Response:
         """Return a file of a result; to browsers, a page leads back to the check."""
-        compressed = self.services.compressed if takes_gzip(request.headers) else None
         state = self.services.check(id)
         path = self.services.store.file(state.result, name) if state.result else None
         if path is not None:
             with suppress(FileNotFoundError):  # it is deleted just now
-                return file_response(path, compressed, _back(request, id))
+                return file_response(path, request.headers)
         error = "The check has no such file, or not yet."
         advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
         raise Refused(404, error, advice, "not found")
@@ -251,13 +249,6 @@ class Api(Record):
 
     def _page(self, request: Request, id: str) -> str:
         return f"{self.services.address(request)}/checks/{id}"
-
-
-def _back(request: Request, id: str) -> str:
-    """Return the way from a file to the folder of all files of its check; empty to programs."""
-    if "text/html" not in request.headers.get("accept", ""):
-        return ""
-    return "../" * request.url.path.removeprefix(f"/api/checks/{id}/").count("/") or "./"
 
 
 def _other_method(_: Request) -> Response:
