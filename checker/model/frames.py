@@ -108,8 +108,3 @@ class FrameGraph:
             pose = self.nodes[at].transform @ pose
             at = self.nodes[at].relative_to
         return pose
-
-    def pose_in(self, name: str, other: str) -> Transform | None:
-        """Return the pose of one frame in another; None when either is unknown."""
-        frame, base = self.pose(name), self.pose(other)
-        return None if frame is None or base is None else base.inverse @ frame

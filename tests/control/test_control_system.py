@@ -39,7 +39,6 @@ def test_the_minimal_package(part: Part) -> None:
     ]
     assert set(control.configured) == {"/arm/state_controller", "/arm/shoulder_controller"}
     assert [each.full_name for each in control.spawned] == [*control.configured]
-    assert set(control.plugin_namespaces) == {"/arm"}
     assert control.interfaces["shoulder"].value == "EffortJointInterface"
     assert not control.unread
     assert not control.faults

@@ -29,7 +29,6 @@ def test_relative_to_chains() -> None:
     )
     assert messages(robot) == []
     assert_pose(robot.pose_of("c"), A @ B @ C)
-    assert_pose(robot.frame_graph.pose_in("c", "a"), B @ C)
 
 
 def test_in_sdf_1_6_the_attribute_is_called_frame() -> None:

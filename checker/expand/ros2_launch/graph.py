@@ -274,11 +274,9 @@ class Process(Started, eq=False, kw_only=True):
 
     Attributes:
         words: The command line, taken apart as a shell does; a word may hold `$(`.
-        in_shell: Whether a shell runs it.
     """
 
     words: tuple[Located[str], ...]
-    in_shell: bool = False
 
 
 class Include(Started, eq=False, kw_only=True):

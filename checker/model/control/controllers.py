@@ -191,21 +191,6 @@ class ControlSystem(Record, eq=False, dict=True):
         return frozenset(controller.namespace for controller in self.spawned)
 
     @cached_property
-    def plugin_namespaces(self) -> Mapping[str, Span]:
-        """Namespaces in which Gazebo runs a controller manager, each with what says so.
-
-        A plugin that states none gets that of the node which spawns the model.
-        """
-        namespaces: dict[str, Span] = {}
-        for plugin in self.plugins:
-            if plugin.namespace is not None:
-                namespaces.setdefault(plugin.namespace.value, plugin.namespace.span)
-                continue
-            for model in self.models:
-                namespaces.setdefault(model.namespace, model.span)
-        return namespaces
-
-    @cached_property
     def models(self) -> tuple[SpawnedModel, ...]:
         """Models that launch files spawn; each place once."""
         distinct = {

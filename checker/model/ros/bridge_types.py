@@ -8,8 +8,6 @@ from functools import cache
 
 from checker.base.resources import table
 
-_ROS_TYPE = re.compile(r"[a-z][a-z0-9_]*/msg/[A-Za-z0-9]+\Z")
-
 
 def ros_types(gz_message: str) -> Sequence[str]:
     """Return the ROS messages of one of Gazebo's, named without its package."""
@@ -44,11 +42,6 @@ def all_ros_types() -> tuple[str, ...]:
     """Return every ROS message of the table."""
     names = (name for row in table("bridge_types")["pairs"].values() for name in row)
     return tuple(dict.fromkeys(names))
-
-
-def is_ros_type(text: str) -> bool:
-    """Whether a text is spelled as a message of ROS 2: `sensor_msgs/msg/Imu`."""
-    return _ROS_TYPE.match(text) is not None
 
 
 def service_messages(ros_type: str) -> Sequence[str] | None:

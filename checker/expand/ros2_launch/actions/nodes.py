@@ -89,7 +89,6 @@ def process(visitor: Visitor, made: Made, context: Context) -> None:
     visitor.found.processes.append(
         Process(
             words=words,
-            in_shell=chosen(made.values.get("shell")) in (True, "true", "True"),
             conditions=context.conditions,
             after=context.after,
             span=made.span,

@@ -32,7 +32,6 @@ from checker.expand.ros2_launch.values import (
     Value,
     chosen,
     placed,
-    span_of,
 )
 from checker.source.text import Located, SourceText, Span
 
@@ -387,10 +386,6 @@ class Interpreter:
             return self.unknown(node, "the arguments do not fit the function")
         scope.values |= values
         return None
-
-    def text_at(self, value: Value, node: ast.AST) -> Span:
-        """Return the place of a value, else that of a node."""
-        return span_of(value, self.span(node))
 
 
 def _is_generator(function: ast.AST) -> bool:
