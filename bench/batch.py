@@ -1,29 +1,36 @@
-"""A batch of packages on PostgreSQL: how much sooner two workers are through with it than one.
+"""A batch of packages on PostgreSQL: how much sooner several workers are through with it than one.
 
 Each package is the robot of a real one, made a trifle heavier, so that every check drives its own;
 each number of workers begins with an empty database, store and cache. A check keeps more than one
 processor busy at times, and so each worker is given one of its own (`compose.yaml` gives them
 containers of their own): with as many processors as it likes, one worker would take those of the
-other. Run with `python -m bench.batch [--packages N]` from the top folder, as `make bench` does;
-SUBT_CHECK_CORPUS names the folder of real packages, the samples stand in where there is none.
+other. More workers than processors share them. Of each check, what it takes of processors, of the
+database and of the disk is printed, too. Run with `python -m bench.batch [--packages N]` from the
+top folder, as `make bench` does; SUBT_CHECK_CORPUS names the folder of real packages, the samples
+are used where there is none.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
+import sqlalchemy as sa
+
 from bench.service import Client, other_robot, say, show
 from bench.static import ROOT, keep_bytecode, real_packages
+from checker.service.jobs.durable.database import open_database
 from tests.postgres import fresh_database, started
 from tests.web.service import service, zip_of
 
@@ -64,22 +71,61 @@ def worker(number: int, data: Path, url: str) -> Iterator[None]:
         process.wait()
 
 
-def seconds(workers: int, packages: Sequence[tuple[str, bytes]], folder: Path, url: str) -> float:
-    """Return how long so many workers take, from their start until the last report is there."""
-    from contextlib import ExitStack
+@dataclass(frozen=True)
+class Taken:
+    """What a batch took until the last report was there.
 
+    Attributes:
+        seconds: By the clock, from the start of the workers.
+        processor: Seconds of processors, of all processes of the service.
+        commits: Transactions of the database.
+        log: Bytes that the database wrote ahead.
+        database: Bytes by which it grew.
+        stored: Bytes of uploads, results and parts.
+    """
+
+    seconds: float
+    processor: float
+    commits: int
+    log: int
+    database: int
+    stored: int
+
+
+def taken(workers: int, packages: Sequence[tuple[str, bytes]], folder: Path, url: str) -> Taken:
+    """Return what so many workers take."""
+    engine, before = open_database(url), _processor()
     with ExitStack() as stack:
         more = {"SUBT_CHECK_DATABASE_URL": url}
         client = Client(stack.enter_context(service(folder / "data", more, workers=0)))
         ids = [client.upload(name, content).id for name, content in packages]
-        begun = perf_counter()
+        figures, begun = _figures(engine), perf_counter()
         for number in range(workers):
             stack.enter_context(worker(number, folder / "data", url))
         over = client.ends(ids)
         took = perf_counter() - begun
+        after = _figures(engine)
     stages = Counter(state["stage"] for state in over.values())
     say(f"{workers} at work: {took:.1f} s, {dict(stages)}")
-    return took
+    engine.dispose()
+    of_database = (now - then for now, then in zip(after, figures, strict=True))
+    stored = sum(path.stat().st_size for path in (folder / "data").rglob("*") if path.is_file())
+    return Taken(took, _processor() - before, *of_database, stored)
+
+
+def _processor() -> float:
+    """Return the seconds that processes which have ended took, with those below them."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _figures(engine: sa.Engine) -> tuple[int, int, int]:
+    """Return commits, bytes written ahead and bytes of a database of PostgreSQL."""
+    query = """SELECT xact_commit, pg_current_wal_lsn() - '0/0', pg_database_size(datname)
+        FROM pg_stat_database WHERE datname = current_database()"""
+    with engine.connect() as connection:
+        commits, log, size = connection.exec_driver_sql(query).one()
+    return int(commits), int(log), int(size)
 
 
 def main() -> None:
@@ -88,16 +134,24 @@ def main() -> None:
     parser.add_argument("--packages", type=int, default=60)
     number = parser.parse_args().packages
     keep_bytecode()
-    took = {}
+    took: dict[int, Taken] = {}
     with tempfile.TemporaryDirectory() as folder, started() as server:
         packages = archives(number, Path(folder))
-        for workers in (1, 2):
+        for workers in (1, 2, 4):
             place = Path(folder) / str(workers)
             place.mkdir()
-            took[workers] = seconds(workers, packages, place, fresh_database(server))
-            show(f"{number} packages, {workers} at work", took[workers], "s")
+            took[workers] = each = taken(workers, packages, place, fresh_database(server))
+            show(f"{number} packages, {workers} at work", each.seconds, "s")
+            show("  checks an hour", number / each.seconds * 3600, "")
             show("  load after", os.getloadavg()[0], "")
-    show("two against one", took[2] / took[1], "", RATIO_LIMIT)
+    each = took[2]
+    show("a check: seconds of processors", each.processor / number, "s")
+    show("  transactions of the database", each.commits / number, "")
+    show("  written ahead by it", each.log / number / 1e3, "kB")
+    show("  by which it grows", each.database / number / 1e3, "kB")
+    show("  stored: upload, result, parts", each.stored / number / 1e3, "kB")
+    show("two against one", took[2].seconds / took[1].seconds, "", RATIO_LIMIT)
+    show("four against one", took[4].seconds / took[1].seconds, "")
 
 
 if __name__ == "__main__":
