@@ -127,15 +127,12 @@ def in_turn(*answers: bytes | Answers) -> Answers:
     return respond
 
 
-def checking(
-    *states: dict[str, object], report: str = "", secret: str = SECRET, **files: bytes
-) -> Answers:
+def checking(*states: dict[str, object], report: str = "", **files: bytes) -> Answers:
     """Take an upload, then stand as the states say, one after the other.
 
     Args:
         states: What is said of the check.
         report: Its report in JSON; any one by default.
-        secret: Of the check; empty as by a service of version 0.1.0.
         files: Of the result.
     """
     standing = in_turn(*(answer(200, state) for state in states))
@@ -143,11 +140,10 @@ def checking(
     written |= {name.replace("_", "."): content for name, content in files.items()}
 
     def respond(asked: Asked) -> bytes | None:
-        if asked.method == "DELETE" or asked.path.endswith("/cancel"):
+        if asked.path.endswith("/cancel"):
             return answer(200, {"stage": "cancelled"})
         if asked.method == "POST":
-            given = {"id": ID, "secret": secret, "url": "http://elsewhere.example/x"}
-            return answer(201, {name: text for name, text in given.items() if text})
+            return answer(201, {"id": ID, "secret": SECRET, "url": "http://elsewhere.example/x"})
         name = asked.path.removeprefix(f"/api/checks/{ID}").lstrip("/").removeprefix("packages/")
         if not name:
             return standing(asked)

@@ -143,6 +143,7 @@ def refused(done: subprocess.CompletedProcess[str], reason: str) -> None:
         (201, {"id": "../../x"}, "answers 201, but not like"),
         (201, {"id": 3}, "answers 201, but not like"),
         (201, {"id": ID, "secret": "x\r\ny"}, "answers 201, but not like"),
+        (201, {"id": ID}, "answers 201, but not like"),
         (201, [], "answers 201, but not like"),
     ],
 )
@@ -202,7 +203,11 @@ def test_a_check_that_the_service_forgot(
 ) -> None:
     def respond(asked: Asked) -> bytes:
         posted = asked.method == "POST"
-        return answer(201, {"id": ID}) if posted else answer(404, {"error": "There is nothing."})
+        return (
+            answer(201, {"id": ID, "secret": SECRET})
+            if posted
+            else answer(404, {"error": "There is nothing."})
+        )
 
     done = submit(model, "--server", start_service(respond).url)
     assert done.returncode == 3
@@ -289,21 +294,6 @@ def test_who_interrupts_is_asked_whether_the_check_shall_end(
     secrets = [each.headers["subt-check-secret"] for each in cancelled]
     assert secrets == [SECRET] * (typed == b"y\n")
     assert not [line for line in service.lines if line.startswith("DELETE")]
-    os.close(terminal)
-
-
-def test_a_check_of_version_0_1_0_is_cancelled_as_it_was_then(
-    start_service: StartService, model: Path
-) -> None:
-    service = start_service(checking(RUNNING, secret=""))
-    process, terminal = at_a_terminal(model, service)
-    read_until(terminal, "the rules look")
-    process.send_signal(signal.SIGINT)
-    read_until(terminal, "[y/N]")
-    os.write(terminal, b"y\n")
-    read_until(terminal, "the check is cancelled")
-    assert process.wait(20) == 130
-    assert service.lines[-1] == f"DELETE /api/checks/{ID}"
     os.close(terminal)
 
 

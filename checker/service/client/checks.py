@@ -40,7 +40,7 @@ class Given(Struct, frozen=True):
     """What the service answers to an upload."""
 
     id: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
-    secret: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{0,100}\Z")] = ""
+    secret: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
 
 
 class Problem(Struct, frozen=True):
@@ -74,12 +74,12 @@ class Check(Record):
     """One check on a service.
 
     Attributes:
-        secret: Cancels it; empty from a service of version 0.1.0, which asks for none.
+        secret: Cancels it.
     """
 
     connection: Connection
     id: str
-    secret: str = ""
+    secret: str
 
     @property
     def link(self) -> str:
@@ -120,12 +120,9 @@ class Check(Record):
         Raises:
             CheckerError: The service does not do it.
         """
-        if self.secret:
-            headers = {"Subt-Check-Secret": self.secret}
-            answer = self.connection.ask("POST", f"{self._path}/cancel", headers=headers)
-        else:
-            answer = self.connection.ask("DELETE", self._path)
-        if answer.status not in (200, 202, 204, 404, 409):
+        headers = {"Subt-Check-Secret": self.secret}
+        answer = self.connection.ask("POST", f"{self._path}/cancel", headers=headers)
+        if answer.status not in (200, 404):
             raise _refusal(self.connection, answer)
 
     def file(self, name: str) -> bytes | None:
