@@ -6,12 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from checker.service.store.life import forget, living, the_dead
+from checker.service.store.locks import forget, living, the_dead
 
 LIVES = """
 import sys, time
 from pathlib import Path
-from checker.service.store.life import living
+from checker.service.store.locks import living
 with living(Path(sys.argv[1]), sys.argv[2]):
     print("lives", flush=True)
     time.sleep(600)

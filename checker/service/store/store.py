@@ -145,7 +145,7 @@ class Store(Record):
 
     @property
     def workers(self) -> Path:
-        """The folder of `checker.service.store.life`."""
+        """The folder of `checker.service.store.locks`."""
         return self.folder / "workers"
 
     def sweep(self) -> None:

@@ -8,7 +8,7 @@ from time import monotonic
 
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.workers import Workers
-from checker.service.store.life import forget, the_dead
+from checker.service.store.locks import forget, the_dead
 from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)

@@ -29,7 +29,7 @@ from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.service.jobs.sandbox import layers_of_checks
 from checker.service.logs import log_to_stderr
-from checker.service.store.life import living
+from checker.service.store.locks import living
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
