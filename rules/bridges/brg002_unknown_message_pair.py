@@ -1,9 +1,9 @@
 """A bridge between two messages that it cannot convert.
 
 The bridge only knows fixed pairs of messages, written as `package/msg/Name` and `gz.msgs.Name`;
-upper and lower case count. For any other pair it warns "Failed to create a bridge", goes on, and
-the topic stays silent. A pair that came to the bridge after October 2024 is not known here: where
-no spelling comes near, the finding is a warning or information.
+upper and lower case count. For any other pair it warns "Failed to create a bridge", continues, and
+the topic has no messages. Pairs that were added to the bridge after October 2024 are not known
+here: unless a known pair is spelt similarly, the finding is a warning or information.
 
 Fix: write the pair that the message names.
 Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.

@@ -1,7 +1,7 @@
 """A bridge names another message than its topic in Gazebo carries.
 
-A subscriber in Gazebo gets only messages of its own type, so nothing ever comes through, and no
-program says why. Topics of an RGBD camera are often mixed up: `<topic>/image` and
+A subscriber in Gazebo gets only messages of its own type, so no message ever arrives, and no
+program reports it. Topics of an RGBD camera are often mixed up: `<topic>/image` and
 `<topic>/depth_image` carry images, `<topic>/points` a point cloud.
 
 Fix: write the message that the sensor or system publishes, or the topic that carries this message.

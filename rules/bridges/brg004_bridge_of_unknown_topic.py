@@ -1,10 +1,10 @@
 """A bridge of a topic that does not exist in Gazebo.
 
-The bridge starts, but no message ever arrives. Names that a sensor states in `<topic>` are taken as
-they are; all others begin with the names that world and model have in Gazebo, which `-name` of the
+The bridge starts, but no message ever arrives. A name in the `<topic>` of a sensor is used as
+written; all others begin with the names that world and model have in Gazebo, which `-name` of the
 spawning program gives. It is reported where all robots that the launch file spawns were read, and
-either all of what it starts is known, or a topic with this message is left over. Topics that the
-robot's files hold, for an argument to switch on, are passed over.
+either everything that it starts is known, or a topic with this message is not bridged. Topics that
+are in the robot's files, but switched off by an argument, are skipped.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.

@@ -1,8 +1,9 @@
 """A bridge whose direction is not that of its messages.
 
-A sensor publishes in Gazebo; a bridge of it from ROS to Gazebo brings nothing to ROS. Commands come
-from ROS; a bridge of them from Gazebo to ROS moves no robot. A bridge in both directions of what
-Gazebo only publishes works, but makes a publisher in Gazebo that nobody needs: information.
+A sensor publishes in Gazebo; bridged from ROS to Gazebo, its messages do not arrive in ROS.
+Commands come from ROS; bridged from Gazebo to ROS, they do not move the robot. A bridge in both
+directions of a topic that Gazebo only publishes works, but creates an unnecessary publisher in
+Gazebo: information.
 
 Fix: write `[` or GZ_TO_ROS for what Gazebo publishes, `]` or ROS_TO_GZ for commands.
 Source: ros_gz_bridge; gz-sensors and Gazebo's systems.

@@ -1,9 +1,9 @@
 """A YAML file of a bridge that is not valid, or an entry that the bridge ignores.
 
 The file must be a sequence of mappings: each entry begins with `- `. Otherwise nothing at all is
-bridged. An entry without types, with a direction that is spelt otherwise, or with `topic_name`
-beside `ros_topic_name` or `gz_topic_name` is left out with a line in the log. Keys that the bridge
-does not know are ignored: a warning.
+bridged. An entry without types, with an unknown direction, or with `topic_name` beside
+`ros_topic_name` or `gz_topic_name` is ignored with a line in the log. Keys that the bridge does not
+know are ignored: a warning.
 
 Fix: write `ros_topic_name`, `gz_topic_name`, `ros_type_name`, `gz_type_name` and `direction`
 (BIDIRECTIONAL, GZ_TO_ROS or ROS_TO_GZ) for each topic.

@@ -1,8 +1,8 @@
 """A topic of a bridge whose name ROS refuses.
 
-Each part of a topic's name in ROS begins with a letter or `_` and holds letters, digits and `_`
-only. Gazebo allows more: the default topic of a joint's position is `…/joint/J/0/cmd_pos`. The
-bridge makes no ROS topic of such a name.
+Each part of a topic's name in ROS begins with a letter or `_` and contains only letters, digits and
+`_`. Gazebo allows more: the default topic of a joint's position is `…/joint/J/0/cmd_pos`. The
+bridge cannot create a ROS topic with such a name.
 
 Fix: give it another name in ROS: `ros_topic_name` in the bridge's YAML file.
 Source: rcl, validation of topic names; gazebosim/ros_gz issue 660.

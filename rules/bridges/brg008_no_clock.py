@@ -1,11 +1,11 @@
 """Nodes use simulated time, but /clock is not bridged from Gazebo.
 
-With `use_sim_time` a node's time stands at zero until somebody publishes /clock. Gazebo publishes
-it on its own side only: without a bridge, timers do not run, transforms are never recent, and
-RViz and navigation wait. It is reported where the launch file that starts Gazebo was read in
-full, and no launch file of the package bridges the clock.
+With `use_sim_time` the time of a node is zero until a message arrives on /clock. Gazebo publishes
+it only in Gazebo: without a bridge, timers do not run, transforms are never recent, and RViz and
+navigation wait. It is reported where the launch file that starts Gazebo was read in full, and no
+launch file of the package bridges the clock.
 
-Fix: bridge it: `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
+Fix: add the bridge `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
 Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 """
 

@@ -1,9 +1,9 @@
 """Messages of a sensor are in a frame that nothing publishes.
 
 Unless the sensor states the frame of its messages, Gazebo calls it `<model>::<link>::<sensor>`, and
-the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher knows the links by their own
-names only: RViz shows nothing, and mapping and navigation drop the messages. It is reported for
-lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
+the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher publishes the links under
+their own names: RViz shows nothing, and mapping and navigation drop the messages. It is reported
+for lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
 same description.
 
 Fix: write `<gz_frame_id>` (from Ionic on `<frame_id>`) with the name of the link into the sensor.

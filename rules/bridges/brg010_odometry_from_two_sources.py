@@ -2,11 +2,11 @@
 
 A drive of Gazebo (DiffDrive, OdometryPublisher …) reports odometry, and so does a drive controller
 of ros2_control, which publishes the transform from `odom` to the robot's base by itself. With
-Gazebo's odometry bridged to `/odom`, navigation reads speeds and places from one source, and
+Gazebo's odometry bridged to `/odom`, navigation reads velocities and positions from one source, and
 transforms from the other. WIR001 reports Gazebo's transforms that are bridged to `/tf` as well.
 
-Fix: bridge Gazebo's odometry to another topic, such as `/ground_truth`, or state
-`enable_odom_tf: false` for the controller and let one source alone give odometry.
+Fix: bridge Gazebo's odometry to another topic, such as `/ground_truth`, or state `enable_odom_tf:
+false` for the controller so that only one source publishes odometry.
 Source: ros2_controllers, diff_drive_controller; gazebosim/gz-sim issue 2372.
 """
 

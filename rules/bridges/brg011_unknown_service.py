@@ -1,11 +1,12 @@
-"""A bridge of a service that it does not know, or that nothing in Gazebo offers.
+"""A bridge of a service that it does not support, or that does not exist in Gazebo.
 
 The bridge passes few services: `ros_gz_interfaces/srv/ControlWorld` to Gazebo's
-`/world/<world>/control`. For any other type it warns "Failed to create a bridge" and goes on
-without the service. Services that came to the bridge after October 2024 are not known here: those
-are information. The name of the world is that in its file: with another one, calls wait forever.
+`/world/<world>/control`. For any other type it warns "Failed to create a bridge" and continues
+without the service. Services that were added to the bridge after October 2024 are not known here:
+they are information. The name of the world is the one in its file: with another name, calls wait
+forever.
 
-Fix: write the type as the message names it, and the world's own name.
+Fix: write the type as the message names it, and the name of the world in its file.
 Source: ros_gz_bridge, mappings.py and `create_service_bridge`.
 """
 

@@ -1,11 +1,10 @@
 """A link without inertia: the simulator uses 1 kg and 1 kg·m² for it.
 
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
-adds an unintended kilogram to the total. This includes links on fixed joints. A link that only
-fixed joints connect to the world never moves, nor does one of a static model, so its mass does not
-matter. In URDF a link without
-`<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks. From SDF 1.11
-on `<inertial auto="true">` has the simulator compute it from collisions and densities.
+adds an unintended kilogram to the total. This includes links on fixed joints. The mass of a link
+does not matter if fixed joints connect it to the world, or if the model is static. In URDF a link
+without `<inertial>` weighs nothing (URD007), and URD012 reports an incomplete `<inertial>`. From
+SDF 1.11 on `<inertial auto="true">` makes the simulator compute it from collisions and densities.
 
 Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
 the link is only a frame, lump it into its parent.

@@ -1,4 +1,4 @@
-"""A principal moment of inertia is zero: nothing resists a turn about that axis.
+"""A principal moment of inertia is zero: the link has no resistance to rotation about that axis.
 
 MuJoCo refuses such a body, and other engines divide by the moment. Only a line without width has
 one moment of zero, and only a point has three. If the part is fixed to others with inertia, they

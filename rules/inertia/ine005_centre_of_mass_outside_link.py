@@ -1,10 +1,10 @@
 """A centre of mass outside the link's own shapes.
 
-The link swings about a point outside itself, and the robot leans to a side where there is nothing.
-Usually the pose of `<inertial>` refers to another frame, or is in millimetres. The centre of mass
-of a body cannot be outside the box around it. But shapes may leave out a part, such as a nut at the
-end of a rod or the battery above a skirt: among published robots, centres of mass up to 0.1 of the
-diagonal outside are of this kind, and those from 0.2 on are wrong.
+The link swings about a point outside itself, and the robot leans to one side. Usually the pose of
+`<inertial>` refers to another frame, or is in millimetres. The centre of mass of a body cannot be
+outside the box around it. But shapes may leave out a part, such as a nut at the end of a rod or the
+battery above a skirt: among published robots, centres of mass up to 0.1 of the diagonal outside are
+of this kind, and those from 0.2 on are wrong.
 
 Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
 and inertia belong to the same part.

@@ -1,8 +1,8 @@
 """A mass that does not fit the size of the link: lighter than foam, or heavier than lead.
 
 Usually a unit is wrong (grams, millimetres, pounds), or a mass is copied from another part. A robot
-that is a hundred times too heavy drives in simulation like the right one, but pushes everything out
-of its way.
+that is a hundred times too heavy drives in simulation as it should, but pushes everything out of
+its way.
 
 Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the

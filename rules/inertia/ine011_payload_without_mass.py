@@ -5,8 +5,8 @@ climbs as if it carried nothing.
 
 Only a configuration with its own model is compared, with the first available one. A configuration
 that uses the model of a sibling weighs the same by design. The sibling's mass may be that of the
-full robot; only its specification sheet can tell. Only separate devices count as sensors, such as
-cameras and lidars, not the chips on a flight controller.
+full robot; only its specification sheet can state that. Only separate devices count as sensors,
+such as cameras and lidars, not the chips on a flight controller.
 
 Fix: add the mass of the new parts to the link that carries them, or say in specifications.md that
 the mass of the first configuration includes it.

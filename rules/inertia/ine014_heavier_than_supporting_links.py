@@ -1,13 +1,14 @@
-"""A part heavier than all that carries it.
+"""A part heavier than all links that carry it.
 
-A wheel, finger or sensor weighs less than the body that it hangs on, and no other part weighs many
-times as much as all parts between it and the base. Such a mass was copied from another part, or
-stands in another unit. The robot then swings around the part: it tips over, drives at another speed
+A wheel, finger or sensor weighs less than the body that it is attached to, and no other part weighs
+many times as much as all parts between it and the base. Such a mass was copied from another part,
+or is in another unit. The robot then swings around the part: it tips over, drives at another speed
 than commanded, and needs more torque than its motors have.
 
-What is fixed counts as one body; all bodies up to the base carry. Of the robots that the limits
-were chosen from, wheels weigh up to 0.6 of what carries them where the masses are right, and from
-1.6 where they are not; other parts up to 8 times as much, the first link of an arm on a light base.
+Fixed links count as one body; all bodies up to the base carry the part. In the robots from which
+the limits were derived, wheels weigh up to 0.6 times as much as the bodies that carry them if the
+masses are right, and from 1.6 times if they are wrong; other parts up to 8 times as much, the first
+link of an arm on a light base.
 
 Fix: weigh the part, or take its mass from its datasheet, in kg.
 Source: comparison of the masses of about 150 robot descriptions.

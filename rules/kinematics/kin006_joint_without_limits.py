@@ -1,8 +1,8 @@
-"""A joint without limits that nothing drives.
+"""A joint without limits that is not driven.
 
-The same holds for a wheel if a plugin drives the one opposite: the robot pulls to a side.
+This includes a wheel whose opposite wheel is driven: the robot pulls to one side.
 
-Gravity swings or slides the part without end. This is right for wheels, rotors and similar parts. A
+Gravity moves the part without an end. This is intended for wheels, rotors and similar parts. A
 mast, a pole or a sensor mount must not move; usually it should be fixed. None of the accepted
 packages that we checked shows this.
 

@@ -1,13 +1,13 @@
 """An effort or velocity limit that no motor has, or a driven joint without limits.
 
-A limit of zero holds a driven joint: the plugin may use no force, or reach no speed. The limiter of
-ros2_control, which is on from Kilted, does the same to joints with a command interface. DART, the
-physics engine of Gazebo Sim, holds a joint whose velocity limit is zero, a passive wheel as well:
-SolidWorks' exporter writes `effort="0" velocity="0"` unless it is told otherwise.
+With a limit of zero, a driven joint does not move: its plugin may not use any force, or reach any
+speed. The limiter of ros2_control, enabled by default from Kilted on, does the same for joints with
+a command interface. DART, the physics engine of Gazebo Sim, locks a joint whose velocity limit is
+zero, including passive wheels. The SolidWorks exporter writes `effort="0" velocity="0"` by default.
 
 With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
-limit nobody can check whether the motor is strong enough. The thrust of rotors has its own limits
-in their plugin.
+limit it cannot be checked whether the motor is strong enough. The thrust of rotors has its own
+limits in their plugin.
 
 Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, after the gear.
 Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited; gz-physics 9,

@@ -1,12 +1,12 @@
 """A joint that cannot move: its two limits are equal, or it is fixed while a plugin drives it.
 
 The physics engine holds the joint by force in every step, which costs time and yields under load; a
-fixed joint costs nothing. Where the joint carries a sensor that nothing turns, this is a warning:
-the frame of what it measures is not quite still. If a plugin drives the joint, this is an error: a
-wheel that does not turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo
-merges its links, and the plugin finds no joint.
+fixed joint costs nothing. If the joint carries a sensor and is not driven, this is a warning: the
+frame of its data moves slightly. If a plugin drives the joint, this is an error: a wheel that does
+not turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo merges its links,
+and the plugin finds no joint.
 
-A driven wheel whose limits end after a few turns cannot move on either: the robot stops there.
+A driven wheel whose limits end after a few turns also stops there, and so does the robot.
 
 Fix: write `type="fixed"` and remove the axis with its limits; Gazebo keeps the sensors of the link
 and its frame, and the link itself if `<gazebo reference="…">` of the joint says

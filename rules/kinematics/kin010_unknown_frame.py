@@ -1,6 +1,6 @@
 """A pose or axis that refers to a frame which does not exist, or to itself.
 
-The place of the part is undefined: parsers refuse the model, or put the part at the origin.
+The pose of the part is undefined: parsers refuse the model, or put the part at the origin.
 
 None of the accepted packages that we checked shows this.
 

@@ -1,4 +1,4 @@
-"""A hinge axis far away from the part that it turns, or a part far from its parent.
+"""A joint axis far from the part that it moves, or a part far from its parent.
 
 The part swings around its axis on an invisible arm, or floats in the air. Usually a pose has a
 wrong decimal point or unit, or refers to an unintended frame. None of the accepted packages that we

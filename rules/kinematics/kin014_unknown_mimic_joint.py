@@ -1,10 +1,10 @@
 """A joint that mimics an unknown joint, itself, or one that mimics it in turn.
 
 The joint has no leader to follow: parsers refuse the model, or the finger of a gripper does not
-move. With a multiplier of 0 it follows by nothing, which is a warning. None of the accepted
-packages that we checked shows this.
+move. With a multiplier of 0 it does not move, which is a warning. None of the accepted packages
+that we checked shows this.
 
-Fix: write the exact name of the leading joint, and the share of its motion as multiplier.
+Fix: write the exact name of the leading joint, and the ratio of the motions as multiplier.
 Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
 """
 

@@ -5,8 +5,8 @@ everything. Both are usually left over from debugging, or hide that a model is u
 default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. None of the accepted packages
 that we checked shows this.
 
-An arm without gravity may be meant so: springs balance it that the simulator does not have. For
-links that do not carry the robot, as base and wheels do, it is information.
+An arm without gravity may be intended, to replace springs that balance the real one. For links
+other than the base and the wheels, it is information.
 
 Fix: remove `<gravity>` and `<kinematic>` from the link.
 Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`; what

@@ -1,10 +1,10 @@
 """A joint that mimics another, in a world whose physics engine has no such constraint.
 
-Nothing couples the two joints in the simulation: the second finger of a gripper hangs loose, while
-RViz shows it moving, since robot_state_publisher does follow `<mimic>`. DART, which Gazebo Sim
+The two joints are not coupled in the simulation: the second finger of a gripper moves freely, while
+RViz shows it following, because robot_state_publisher supports `<mimic>`. DART, which Gazebo Sim
 loads unless the world or the command line names another engine, has no mimic constraint; Bullet
-Featherstone has. Fortress is URD019's. A joint that a plugin drives by itself, or that the hardware
-of ros2_control knows, is not affected: gz_ros2_control moves it along.
+Featherstone has one. URD019 is the rule for Fortress. A joint that a plugin drives, or that is in
+`<ros2_control>`, is not affected: gz_ros2_control moves it too.
 
 Fix: in the world's physics plugin write `<engine>` with
 `<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 says what that engine lacks);

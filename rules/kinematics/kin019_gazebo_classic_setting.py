@@ -1,8 +1,8 @@
 """A setting of contacts, joints or links that Gazebo Sim does not read.
 
 Gazebo Classic passed `<kp>`, `<kd>`, `<min_depth>` and `<max_vel>` to ODE. No physics engine of
-Gazebo Sim reads them, nor what `<physics><ode>` of a joint says, nor `<self_collide>` of a link: it
-counts for a whole model. Who tunes a gripper by them changes nothing.
+Gazebo Sim reads them, nor `<physics><ode>` of a joint, nor `<self_collide>` of a link, which is a
+setting of the model. Changing them has no effect.
 
 Fix: remove them, or set what is read: friction, damping, and `<self_collide>` of the model.
 Source: gz-physics, SDFFeatures.cc of each engine; gz-sim issue 1961 (`physics_engines.json`).

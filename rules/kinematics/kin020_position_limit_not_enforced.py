@@ -1,9 +1,9 @@
-"""A joint that a speed command drives past its position limits, since it has no effort limit.
+"""A joint that speed commands drive past its position limits, because it has no effort limit.
 
-DART keeps position limits of a joint under speed commands only where its effort is limited: else it
-turns on, and Gazebo prints "Velocity control does not respect positional limits of joints if these
-joints do not have an effort limit". Without `<effort>`, SDF means no limit. JointController
-commands speeds unless it says `<use_force_commands>`.
+DART enforces the position limits of a joint under speed commands only if its effort is limited.
+Otherwise the joint moves past them, and Gazebo prints "Velocity control does not respect positional
+limits of joints if these joints do not have an effort limit". Without `<effort>`, SDF has no effort
+limit. JointController commands speeds unless `<use_force_commands>` is set.
 
 Fix: add `<effort>` with the largest force of the motor to `<limit>`.
 Source: gz-physics, dartsim/src/JointFeatures.cc.

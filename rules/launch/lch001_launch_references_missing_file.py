@@ -1,11 +1,11 @@
 """A launch file names a file that its package does not have.
 
-What is included or read does not start; a node that is given the path ends, or runs without its
-parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
-Worlds and parameters in packages that are not available are not checked; files that the build makes
-are not judged. Launch skips a parameter file whose path is empty. Where a condition leaves the
-action out, for what is only shown in RViz, and for what is handed to a launch file that is not
-available, unless it starts Gazebo, this is a warning.
+An included file is not started; a node that gets the path ends, or runs without its parameters. The
+name of an included file is written in full, `robot.launch.py` and not `robot`. Worlds and
+parameters in packages that are not available are not checked; files that the build generates are
+not checked. Launch skips a parameter file whose path is empty. Where a condition leaves the action
+out, for files that only RViz shows, and for paths passed to a launch file that is not available,
+unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;

@@ -1,9 +1,8 @@
 """A launch file names a file that its package does not install.
 
-`ros2 launch` reads the installed package: the file exists in the source and is not found. What lies
-in one folder of which nothing is installed is reported once; folders such as config/ and urdf/ are
-PKG008's. Packages are judged whose CMakeLists.txt or setup.py says in plain words what is
-installed.
+`ros2 launch` reads the installed package: the file exists in the source, but is not found. Files in
+one folder that is not installed are reported once; folders such as config/ and urdf/ are reported
+by PKG008. Packages whose CMakeLists.txt or setup.py computes what is installed are not checked.
 
 Fix: add the file or its folder to `install(…)`, to `ament_auto_package(INSTALL_TO_SHARE …)`, or to
 `data_files` of setup.py.

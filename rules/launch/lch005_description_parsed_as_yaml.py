@@ -1,8 +1,8 @@
 """A robot description that launch parses as YAML, although it is not valid YAML.
 
-A parameter that substitutions make, such as `Command(['xacro …'])`, is read as YAML unless its
-type is stated. A colon before a blank anywhere in the expanded text, usually in a comment, is no
-plain YAML text: the launch ends with "Unable to parse the value of parameter robot_description as
+The value of a substitution, such as `Command(['xacro …'])`, is parsed as YAML unless its type is
+stated. A colon before a blank anywhere in the expanded text, usually in a comment, is not valid in
+a plain YAML text: the launch ends with "Unable to parse the value of parameter robot_description as
 yaml".
 
 Fix: write `ParameterValue(Command(…), value_type=str)`; in XML, `type="str"`.

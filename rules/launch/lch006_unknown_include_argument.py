@@ -1,8 +1,8 @@
 """An argument that the included launch file neither declares nor uses.
 
-It is accepted in silence and has no effect: a misspelt name leaves the default in force. Of other
-packages the files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge that people include
-most are judged; other files that are not available, and files that include such, are not.
+It is accepted without a message and has no effect: with a misspelt name, the default is used. The
+usual launch files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are checked too;
+other files that are not available, and files that include such files, are not.
 
 Fix: correct the name, or leave the argument out.
 Source: launch, `IncludeLaunchDescription`: arguments become configurations, declared or not;

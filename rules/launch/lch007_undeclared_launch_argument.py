@@ -1,9 +1,9 @@
 """A launch argument that is used before it is declared, or never declared.
 
-The launch ends with "launch configuration 'x' does not exist", unless the user gives
-`x:=…`. Actions are visited in order: a declaration counts for what follows it. What an included
-file that is not available may declare is not judged, nor are files that another available file
-names.
+The launch ends with "launch configuration 'x' does not exist", unless the user gives `x:=…`.
+Actions are visited in order: a declaration counts for what follows it. Arguments that an included
+file which is not available may declare are not checked, nor are files that another available file
+includes.
 
 Fix: add `DeclareLaunchArgument('x', default_value=…)` before its use.
 Source: launch, `LaunchConfiguration.perform`: without a default, a missing one raises an error.

@@ -1,9 +1,9 @@
 """A launch file that does not load, or not with its own defaults.
 
-It is no Python, XML or YAML, defines no `generate_launch_description`, uses a name that nothing
-defines or imports, includes itself, or has a default that is none of its choices.
+It is not valid Python, XML or YAML, defines no `generate_launch_description`, uses a name that is
+neither defined nor imported, includes itself, or has a default that is not among its choices.
 
-Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` says the same.
+Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` shows the same error.
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
 """
 

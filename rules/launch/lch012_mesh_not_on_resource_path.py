@@ -9,13 +9,13 @@ It is reported of a launch file that starts Gazebo itself and was read in full, 
 are available, when no environment hook, no package.xml and no launch file there puts that folder on
 the path, and no document or script names the path at all.
 
-In Gazebo Classic the path is `GAZEBO_MODEL_PATH`. There, package.xml of the package that puts its
-own share folder on it is an error.
+In Gazebo Classic the path is `GAZEBO_MODEL_PATH`. There, an `<export>` that puts the share folder
+of its own package on the path is an error.
 
 Fix: write `<gazebo_ros gazebo_model_path="${prefix}/.."/>` into `<export>` of the package.xml of
-the package that holds the meshes: `gz_sim.launch.py`, and `gzserver.launch.py` of Gazebo Classic,
-read it, and `${prefix}` is its share folder.
-A hook with the line `prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` as well.
+the package with the meshes: `gz_sim.launch.py`, and `gzserver.launch.py` of Gazebo Classic, read
+it, and `${prefix}` is its share folder. A hook with the line
+`prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` as well.
 Source: libsdformat, parser_urdf.cc; gz-sim, resource paths; ros_gz_sim, gz_sim.launch.py; ros_gz
 issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one level too deep.
 """

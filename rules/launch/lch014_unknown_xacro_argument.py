@@ -1,11 +1,11 @@
 """A launch file gives xacro an argument that the description neither declares nor uses.
 
-xacro takes it without a message, and the default stays in force: the simulation is not switched on,
-or the robot keeps its old prefix. Files that are not available, and what includes such, are not
-judged.
+xacro accepts it without a message, and the default is used: the simulation is not enabled, or the
+robot keeps its old prefix. Files that are not available, and files that include such files, are not
+checked.
 
 Fix: correct the name, declare `<xacro:arg name="…"/>`, or leave the argument out.
-Source: xacro: arguments of the command line fill a table that only `$(arg …)` looks into.
+Source: xacro: arguments of the command line are only read by `$(arg …)`.
 """
 
 import re

@@ -2,8 +2,8 @@
 
 The launch ends with "package not found", or "executable not found". Packages of Gazebo Classic are
 not in Jazzy and later, those named `ros_ign` became `ros_gz`, and several names are from ROS 1. A
-package in the workspace is never reported. It is a warning, since a build from source elsewhere may
-have it.
+package in the workspace is never reported. It is a warning, because another workspace may build it
+from source.
 
 Fix: use what the message names, or check for the distribution that the robot runs on (`--distro`).
 Source: ros/rosdistro, and the programs that packages install (`removed_packages.json`,

@@ -1,9 +1,9 @@
 """A launch argument that is declared, but never used.
 
-`ros2 launch --show-args` lists it, and whatever the user gives has no effect. Often the value was
-meant for a node, or for an included file that asks for another name. Files that are not read, or
-that include such, are not judged: they may ask for it. What the files of nav2_bringup,
-slam_toolbox, ros_gz_sim and ros_gz_bridge ask for that people include most is known.
+`ros2 launch --show-args` lists it, but its value has no effect. Often the value was meant for a
+node, or for an included file that uses another name. Files that are not read, and files that
+include such files, are not checked, because they may use it. The arguments of the usual launch
+files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are known.
 
 Fix: use it with `LaunchConfiguration`, in XML `$(var …)`; or remove the declaration.
 Source: launch, `DeclareLaunchArgument`: it sets a launch configuration and nothing else.

@@ -3,10 +3,10 @@
 The launch ends with "executable 'x' not found on the libexec directory". A program of CMake needs
 `add_executable` and `install(TARGETS x DESTINATION lib/${PROJECT_NAME})`; a script in Python
 `install(PROGRAMS …)`, or an entry of `console_scripts` in setup.py, and keeps the name of its file:
-`x.py` is not `x`. Packages whose build files include others, or pick files by a pattern, are not
-judged.
+`x.py` is not `x`. Packages whose build files include other files, or select files by a pattern, are
+not checked.
 
-Fix: install the program, or write the name that it is installed by.
+Fix: install the program, or write the name under which it is installed.
 Source: ros2launch, `Node`: programs are looked up in `lib/<package>` of the installed package.
 """
 

@@ -1,7 +1,7 @@
 """The package name does not follow the challenge's pattern.
 
 The SubT launcher builds the name of the robot's configuration from the folder's name. It cannot
-start a folder with another name.
+start a package whose folder has another name.
 
 Fix: rename the folder to `<organization>_<robot>_sensor_config_<#>`: lower case letters, digits
 and `_`, the number from 1 without leading zeros.

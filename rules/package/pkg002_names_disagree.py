@@ -1,11 +1,11 @@
 """The names of a package do not agree.
 
-A package is called as its package.xml says: catkin and ament find it by that name, and stop where
-`project()` in CMakeLists.txt has another one. The folder may have any name, as that of an archive
-from GitHub has (`rover-master`). Only where the folder is named as a submission of the challenge is
-(`acme_rover_sensor_config_1`), all must have its name: the SubT launcher builds the name from it.
-The names in model.config and `<model name>` are only displayed; a name in plain words need only
-state the right number: `Acme Rover Config 2`.
+The name of a package is the one in package.xml: catkin and ament find it by that name, and stop if
+`project()` in CMakeLists.txt has another one. The folder may have any name, such as that of an
+archive from GitHub (`rover-master`). Only if the folder has the name of a submission to the
+challenge (`acme_rover_sensor_config_1`), all names must be equal to it: the SubT launcher builds
+the name from it. The names in model.config and `<model name>` are only displayed; a name in plain
+words need only state the right number: `Acme Rover Config 2`.
 
 Fix: use the name of package.xml in `project()`; for a submission, the name of the folder in both.
 The automatic fix renames all mentions in the package's files. It is not offered if a mention would

@@ -1,8 +1,8 @@
 """A model.config that does not describe the model or name its file.
 
-Gazebo opens the file that `<sdf>` names, of several the newest that it reads. If that file does not
-exist, Gazebo cannot load the robot by its name; another that is missing is a warning. Fuel shows
-the other entries, including the contact of the author.
+Gazebo opens the file that `<sdf>` names; of several, the one with the newest version that it
+supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
+missing, it is a warning. Fuel shows the other entries, including the contact of the author.
 
 Fix: name the model file in `<sdf version="1.6">model.sdf</sdf>`, and add name, version, author with
 name and email, and description.

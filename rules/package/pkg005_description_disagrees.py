@@ -1,8 +1,8 @@
-"""The description in model.config or package.xml names other sensors than the model has.
+"""The description in model.config or package.xml names sensors that the model does not have.
 
 Fuel and the catalogue show this text. If it says two depth cameras and the model has four, one of
 them is wrong. Numbers are compared only if the text states all of them; a kind of sensor that the
-model does not have is also reported. A device that is known by its name counts as what it is: a
+model does not have is also reported. The name of a known device counts as its type of sensor: a
 D435 is an RGBD camera. Devices that take several sensors to model, such as fisheye cameras, are not
 counted.
 

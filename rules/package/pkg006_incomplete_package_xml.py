@@ -1,10 +1,10 @@
 """A package.xml without an entry that its format requires.
 
-catkin refuses to build a workspace with such a package, and so no robot in it can be built. Others
-need the license to use the model, and the maintainer's address to ask about it. At most a
-maintainer without a name occurs in accepted packages. An entry that is left from the template of
-another package, such as "The acme_rover_sensor_config_2 package" or a link to that package's page
-on ros.org, is incomplete as well; the link is information as long as it is a comment.
+catkin refuses to build a workspace with such a package, so that no robot in it can be built. Users
+need the license to use the model, and the maintainer's address for questions. In accepted packages,
+only maintainers without a name occur. An entry that is left from the template of another package,
+such as "The acme_rover_sensor_config_2 package" or a link to that package's page on ros.org, is
+incomplete as well; the link is information as long as it is a comment.
 
 Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
 `<buildtool_depend>catkin</buildtool_depend>`.

@@ -4,11 +4,11 @@ A package that package.xml does not name is not installed with the robot: launch
 submission, the bridge to ROS, or the package of a node are then missing where the robot runs.
 Comments do not count. In ROS 2 this holds for the packages of nodes, components, included launch
 files, parameter files, `xacro` commands, `$(find …)` and `package://` in robot descriptions, and
-messages that nodes in Python import; what a declared package of packages such as ros_gz brings is
+messages that nodes in Python import; dependencies of a declared metapackage such as ros_gz count as
 declared. The same happens if package.xml misspells the package of a team or plugin: it is reported
-if a package of a similar name is available, and that one is not. A package that is not available,
-and of which this package has every file that it uses, is this package itself, under the name that
-it had before.
+if a package of a similar name is available, and the misspelt one is not. If a package is not
+available, and this package has every file that it uses of it, the name is taken as the former name
+of this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
 package's own name instead of its former one.

@@ -1,10 +1,10 @@
 """A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine. Nothing looks for thumbnails there: these are information.
+only on the author's machine. Thumbnails are not needed there: they are information.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
-for each folder with the files in it: `glob("launch/*")` does not reach into folders.
+for each folder with the files in it: `glob("launch/*")` does not include files in subfolders.
 Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there;
 ROS 2 documentation, "Developing a ROS 2 package": `ros2 launch` looks into the share folder.
 """

@@ -1,12 +1,12 @@
 """CMakeLists.txt or setup.py builds or installs something that does not exist.
 
-The build stops there with an error, and what follows is not installed. This holds for the files and
+The build stops there with an error, and the rest is not installed. This holds for the files and
 folders of `install()`, its targets, the sources of a target, the folder of
 `ament_python_install_package()`, and the files of `data_files`, which takes no folders. None of the
 accepted packages that we checked shows this.
 
-Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, takes what is
-there. git keeps no empty folders.
+Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, installs the
+files that exist. git does not keep empty folders.
 Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder, `cmake` with
 "Cannot find source file" or "does not exist" for a source or target; setuptools, tested: "can't
 copy …: doesn't exist or not a regular file".

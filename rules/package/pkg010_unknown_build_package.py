@@ -5,7 +5,7 @@ the build of the whole workspace. The rule assumes that declared dependencies in
 packages in the package or its workspace, are available. None of the accepted packages that we
 checked shows this.
 
-Fix: remove the call if nothing uses the package; require the version that the release has; or
+Fix: remove the call if the package is not used; require the version that the release has; or
 declare the dependency in package.xml, so that it is installed.
 Source: general knowledge of Ignition Dome, Gazebo Harmonic and ROS Melodic, not compared with their
 package lists; REP 149 for declared dependencies.

@@ -1,11 +1,11 @@
 """A file that does not belong in a package.
 
 Backups, caches, editor settings and CAD sources are uploaded and installed with the robot. With a
-second model file, a reader does not know which of the two is the robot. A CMakeLists.txt or
-package.xml in a subfolder builds nothing unless a CMakeLists.txt adds the folder: catkin looks for
-no package within a package.
+second model file, it is not clear which of the two is the robot. A CMakeLists.txt or package.xml in
+a subfolder builds nothing unless a CMakeLists.txt adds the folder: catkin does not search for
+packages within a package.
 
-Fix: delete it; `.gitignore` keeps it out.
+Fix: delete it, and add it to `.gitignore`.
 Source: common practice; the Model Migration Guide, step 7, shows the files of a package.
 """
 

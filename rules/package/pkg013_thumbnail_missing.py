@@ -1,7 +1,7 @@
 """A thumbnail that is missing or cannot be read.
 
-The five pictures show the robot in the catalogue from which teams choose: `1.png` at an angle, then
-from the top, the side, the front and the rear.
+The five pictures show the robot in the catalogue of robots: `1.png` at an angle, then from the top,
+the side, the front and the rear.
 
 Fix: add the pictures as PNG files, called `1.png` to `5.png`, in `thumbnails/`.
 Source: Model Migration Guide, step 7, final directory structure: `thumbnails/1.png` to `5.png`. The

@@ -1,7 +1,7 @@
 """A configuration number is missing.
 
-The configurations of a robot are numbered from 1. A gap makes teams look for the missing one. Only
-available packages are counted; a robot with only one configuration is not judged. None of the
+The configurations of a robot are numbered from 1. A gap suggests that a configuration is missing.
+Only available packages are counted; a robot with only one configuration is not judged. None of the
 accepted packages that we checked shows this.
 
 Fix: give the configuration the next free number.

@@ -1,7 +1,7 @@
 """An example that does not show this robot.
 
 `launch/example.ign` and `worlds/example.sdf` show a reader how to start the robot. A copied example
-starts another robot, or an empty world. An example that hands its own folder to the example of
+starts another robot, or an empty world. An example that passes its own folder to the example of
 another package shows this robot.
 
 Fix: include `model://<this package>` in the world, or call `spawner` in example.ign.

@@ -2,7 +2,7 @@
 
 Its module or function does not exist, so that Python ends with an ImportError; or setup.cfg does
 not put it into `lib/<package>`, the only folder in which `ros2 run` and launch files look. Both
-show only when the robot is started.
+faults appear only when the robot is started.
 
 Fix: correct the entry of `console_scripts`, written `name = package.module:function`; in setup.cfg
 write `install_scripts=$base/lib/<package>` below `[install]` and `script_dir=$base/lib/<package>`

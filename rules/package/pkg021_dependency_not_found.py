@@ -1,11 +1,12 @@
 """A dependency in package.xml that neither the ROS distribution nor rosdep has.
 
 `rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
-cannot build it. A name that is a slip of the pen for one that exists is a warning. Others are
-information: a package may be built from source that is not available here, such as one that only an
-older distribution has released. Dependencies with a `condition` are skipped.
+cannot build it. A misspelt name is a warning. Other names are information: the package may be built
+from source that is not available here, for example if only an older distribution has released it.
+Dependencies with a `condition` are skipped.
 
-Fix: correct the name; or add the source of the package to the workspace, and say so in the README.
+Fix: correct the name; or add the source of the package to the workspace, and document that in the
+README.
 Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`).
 """
 

@@ -3,13 +3,13 @@
 Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Classic: it prints one
 line and continues without the drive, the sensor or the light that the plugin provides.
 
-A xacro may serve several simulators by an argument: if its default chooses Gazebo Classic, the
-plugins for later ones are not seen, and nothing is judged.
+A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
+the plugins for later releases are not expanded, and no plugin is reported.
 
 None of the accepted packages that we checked shows this.
 
 Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
-a submission it stands in `launch/spawner.rb`).
+a submission, in `launch/spawner.rb`).
 Source: Model Migration Guide, "Remove/replace unsupported plugins".
 """
 

@@ -6,7 +6,7 @@ package or a dependency ships or builds it. Outside of SubT, the simulator's pat
 libraries: there it is information, unless the name is one of Gazebo's own. It is a warning if the
 library is of a known package, on which package.xml does not depend, and an error if the ROS 2
 distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
-Classic, it is an error if the name is a slip of the pen for one of gazebo_ros_pkgs.
+Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.

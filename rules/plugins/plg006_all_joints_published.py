@@ -1,7 +1,7 @@
 """A JointStatePublisher that publishes every wheel or rotor.
 
 Without joint names the plugin publishes all joints of the robot at the rate of the simulation. The
-wheels and rotors turn all the time, nobody needs their angles, and the bridge sends them to ROS.
+wheels and rotors turn all the time, their angles are not needed, and the bridge sends them to ROS.
 
 Fix: list the joints that move sensors or arms in `<joint_name>`, or remove the plugin.
 Source: SubT review findings; joint-state-publisher system of Gazebo.

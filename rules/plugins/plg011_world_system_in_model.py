@@ -1,10 +1,10 @@
 """A model loads a system that serves a whole world.
 
-Sensors, Imu, Contact, Physics and their like work on everything in the world, wherever they are
-named. In a model they run for all the others too, once more for each model that names them, and
-beside the world's own: two of them publish the same data, or compete.
+Sensors, Imu, Contact, Physics and their like work on the whole world, wherever they are loaded. In
+a model they also run for all other models, once for each model that loads them, in addition to
+those of the world: two systems publish the same data, or conflict.
 
-Fix: name the system in the world, once.
+Fix: load the system in the world, once.
 Source: systems of gz-sim, as listed in `gazebo_plugins.json`; tutorial "Sensors".
 """
 

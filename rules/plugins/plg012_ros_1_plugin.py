@@ -4,8 +4,8 @@ Gazebo Classic finds no library that only ROS 1 has: the drive or sensor is miss
 ROS 1 is ignored without a message, and the default counts: `<leftJoint>` leaves the drive without a
 wheel, `<robotNamespace>` leaves all topics in the root namespace.
 
-It is an error for a library, and where the joint, link, wheel, topic or namespace that a parameter
-names is named nowhere else in the plugin; else a warning.
+It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
+other parameter of the plugin names; otherwise a warning.
 
 Fix: write the library and the parameters of ROS 2, as the message names them.
 Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).

@@ -2,7 +2,7 @@
 
 From Jazzy on, the controller manager compares the joints of each `<ros2_control>` tag with those of
 the URDF and ends with an error: none of the robot's controllers runs. Humble does not compare them;
-there the joint is only never moved.
+there, the joint just never moves.
 
 Fix: write the joint's name as the URDF has it, with its prefix, and leave out joints that cannot
 move.

@@ -1,9 +1,9 @@
-"""A mimic joint that ros2_control describes in another way than the URDF.
+"""A mimic joint of ros2_control that contradicts the URDF.
 
-A joint with `<mimic>` in the URDF follows its leader; who commands it as well says two things. From
-Jazzy on, the controller manager ends with an error if such a joint has a command interface, if its
-leader is not in the same `<ros2_control>` tag, and if a joint is marked `mimic="true"` that has no
-`<mimic>`. `<param name="mimic">` is read by Humble alone: later, the joint does not move.
+A joint with `<mimic>` in the URDF follows its leader and cannot be commanded as well. From Jazzy
+on, the controller manager ends with an error if such a joint has a command interface, if its leader
+is not in the same `<ros2_control>` tag, and if a joint is marked `mimic="true"` that has no
+`<mimic>`. `<param name="mimic">` is only read by Humble: later, the joint does not move.
 
 Fix: leave only state interfaces at the joint and keep `<mimic>` in the URDF; for a joint with a
 motor of its own, write `mimic="false"`.

@@ -1,9 +1,9 @@
 """A `ros2_control` tag that the controller manager cannot read.
 
 The tag needs a `name`, a `type` of `system`, `actuator` or `sensor`, and `<hardware>` with a
-`<plugin>`. Below it stand `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and
-`<properties>`; on anything else the controller manager ends with "invalid tag name", on a `<param>`
-as well: parameters of the hardware belong inside `<hardware>`.
+`<plugin>`. Its children are `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and
+`<properties>`; any other child ends the controller manager with "invalid tag name", including
+`<param>`: parameters of the hardware belong inside `<hardware>`.
 
 Fix: move `<param>` into `<hardware>`, correct the tag's name, and state name, type and plugin.
 Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resource_from_xml`.

@@ -5,10 +5,10 @@ interfaces and none of its controllers starts. `gazebo_ros2_control/GazeboSystem
 Classic, which ends with Humble; `fake_components/GenericSystem` is `mock_components/GenericSystem`
 since Humble.
 
-A class of another package is looked for in the descriptions of plugins that the package exports, if
-it is available; where it is not, the name is information unless package.xml depends on the package.
+A class of another package is compared with the plugin descriptions that the package exports, if it
+is available; if it is not, the finding is information unless package.xml depends on the package.
 
-Fix: name the class that is there: `gz_ros2_control/GazeboSimSystem` in Gazebo Harmonic and later,
+Fix: name a class that exists: `gz_ros2_control/GazeboSimSystem` in Gazebo Harmonic and later,
 `ign_ros2_control/IgnitionSystem` in Fortress, `mock_components/GenericSystem` without hardware.
 Source: hardware descriptions of ros2_control, gz_ros2_control and gazebo_ros2_control, by branch.
 """

@@ -1,10 +1,10 @@
 """Hardware of Gazebo without Gazebo's plugin, or the other way round.
 
-Hardware such as `gz_ros2_control/GazeboSimSystem` exists within Gazebo only, and a plugin in
-`<gazebo>` starts the controller manager there: the robot needs both. With the plugin and other
-hardware, such as `mock_components/GenericSystem`, the controllers run and the simulated robot does
-not move. Without any `<ros2_control>` tag the plugin gives up, and there is no controller manager.
-The plugin's `name` is the class that is loaded from the library, and no free label.
+Hardware such as `gz_ros2_control/GazeboSimSystem` exists only in Gazebo, and a plugin in `<gazebo>`
+starts the controller manager there: the robot needs both. With the plugin and other hardware, such
+as `mock_components/GenericSystem`, the controllers run and the simulated robot does not move.
+Without any `<ros2_control>` tag the plugin stops, and there is no controller manager. The plugin's
+`name` is the class that is loaded from the library; it cannot be chosen freely.
 
 Fix: write `<plugin filename="gz_ros2_control-system"
 name="gz_ros2_control::GazeboSimROS2ControlPlugin">` below `<gazebo>`, with `<parameters>`, and

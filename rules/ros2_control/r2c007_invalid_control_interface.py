@@ -1,8 +1,8 @@
 """An interface whose limits, start value or name do not fit its joint.
 
-`<param name="min">` and `max` can make the limits of the URDF tighter, not wider. A start position
-outside of the joint's limits is where mock hardware and Gazebo put the joint, and its limits push
-it back. An interface name that is almost a standard one is found by no controller.
+`<param name="min">` and `max` can make the limits of the URDF tighter, not wider. Mock hardware and
+Gazebo put the joint at its start position even if that is outside of its limits, and the limits
+then push it back. Controllers do not find an interface whose name is a misspelt standard one.
 
 Fix: keep `min`, `max` and `initial_value` within the `<limit>` of the joint, and write `position`,
 `velocity`, `acceleration` or `effort`.

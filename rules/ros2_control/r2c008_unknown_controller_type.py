@@ -1,9 +1,9 @@
 """A controller type that the ROS 2 distribution does not have.
 
 The spawner ends with an error for a type that no package exports. Some types were renamed: the
-`GripperActionController` of `position_controllers` and `effort_controllers` is gone since Kilted,
+`GripperActionController` of `position_controllers` and `effort_controllers` was removed in Kilted,
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
-`joint_state_controller/JointStateController`, never were there.
+`joint_state_controller/JointStateController`, never existed in ROS 2.
 
 Types of other packages are not judged, unless the class has the name of one of ros2_controllers and
 the package is neither in package.xml nor available.

@@ -2,7 +2,7 @@
 
 A controller claims the interfaces of its joints when it is activated: `wheel_joint/velocity`. If a
 `<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
-controller that no launch file names, this is a warning: as it stands nothing starts it.
+controller that no launch file names, this is a warning: nothing starts it.
 
 Fix: write the joint's name as in `<ros2_control>`, or add the `<command_interface>` or
 `<state_interface>` that the controller needs: drives need `velocity` of wheels and `position` of

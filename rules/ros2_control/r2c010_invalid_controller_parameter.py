@@ -1,8 +1,8 @@
 """A required parameter of a controller is missing, or a parameter has the wrong type.
 
-A controller without a parameter that has no default is not configured, nor is one whose wheel
-radius or wheel separation stays at 0. ROS knows the types of parameters and converts none: where a
-`double` is declared, `10` is an error and `10.0` is right.
+A controller is not configured if a parameter without a default is missing, or if its wheel radius
+or wheel separation is 0. ROS does not convert the types of parameters: where a `double` is
+declared, `10` is an error and `10.0` is right.
 
 Fix: add the parameter to the controller's own block below `ros__parameters`, with a decimal point
 where it is a `double`.

@@ -3,7 +3,7 @@
 Parameters that a controller does not declare are ignored without a message: the value has no
 effect. Usually a name is misspelt, belongs to another controller, or is of another distribution.
 Since Jazzy, the drives read `TwistStamped` only: `use_stamped_vel: false` is ignored, and messages
-of type `Twist` move nothing.
+of type `Twist` do not move the robot.
 
 Fix: remove the parameter, or correct its name. Publish `geometry_msgs/msg/TwistStamped` from Jazzy
 on.

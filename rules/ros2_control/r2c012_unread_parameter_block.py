@@ -1,9 +1,9 @@
 """A file of parameters whose blocks are for nodes in another namespace.
 
-A block of a parameter file is for the node of that full name: `controller_manager:` is
-`/controller_manager` and no other. A controller manager that Gazebo starts in a namespace does not
-read it, and neither do its controllers; the spawner then says that a type is not defined. Without
-`ros__parameters` below the name, nothing of the file is read.
+A block of a parameter file is for the node of that full name: `controller_manager:` is only for
+`/controller_manager`. A controller manager that Gazebo starts in a namespace does not read it, and
+neither do its controllers; the spawner then reports that a type is not defined. Without
+`ros__parameters` below the name, the parameters are not read.
 
 Fix: put the blocks below the key of the namespace, or below two asterisks for any namespace, as in
 the examples.

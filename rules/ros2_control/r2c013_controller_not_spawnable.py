@@ -5,9 +5,9 @@ type of each: by `<name>: {type: …}` in its own parameters, or by the file tha
 `--param-file`. Otherwise the spawner ends with "The 'type' param was not defined".
 
 Without a controller manager, spawners wait forever: either `ros2_control_node` runs it, or a plugin
-in Gazebo. Both together fight for the robot: the node cannot load the hardware of Gazebo.
+in Gazebo. Both together do not work: the node cannot load the hardware of Gazebo.
 
-A joint state broadcaster that is configured, and that no launch file starts beside the others, is a
+A joint state broadcaster that is configured, but not started with the other controllers, is a
 warning: nothing publishes /joint_states, and no moving link has a transform.
 
 Fix: write the same name in the launch file, below `controller_manager` and as the key of the

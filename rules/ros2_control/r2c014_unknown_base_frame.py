@@ -1,8 +1,8 @@
 """A drive controller whose base frame is not a link of the robot.
 
 The controller publishes the transform from `odom` to its `base_frame_id`; robot_state_publisher
-publishes those of the links. If no link has that name, there are two trees: nothing can be
-transformed from a sensor into `odom`, and navigation waits for it.
+publishes those of the links. If no link has that name, there are two trees: data of a sensor cannot
+be transformed into `odom`, and navigation waits for the transform.
 
 Fix: write the robot's root link as `base_frame_id`; without it the controllers take `base_link`.
 Source: ros2_controllers, `base_frame_id` of diff_drive_controller, tricycle_controller and the

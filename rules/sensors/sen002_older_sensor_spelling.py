@@ -1,8 +1,8 @@
 """A lidar with an older spelling of its type, or a type that is not simulated.
 
-`ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so their
-topics stay silent: this is an error. `gpu_ray` still works and is the older name of `gpu_lidar`; a
-file with both names hides that they mean the same. This is information.
+`ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so they
+publish nothing: this is an error. `gpu_ray` still works and is the older name of `gpu_lidar`: this
+is information.
 
 Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
 Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no

@@ -2,12 +2,12 @@
 
 A full turn from -3.1459 to 3.1459 is 0.5 degrees too large: the last rays see what the first ones
 saw, and every point of the cloud is slightly wrong. In the challenge a full turn goes from -π to π,
-as on all other robots, and not from 0 to 2π; for later releases of Gazebo that is information,
-since many devices do so. If the first angle is not below the last, all rays point in one direction
-or the scan is mirrored.
+as on all other robots, and not from 0 to 2π; for later releases of Gazebo this is information,
+because many devices do so. If the first angle is not below the last, all rays point in one
+direction or the scan is mirrored.
 
 Fix: write the smaller angle first. For a full turn write -3.141592653589793 and 3.141592653589793,
-or, where programs take ray 0 for the front, 0 and 6.283185307179586.
+or, for programs that expect ray 0 at the front, 0 and 6.283185307179586.
 Source: reviews of SubT models, which had 3.1459 and 0 … 6.283 corrected to ±3.14159.
 """
 

@@ -1,7 +1,7 @@
 """The number of a lidar's samples differs from that of its device at this rate.
 
 A VLP-16 measures 1800 points per row at 10 Hz and 900 at 20 Hz. With 10000 points the model sees
-far more than the real robot and slows the simulation down for everybody. That number comes from an
+far more than the real robot and slows down the simulation of all robots. That number comes from an
 old template, together with a scan resolution of 0.1, and was copied into many robots. A scan over a
 part of the turn may have the same part of the samples. If a figure was never compared with a
 datasheet, this is information.

@@ -1,8 +1,8 @@
 """A lidar whose range resolution or noise differs from the SubT standard.
 
 All robots of a competition have sensors of the same quality: ranges in steps of 0.01 m with a noise
-of 0.01 m, unless the device's own figures are known. A lidar without noise is better than any real
-one.
+of 0.01 m, unless the device's own figures are known. A lidar without noise is more precise than any
+real one.
 
 Fix: write `<range><resolution>0.01</resolution>` and a Gaussian `<noise>` with the `<stddev>` 0.01.
 Source: reviews of SubT models, which asked for 0.01 instead of 0.003 and 0.03 for Ouster lidars

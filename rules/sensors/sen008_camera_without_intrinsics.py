@@ -2,7 +2,7 @@
 
 Gazebo Dome fills `camera_info` from `<lens><intrinsics>` only. Without them it publishes SDFormat's
 defaults (fx = fy = 277, cx = 160, cy = 120), which fit an image of 320 × 240 pixels and 60°. With
-any other image, whatever is projected into or out of it is in the wrong place.
+any other image, points that are projected into or out of it are wrong.
 
 Fix: add `<lens><intrinsics>` with fx = fy = width / (2·tan(horizontal_fov / 2)),
 cx = (width - 1) / 2 and cy = (height - 1) / 2.

@@ -4,7 +4,7 @@ Gazebo renders the image from width, height and `horizontal_fov`, and publishes 
 `<intrinsics>`. If they disagree, every measurement in the image is wrong. On later releases the
 intrinsics define the image, and it does not show the stated field of view. The usual cause is
 intrinsics copied from a camera of another resolution. For a calibrated camera, whose centre is not
-at half the size, this is information while the focal length is right.
+at half the size, this is information if the focal length is right.
 
 Fix: write fx = fy = width / (2·tan(horizontal_fov / 2)), cx = (width - 1) / 2,
 cy = (height - 1) / 2 and s = 0, or correct `horizontal_fov`.

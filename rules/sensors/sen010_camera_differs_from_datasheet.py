@@ -1,13 +1,13 @@
 """A camera whose settings differ from those of its device.
 
-Teams plan with the camera in specifications.md. More pixels, a higher rate or a wider view
-make the simulated robot better than the real one, and fewer pixels make it worse; reviewers ask
-about both. In the SubT challenge, images with depth have at most 640 × 480 pixels, so that the
-simulation keeps up.
+Teams plan with the camera in specifications.md. More pixels, a higher rate or a wider view make the
+simulated robot better than the real one, and fewer pixels make it worse; reviewers ask about both.
+In the SubT challenge, images with depth have at most 640 × 480 pixels, to limit the time of the
+simulation.
 
 A device that specifications.md names anywhere, in a link or a line of the costs, counts if it is
 the only one of its class. A device of a family is compared if specifications.md names its model.
-The type codes of machine vision cameras tell a size of their own, rounded: a BFLY-U3-23S6C has 2.3
+The type codes of machine vision cameras contain the size, rounded: a BFLY-U3-23S6C has 2.3
 megapixels, a Basler acA1300-60gm about 1300 columns. Such figures, others from memory, and
 differences that the sheet mentions under diversions are information.
 

@@ -1,11 +1,11 @@
-"""A camera that sees too far, or nothing.
+"""A camera whose range is too large or empty.
 
 A camera sees only what is between `<near>` and `<far>`: if near is not below far, nothing is
 rendered, and a renderer refuses a near of 0. In the SubT challenge RGBD cameras measure up to 10 m
 and thermal cameras see up to 100 m; with a copied 300 m the robot sees farther than any device. An
-RGBD camera has two ranges: `<clip>` holds for the colour picture, and for depth too unless
-`<depth_camera><clip>` says otherwise. With `<clip><far>10` alone, the picture also ends at 10 m,
-and all that is farther away is missing in it.
+RGBD camera has two ranges: `<clip>` is for the colour picture, and for depth too unless
+`<depth_camera><clip>` is set. With `<clip><far>10` alone, the picture also ends at 10 m, and
+everything farther away is missing in it.
 
 Fix: write near above 0 and below far; `<depth_camera><clip><far>10` for depth and
 `<clip><far>300` for the picture; `<clip><far>100` for thermal cameras.

@@ -1,6 +1,6 @@
-"""Lens distortion that the simulator does not show.
+"""Lens distortion that the simulator does not render.
 
-Gazebo Dome renders an undistorted image whatever `<distortion>` says, but still publishes the
+Gazebo Dome renders an undistorted image regardless of `<distortion>`, but still publishes the
 coefficients in `camera_info`: a program that rectifies the image distorts it.
 
 Fix: write 0 for all coefficients, or remove `<distortion>`.

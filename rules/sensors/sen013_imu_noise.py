@@ -1,6 +1,6 @@
 """An IMU whose noise differs from the SubT standard.
 
-An IMU without noise measures better than any device, and can track the robot's place for a whole
+An IMU without noise measures better than any device, and can track the robot's position for a whole
 run. All robots of the SubT challenge have the same noise on each axis, so that no team profits from
 its datasheet.
 

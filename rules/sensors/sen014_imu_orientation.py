@@ -1,7 +1,7 @@
 """An IMU that publishes its true orientation.
 
 Unless `<imu><enable_orientation>` is 0, the message contains the orientation of the robot in the
-world without any error. This is ground truth, which no team may use; the IMU works, so this is a
+world without any error. This is ground truth, which teams must not use; the IMU works, so this is a
 warning.
 
 Fix: write `<enable_orientation>0</enable_orientation>` into `<imu>`; Gazebo does not read it

@@ -1,8 +1,8 @@
 """A sensor without a sensible update rate.
 
 Without `<update_rate>`, or with 0, a sensor measures at every simulation step, a thousand times per
-second. A camera or lidar then slows everything down, and no device is that fast. A negative rate
-has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is
+second. A camera or lidar then slows down the simulation, and no device is that fast. A negative
+rate has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is
 information.
 
 Fix: write the rate of the device, in hertz.

@@ -1,8 +1,8 @@
 """A thermal camera with other settings than the SubT standard.
 
 Only the system ThermalSensor, inside `<sensor>`, gives a thermal camera its 8-bit image and its
-temperature range. Without it, or with other settings, a pixel value means another temperature than
-teams and their detectors expect.
+temperature range. Without it, or with other settings, a pixel value stands for another temperature
+than detectors expect.
 
 Fix: write `<format>L8` and, inside `<sensor>`, the plugin `ignition-gazebo-thermal-sensor-system`
 with min_temp 253.15, max_temp 673.15 and resolution 1.6.

@@ -1,11 +1,11 @@
 """A light inside a body, without a lamp or without a range, or too many lights.
 
 A light with shadows inside a visual lights up only that visual: the robot drives in the dark. In a
-concave mesh it does so if the mesh stands in the way of its beam and of nearly all directions. A
-light without shadows shines through the body, and a light without a lamp comes from nowhere. Both
-are confusing, and usually come from a pose with a wrong sign or frame. Without a stated range, a
-lamp ends at 10 m. Gazebo computes every light for every pixel of every camera, so a team of robots
-with many lights slows down the whole run; their number is information.
+concave mesh, the light is reported if the mesh blocks its beam and nearly all directions. A light
+without shadows shines through the body, and a light without a lamp has no visible source. The cause
+of both is usually a pose with a wrong sign or frame. Without a stated range, a lamp ends at 10 m.
+Gazebo computes every light for every pixel of every camera, so a team of robots with many lights
+slows down the whole run; their number is information.
 
 Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and use at most
 six lights.

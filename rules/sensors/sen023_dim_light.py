@@ -1,4 +1,4 @@
-"""A light whose attenuation is for Gazebo Classic, and so is too dim, or that is black.
+"""A light that is black, or too dim because its attenuation is for Gazebo Classic.
 
 With the same settings, lights are darker in Ignition Gazebo than in Gazebo Classic: with an
 attenuation for Classic, the robot's cameras see almost nothing in a mine. The brightness is divided

@@ -1,4 +1,4 @@
-"""A sensor looks in another direction than its name says.
+"""A sensor does not look in the direction of its name.
 
 A driver who relies on `camera_rear` but sees the front hits a wall, and a map from a rotated lidar
 is rotated too. Usually a yaw is missing, or is in degrees.

@@ -2,11 +2,12 @@
 
 Fortress reads `<ignition_frame_id>` and `<gz_frame_id>`, Harmonic `<gz_frame_id>`, Ionic and Jetty
 `<frame_id>`. A sensor that has none of those that the target reads publishes in the frame
-`model::link::sensor`, which transforms in ROS rarely know: this is a warning. One that is read but
-is not, or no longer, an element of SDFormat is information: libsdformat prints a warning, and the
-sensor does what it says. Of URDF this is not said: there, nothing else names the frame.
+`model::link::sensor`, for which ROS rarely has a transform: this is a warning. An element that is
+read, but that is not, or no longer, an element of SDFormat is information: libsdformat prints a
+warning, and the sensor uses the frame. In URDF this is not reported, because it has no other
+element for the frame.
 
-Fix: write the element of the release; several stand side by side in a model for several releases.
+Fix: write the element of the release; a model for several releases contains several of them.
 Source: gz-sim and gz-sensors, branches ign-gazebo6 to gz-sim10; SDFormat 1.12, sensor/frame_id.
 """
 

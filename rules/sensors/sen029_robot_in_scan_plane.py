@@ -2,9 +2,9 @@
 
 A post, a wheel or the bracket of a camera in the plane of the scan is an obstacle at the same angle
 and distance wherever the robot goes: the costmap is never free there, and mapping draws a trail of
-it. It takes few rays, so that SEN019 does not report it. What is nearer than `<range><min>` gives
-no reading. No planar lidar of the accepted packages that we checked sees its own robot. Lidars of
-several rows often do, and what uses them filters it.
+it. It takes few rays, so that SEN019 does not report it. Parts nearer than `<range><min>` give no
+reading. No planar lidar of the accepted packages that we checked sees its own robot. Lidars of
+several rows often do, and programs that use them filter these points.
 
 The rule casts up to 576 rays over the scan at the robot's visuals, with all joints in their initial
 position; those of a lidar of Gazebo Classic without GPU (`type="ray"`) at its collisions.

@@ -2,11 +2,11 @@
 
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
-at launch: one that has no default, or an empty one that the file cannot do without. Further values
-that the file or a launch file names for an argument are tried as well.
+at launch: one without a default, or with an empty default that makes the expansion fail. Further
+values that the file or a launch file names for an argument are tried as well.
 
-Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
-line. URD014 reports what only xacro of ROS Noetic and later refuses.
+Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
+reports what xacro refuses from ROS Noetic on.
 Source: xacro, "unknown macro name", "Undefined substitution argument".
 """
 

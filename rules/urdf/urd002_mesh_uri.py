@@ -2,8 +2,8 @@
 
 Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
 only on the author's machine; elsewhere the part is invisible. `package:///` names no package: only
-Pinocchio takes it for `package://`. The simulation of a robot in SDF does
-not need the file, so this is a warning.
+Pinocchio reads it as `package://`. The simulation of a robot in SDF does not need the file, so this
+is a warning.
 
 Fix: write `package://<package>/<path>`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic

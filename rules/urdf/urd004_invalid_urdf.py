@@ -3,7 +3,7 @@
 URDF readers refuse the whole robot: RViz shows nothing, and spawn_model ends with an error. URDF
 requires a tree of links with one root, and effort and velocity limits for each joint that moves.
 
-In URDF packages, KIN001 to KIN003 report links that do not exist, loops and loose links.
+In URDF packages, KIN001 to KIN003 report links that do not exist, loops and disconnected links.
 
 Fix: correct the joint that the message names.
 Source: URDF specification, joint: "parent", "child" and, for revolute and prismatic ones, "limit"

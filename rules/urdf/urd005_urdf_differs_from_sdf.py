@@ -1,7 +1,7 @@
 """A description for RViz that differs from the simulated robot.
 
-Teams plan with the frames that RViz knows. A link that only the simulation has is a frame that
-nobody finds. If a mass differs, one of the two files is out of date; only RViz reads that of the
+Teams plan with the frames that RViz knows. The frame of a link that only the simulation has is
+missing there. If a mass differs, one of the two files is out of date; only RViz reads that of the
 description, so this is information.
 
 Fix: generate the URDF file again from model.sdf.

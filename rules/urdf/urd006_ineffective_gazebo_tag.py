@@ -1,8 +1,8 @@
 """A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
-change a colour, or how a joint is computed, is a warning. Controllers find no joints where
-`<ros2_control>` is inside a `<gazebo>`.
+change a colour, or how a joint is computed, is a warning. A `<ros2_control>` inside a `<gazebo>` is
+not read, so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
 for joints under a joint; put `<ros2_control>` directly into `<robot>`.

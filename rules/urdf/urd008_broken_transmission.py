@@ -2,8 +2,8 @@
 
 gazebo_ros_control registers a joint with the controllers through its transmission. It skips a
 transmission without a joint, an actuator or an interface, and the controller does not find its
-joint. Without a plugin that reads transmissions, one of a fixed joint is a leftover that does no
-harm: information.
+joint. Without a plugin that reads transmissions, the transmission of a fixed joint has no effect:
+information.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or

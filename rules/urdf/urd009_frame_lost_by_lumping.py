@@ -8,8 +8,8 @@ URDF file.
 Fix: name the link into which it is merged; or keep the joint with `<preserveFixedJoint>true` below
 `<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps only the link).
 Source: sdformat 6, parser_urdf.cc, ReduceFixedJoints: collisions become
-`parent_fixed_joint_lump__child_collision`; ReduceSDFExtensionPluginFrameReplace
-writes `bodyName` and `frameName` anew; plugins look up `linkName` and `jointName` in the model.
+`parent_fixed_joint_lump__child_collision`; ReduceSDFExtensionPluginFrameReplace replaces `bodyName`
+and `frameName`; plugins look up `linkName` and `jointName` in the model.
 """
 
 from collections.abc import Iterator

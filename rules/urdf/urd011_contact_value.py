@@ -1,8 +1,8 @@
 """A friction or contact stiffness in a `gazebo` tag that is not a positive number.
 
 A negative friction accelerates a sliding part, and a contact without stiffness lets the part sink
-into the ground. Zero friction is right for a part that slides, so nothing is said of a caster by
-its name, or by its spherical collision.
+into the ground. Zero friction is right for a part that slides, so a caster, recognized by its name
+or its spherical collision, is not reported.
 
 Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/m.
 Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.

@@ -1,9 +1,9 @@
-"""A number that URDF readers cannot read, or an element or attribute that they miss.
+"""A number that URDF readers cannot read, or a missing element or attribute.
 
-urdfdom refuses the whole robot for a joint with such a fault. Of a link it drops the inertial or
-the shape, and all that follows in the link: the robot loads, and a part has no mass or touches
+urdfdom refuses the whole robot for a joint with such a fault. For a link, it drops the inertial or
+the shape and everything after it in the link: the robot loads, and a part has no mass or touches
 nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a blank behind a single
-number. Of a colour with a number below 0 or above 1, only the colour is lost.
+number. A number below 0 or above 1 in a colour only loses the colour.
 
 Fix: write the number as the message says: with a decimal point, without unit, and with blanks only
 between several numbers.

@@ -1,8 +1,8 @@
 """A version of URDF that most readers refuse, or an element that the stated version lacks.
 
-urdfdom refuses a robot whose version it does not know. ROS 1 and ROS 2 up to Kilted know 1.0 alone.
-At version 1.0, newer readers ignore what came later: a `quat_xyzw` does not turn anything, and a
-capsule is left out.
+urdfdom refuses a robot whose version it does not know. ROS 1 and ROS 2 up to Kilted support only
+1.0. At version 1.0, newer readers ignore later elements: a `quat_xyzw` has no effect, and a capsule
+is dropped.
 
 Fix: write `rpy` in place of `quat_xyzw` and a cylinder in place of a capsule. Or state the version
 that has them, if all your readers know it.

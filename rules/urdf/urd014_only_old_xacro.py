@@ -1,12 +1,12 @@
 """A xacro file that only the xacro of ROS Melodic expands.
 
 On Melodic, where the challenge runs, the robot is loaded. xacro of ROS Noetic and later, which runs
-on Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` make no
-lists there, fewer functions of Python are known, a macro that is defined while another one is
-expanded is known in that one alone, and tags need the prefix `xacro:`.
+on Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` do not
+return lists, fewer Python functions are available, a macro defined inside a macro exists only
+there, and tags need the prefix `xacro:`.
 
-Fix: write what both take: `list(map(…))`, a comprehension instead of `filter`, files with macros
-included outside of macros, and `xacro:` before each tag.
+Fix: write what both versions accept: `list(map(…))`, a comprehension instead of `filter`, files
+with macros included outside of macros, and `xacro:` before each tag.
 Source: xacro 1.13 and 1.14 and later; "unknown macro name".
 """
 

@@ -1,7 +1,7 @@
 """An element or attribute of URDF whose name is misspelt.
 
-URDF readers pass over what they do not know, without a message. A link with `<colision>` touches
-nothing, and an `<origin xzy="…">` is at zero.
+URDF readers ignore unknown names without a message. A link with `<colision>` touches nothing, and
+an `<origin xzy="…">` is at zero.
 
 Fix: write the name as the message says.
 Source: URDF specification; urdfdom reads elements and attributes by their names

@@ -1,9 +1,9 @@
 """A joint with the name of a link.
 
-URDF keeps the names of joints and links apart, and so do RViz and the ROS tools. SDF has one set of
-names for both: once Gazebo has converted the file, libsdformat refuses the model, and nothing is
-spawned. A fixed joint that is merged away leaves no name behind. In a URDF without a `<gazebo>`
-element it is a warning.
+In URDF, RViz and the ROS tools, a joint and a link may have the same name. In SDF they may not:
+once Gazebo has converted the file, libsdformat refuses the model, and nothing is spawned. The name
+of a fixed joint that Gazebo merges does not count. In a URDF without a `<gazebo>` element, this is
+a warning.
 
 Fix: give the joint a name of its own, such as `arm_joint`, also in controllers and transmissions.
 Source: SDFormat 1.7, "unique sibling names"; tried with libsdformat 12: "Joint with non-unique name

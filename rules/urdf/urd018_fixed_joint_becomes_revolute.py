@@ -1,8 +1,8 @@
-"""A fixed joint that Gazebo turns into a hinge with both limits at 0.
+"""A fixed joint that Gazebo turns into a revolute joint with both limits at 0.
 
 `<disableFixedJointLumping>` alone keeps the link, but not the joint: libsdformat writes a revolute
-joint with the limits 0 and 0. The solver has one more degree of freedom to hold in place, which
-gives way under load, and the joint shows up among the joint states.
+joint with the limits 0 and 0. This adds a degree of freedom, which moves under load, and the joint
+appears in the joint states.
 
 Fix: write `<preserveFixedJoint>`, which keeps the link, and the joint fixed.
 Source: libsdformat, parser_urdf.cc; sdformat issue 131; tried with libsdformat 12.

@@ -1,8 +1,8 @@
 """A joint that mimics another, in a release that does not support mimic joints.
 
 Gazebo converts `<mimic>` from Harmonic on. Fortress drops it: the second finger of a gripper swings
-freely, or has to be driven by itself. What ros2_control reads for itself is not affected: there a
-plugin moves both joints.
+freely, or needs its own controller. Mimic joints of ros2_control are not affected: its plugin moves
+both joints.
 
 Fix: command both joints, or let ros2_control do so; or use Harmonic or later.
 Source: sdformat, parser_urdf.cc of sdf12 and sdf14; tried with libsdformat 12.

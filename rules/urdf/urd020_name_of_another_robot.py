@@ -1,7 +1,7 @@
-"""A robot that has the name of another one of the same package.
+"""A robot with the name of another robot of the same package.
 
-The file was copied, and the name of the robot stayed behind: topics, windows and messages then tell
-of the wrong robot. It is reported where the file that bears the name holds another robot.
+The file was copied, but the name of the robot was not changed: topics, windows and messages then
+show the wrong robot. It is reported where the file with that name contains another robot.
 
 Fix: name the robot after its file.
 Source: what authors of public packages corrected.

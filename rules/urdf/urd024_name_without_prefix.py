@@ -1,11 +1,11 @@
 """A name in a xacro file that lacks the prefix which links and joints have there.
 
-The robot is right as long as the prefix is empty. With `prefix:=left_`, the mimic joint, `<gazebo>`
+The robot works as long as the prefix is empty. With `prefix:=left_`, the mimic joint, `<gazebo>`
 tag, joint of ros2_control or frame names something that does not exist: two arms in one cell, or
 two robots in one world, fail while one alone works.
 
 Fix: write the prefix in front of the name, as the message says.
-Source: general knowledge; what `${prefix}` comes to is not known before somebody includes the file.
+Source: general knowledge; the value of `${prefix}` is not known until the file is included.
 """
 
 import re

@@ -1,11 +1,11 @@
 """Two included xacro files set one property to different values.
 
 Properties at the top of xacro files are shared by all files of a robot, and a macro reads them when
-it is called: then the file that was included last has set them for both. A wheel gets the radius of
-another wheel, and no tool says so. What the including file sets by itself is meant, and is not
-reported.
+it is called: the value of the file that was included last then counts for both. A wheel gets the
+radius of another wheel, without a message. A property that the including file sets itself is
+intended, and is not reported.
 
-Fix: give the properties names of their own, such as `caster_radius`; or hand the value to the macro
+Fix: give the properties names of their own, such as `caster_radius`; or pass the value to the macro
 as a parameter; or include the file with `ns="…"`.
 Source: xacro documentation, properties and `ns` of `<xacro:include>`; tried with xacro 2.
 """

@@ -1,10 +1,10 @@
 """A name in the expressions of a macro that nothing defines.
 
-No available file calls the macro, so the fault does not show: xacro ends with "name 'x' is not
-defined" when the macro is called. A name counts as defined where any available file has a property
-of that name, or a macro with such a parameter: a macro sees the names of its caller. Packages that
-include files which are not available are not judged. Names in braces without a dollar sign, such as
-`{prefix}`, are kept as text, and so end up in the name of a link.
+No available file calls the macro, so the fault is not visible yet: xacro fails with "name 'x' is
+not defined" when the macro is called. A name counts as defined where any available file has a
+property of that name, or a macro with such a parameter: a macro sees the names of its caller.
+Packages that include files which are not available are not judged. Names in braces without a dollar
+sign, such as `{prefix}`, are kept as text, and become part of the name of a link.
 
 Fix: define the property, correct the name, or write `${prefix}`.
 Source: xacro, `eval_text` and `handle_macro_call`.

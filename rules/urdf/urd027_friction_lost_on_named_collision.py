@@ -1,9 +1,10 @@
 """A friction that Gazebo drops, because the collision has its own name.
 
 `<mu1>` and `<mu2>` below `<gazebo reference="link">` are for the collisions of that link. Gazebo
-finds these by their names in SDF, which it makes of the link's name where a collision has none. A
-collision with another name gets no friction, and so 1: a caster that should slide drags. Where a
-fixed joint merges the link into its parent, the name has to be that of the link, without more.
+finds these by their names in SDF, which it derives from the link's name where a collision has none.
+A collision with another name keeps the default friction of 1: a caster that should slide drags.
+Where a fixed joint merges the link into its parent, the name must be that of the link, without a
+suffix.
 
 Fix: remove `name` from the collision, or write what the message says.
 Source: sdformat, parser_urdf.cc, `InsertSDFExtensionCollision`; what libsdformat 12 makes of URDFs

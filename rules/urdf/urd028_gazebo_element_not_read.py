@@ -1,8 +1,8 @@
 """An element in the `gazebo` tag of a link or joint that Gazebo does not read there.
 
-What is below `<gazebo reference="wheel">` and is none of the elements for links goes into the
-`<link>` of the SDF as it is. There, `<surface>`, `<friction>` or `<mu>` means nothing: the friction
-of the wheel is 1, and the rollers of a mecanum wheel do not slip. Gazebo says nothing.
+An element below `<gazebo reference="wheel">` that is not one of the elements for links is copied
+into the `<link>` of the SDF. There, `<surface>`, `<friction>` or `<mu>` has no effect: the friction
+of the wheel is 1, and the rollers of a mecanum wheel do not slip. Gazebo prints no message.
 
 Fix: write what the message says.
 Source: sdformat, parser_urdf.cc, and SDFormat specification, link and joint; what libsdformat 12

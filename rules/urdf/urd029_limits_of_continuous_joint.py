@@ -1,7 +1,8 @@
 """A continuous joint with limits of its angle, which are ignored.
 
-Readers of URDF ignore `lower` and `upper` of a continuous joint: simulators and planners let it
-turn for ever. Limits of a whole turn and more are harmless, and so are two zeros; none is reported.
+Readers of URDF ignore `lower` and `upper` of a continuous joint: in simulators and planners it
+turns without an end. Limits of a whole turn and more are harmless, and so are two zeros; none is
+reported.
 
 Fix: write `type="revolute"` if the joint has an end, else remove `lower` and `upper`.
 Source: URDF specification, joint: a continuous joint has no limits; what libsdformat 12 makes of
