@@ -19,15 +19,15 @@ COMMANDS = {
     "export": "write a package's robot as URDF or MJCF",
     "migrate": "convert a description for Gazebo 9 to a package for SubT",
     "submit": "check a package remotely, print locally",
-    "server": "start the language server, which tells editors of faults",
+    "server": "start the language server for editors",
     "serve": "start the web service with its worker processes",
     "worker": "start another worker process of a service",
-    "admin": "list, begin anew and cancel checks of a service, drain workers, delete what is due",
+    "admin": "list, rerun and cancel checks of a service, drain workers, delete expired data",
     "init": "write a settings file and a pre-commit hook",
     "doctor": "check the installation; exit code 1 if something does not work",
     "rule": "explain a rule",
     "rules": "list all rules",
-    "completion": "print what completes the command in bash, zsh or fish",
+    "completion": "print the completion script for bash, zsh or fish",
 }
 """What each command does; its module has the same name."""
 _MODULES = {"check": "check.command", "doctor": "doctor.command"}

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
     listing = _action(actions, "list", "list the checks that wait, run or have failed")
     listing.add_argument("--json", action="store_true", help="as JSON, with whole keys")
-    again = _action(actions, "requeue", "begin failed checks anew, under the same links")
+    again = _action(actions, "requeue", "run failed checks again, under the same links")
     which = again.add_mutually_exclusive_group(required=True)
     which.add_argument("keys", nargs="*", default=[], metavar="KEY", help=_KEY)
     which.add_argument("--failed", action="store_true", help="all checks that have failed")

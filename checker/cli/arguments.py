@@ -14,7 +14,7 @@ FORMAT_NAMES = ("text", "concise", "json", "sarif", "github", "junit", "markdown
 EXITS = """exit codes:
   0    nothing at or above --fail-on
   1    findings at or above --fail-on
-  2    wrong usage, input that cannot be read, or what cannot be done as asked
+  2    wrong usage, input that cannot be read, or a request that cannot be met
   3    a fault of the checker itself, or a service or database that does not answer
   130  interrupted (Ctrl-C)
 """

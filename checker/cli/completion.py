@@ -1,4 +1,4 @@
-"""`subt-check completion`: prints what completes the command in a shell."""
+"""`subt-check completion`: prints the completion script for a shell."""
 
 from __future__ import annotations
 

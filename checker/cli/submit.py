@@ -253,7 +253,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="access token (safer: the variable SUBT_CHECK_TOKEN, which other users cannot see)",
     )
     parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: what suits the package)"
+        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
     )
     parser.add_argument("--format", choices=FORMAT_NAMES, default="text")
     parser.add_argument(

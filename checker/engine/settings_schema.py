@@ -47,7 +47,7 @@ def settings_schema() -> _Json:
 def _keys(rules: Sequence[Rule]) -> dict[str, _Json]:
     return {
         "profile": _described({"enum": list(profile_names())}, "set of rules, and their target"),
-        "distro": _described({"enum": list(distro_names())}, "ROS 2 distribution to judge for"),
+        "distro": _described({"enum": list(distro_names())}, "ROS 2 distribution to check for"),
         "select": _described(
             {"$ref": "#/$defs/rules"}, "run only these rules, groups, or concern:robot"
         ),

@@ -1,4 +1,4 @@
-"""A wheel stands farther out than its neighbour, and the other side of the robot does not.
+"""A wheel is farther out than its neighbour, but not on the other side of the robot.
 
 The robot is not symmetric: a number of this wheel's pose is probably wrong. The wheels of one side
 may have different distances from the middle if those of the other side have the same. No robot that
@@ -24,7 +24,7 @@ def check(robot: Robot, *, step: float = 0.02) -> Findings:
     for found in wheels_out_of_line(robot, step):
         yield finding(
             found.wheel.link.pose,
-            f"wheel {found.wheel.link.name.value!r} stands {found.step * 1e3:.3g} mm farther out "
+            f"wheel {found.wheel.link.name.value!r} is {found.step * 1e3:.3g} mm farther out "
             f"than {found.neighbour.link.name.value!r}, but the one on the other side "
             f"{found.other_step * 1e3:.3g} mm: expected the same",
             related=[(found.neighbour.link, "the neighbour")],

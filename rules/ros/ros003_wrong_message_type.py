@@ -100,7 +100,7 @@ def _one_row_of_many(ends: Sequence[Channel]) -> str:
     if rows <= 1:
         return ""
     return (
-        f"bridges the LaserScan of {ends[0].owner_name}, which holds only one of its {rows:g} "
+        f"bridges the LaserScan of {ends[0].owner_name}, which has only one of its {rows:g} "
         "rows; expected its scan/points as PointCloud2"
     )
 

@@ -160,7 +160,7 @@ def _apart(sensor: Sensor, bridges: Sequence[Bridge]) -> Findings:
             yield finding(
                 bridge,
                 f"{sensor.type.value} {sensor.name.value!r} has topics below {usual!r} and "
-                f"{_name(bridge)!r} in ROS, expected the same words in front of all",
+                f"{_name(bridge)!r} in ROS, expected the same prefix for all",
                 related=[(first, "another of its topics")],
             )
 

@@ -128,7 +128,7 @@ def _given(description: RobotDescription, script: DescriptionScript | None) -> s
         given = f"name:={script.arguments['name']}"
         return f"{script.path} gives it {given}: expected what the launch file hands over"
     if script is not None and not script.takes_arguments:
-        return f"{script.path} hands none of its arguments to xacro"
+        return f"{script.path} passes none of its arguments to xacro"
     name = description.arguments.get("name")
     gets = f"gets {'no name:=' if name is None else f'name:={name}'}"
     gets = f"{script.path} {gets}" if script is not None else gets

@@ -38,7 +38,7 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
         yield from _judge_flags(spawn)
         if spawn.child("sdf") is None:
             for model in models_of(spawn):
-                yield finding(model, f"<{model.tag}> stands in no <sdf>, so nothing is spawned")
+                yield finding(model, f"<{model.tag}> is not inside <sdf>, so nothing is spawned")
         world = spawn.child("world")
         if world is None or not world.text.stated:
             yield finding(world or spawn, "<spawn> names no <world>")

@@ -1,4 +1,4 @@
-"""A value in the spawner that still says TODO.
+"""A value in the spawner that is still TODO.
 
 `subt-check migrate` writes TODO where only the author knows the value, such as the figures of the
 battery. Gazebo reads such a figure as 0: the battery is then empty at the start.

@@ -1,4 +1,4 @@
-"""A parameter file that has nothing for the node which is given it.
+"""A parameter file without a block for the node that gets it.
 
 The node starts with its defaults, and no message says so: a block of a parameter file is for the
 node whose full name is its key. With a `name` in the launch file, or a namespace, it is another

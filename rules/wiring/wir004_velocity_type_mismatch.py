@@ -1,4 +1,4 @@
-"""A velocity is published with another type than its topic is read with.
+"""A velocity whose publisher and subscriber use different message types.
 
 The robot does not move: a topic connects publishers and readers of one type only. Drive controllers
 read `TwistStamped` alone from Jazzy on, while teleop_twist_keyboard, teleop_twist_joy and Nav2 of
@@ -31,8 +31,8 @@ def check(wiring: Wiring, context: Context) -> Findings:
             yield finding(
                 published.span,
                 f"{published.by} publishes {published.message} on {published.topic}, where "
-                f"{readers[0].by} reads {readers[0].message} on {distribution}: nothing arrives; "
-                f"{_cure(published, readers[0])}",
+                f"{readers[0].by} reads {readers[0].message} on {distribution}: no message "
+                f"arrives; {_cure(published, readers[0])}",
                 severity=Severity.WARNING if unknown else None,
                 key=f"{published.by} {published.topic}",
                 related=[(readers[0].span, f"reads {readers[0].message}")],

@@ -1,4 +1,4 @@
-"""A node is told to read a topic that nothing publishes, though its messages are there.
+"""A node reads a topic that nothing publishes, while its messages are on another topic.
 
 The node starts and waits: a filter gets no odometry, a costmap stays empty, mapping
 maps nothing, and no message says so. The name is often that of another package or tutorial:

@@ -1,4 +1,4 @@
-"""A world with plugins of its own that leaves out those which Gazebo loads by itself.
+"""A world whose own plugins replace the default systems of Gazebo.
 
 As soon as a world names one plugin, Gazebo does not load physics, user commands and the scene
 broadcaster any more: nothing moves, nothing can be spawned, or the window stays empty. From Ionic

@@ -1,4 +1,4 @@
-"""A system that belongs into a model stands directly in the world.
+"""A system for models that is directly in the world.
 
 Drives, controllers of joints, batteries and publishers of poses work on the model that they stand
 in. In a world there is no such model: the system says that it should be attached to a model, and
@@ -23,8 +23,8 @@ def check(world: World) -> Findings:
         if is_of_gazebo(stem) and of_models.intersection(systems_of(plugin)):
             yield finding(
                 plugin,
-                f"{plugin.called} works on the model that it stands in, and stands in the world "
-                f"{world.name!r}: it does nothing",
+                f"{plugin.called} has no effect in the world {world.name!r}: it works on the "
+                "model that contains it",
             )
 
 

@@ -1,4 +1,4 @@
-"""A world whose time does not run as it says.
+"""A world whose physics step or real-time factor is not above zero.
 
 At each step Gazebo adds `<max_step_size>` to the time of the world: with zero, time stands still
 and nothing moves; a negative one is no time at all. `<real_time_factor>` is how fast time should
@@ -14,7 +14,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 _EFFECTS = {
-    "max_step_size": "time stands still, and nothing moves",
+    "max_step_size": "time does not advance, and nothing moves",
     "real_time_factor": "Gazebo cannot keep any pace",
 }
 

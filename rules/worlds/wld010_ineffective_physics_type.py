@@ -1,4 +1,4 @@
-"""A world asks for a physics engine by an attribute that Gazebo Sim does not read.
+"""A world that chooses a physics engine by an attribute that Gazebo Sim does not read.
 
 The attribute chose the engine of Gazebo Classic. In Gazebo Sim the world's physics plugin names it,
 in `<engine>`; without that, DART is loaded. Nothing is said of `ode`, which stands in most worlds

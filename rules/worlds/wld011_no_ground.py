@@ -1,4 +1,4 @@
-"""A world in which a robot has nothing to stand on: it falls for ever.
+"""A world without ground, in which the robot falls.
 
 No static model of the world has a collision: a floor, a plane, a terrain. A `<visual>` alone holds
 nothing. Worlds without gravity, with buoyancy, or with models that are not available are not

@@ -55,10 +55,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--statistics", action="store_true", help="print the number of findings of each rule"
     )
     parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: what suits the package)"
+        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
     )
     parser.add_argument(
-        "--distro", choices=DISTROS, help="ROS 2 distribution to judge for (default: jazzy)"
+        "--distro", choices=DISTROS, help="ROS 2 distribution to check for (default: jazzy)"
     )
     parser.add_argument(
         "--select", metavar="IDS", type=ids, help="run only these rules, groups, or concern:robot"
