@@ -16,7 +16,7 @@ from msgspec.structs import astuple, replace
 from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.receipts import key_of_check
 from checker.service.jobs.durable.tasks import TRIES
-from checker.service.jobs.port import Pace, Stage, State
+from checker.service.jobs.port import Stage, State
 from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
@@ -129,19 +129,19 @@ class TestManyChecks:
 
     def test_tell_how_long_they_take(self, site: Site) -> None:
         site.worker()
-        assert site.jobs.pace() == Pace()
+        assert site.jobs.alive().seconds == {}
         ids = [site.submit(f"static:0.5 trial:{seconds}") for seconds in (1, 1, 5)]
         assert {site.end(id).stage for id in ids} == {Stage.DONE}
-        pace = site.jobs.pace()
+        seconds = site.jobs.alive().seconds
         times = [[event.time for event in site.events(id)] for id in ids]
         static = median(done - begun for _, begun, done, *_ in times)
         trial = median(done - begun for *_, begun, done in times)
-        assert 0.4 < pace.static == pytest.approx(static, abs=0.2)
-        assert 0.9 < pace.trial == pytest.approx(trial, abs=0.2)
+        assert 0.4 < seconds["static"] == pytest.approx(static, abs=0.2)
+        assert 0.9 < seconds["trial"] == pytest.approx(trial, abs=0.2)
         state = site.state(ids[0])
         for _ in range(3):  # what was in the store takes no time, and says nothing of others
             site.jobs.submit(state.order)
-        assert site.jobs.pace() == pace
+        assert site.jobs.alive().seconds == seconds
 
     def test_show_static_findings_before_trials_of_older_ones(self, site: Site) -> None:
         site.worker()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import httpx
 from msgspec.structs import replace
 
-from checker.service.jobs.port import Alive, Event, Order, Pace, Receipt, Stage, State
+from checker.service.jobs.port import Alive, Event, Order, Receipt, Stage, State
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -36,7 +36,6 @@ class BoardJobs:
     states: dict[str, State] = field(default_factory=dict)
     cancelled: list[str] = field(default_factory=list)
     keys: list[str] = field(default_factory=list)
-    paced: Pace = field(default_factory=Pace)
     waits: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
     def submit(self, order: Order, key: str = "") -> Receipt:
@@ -70,9 +69,6 @@ class BoardJobs:
 
     def wait(self, client: str, per_minute: int) -> float:
         return self.waits.get((client, per_minute), 0.0)
-
-    def pace(self) -> Pace:
-        return self.paced
 
     def alive(self) -> Alive:
         return Alive({"one": 0.0}, {}, 0)

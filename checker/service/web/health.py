@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
@@ -16,7 +15,7 @@ from starlette.responses import Response
 from checker.base.record import Record
 from checker.base.sandbox.layers import hides_files
 from checker.service.exposure import is_loopback
-from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable, Pace
+from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.service.store.objects import StoreUnreachable
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused, not_found
@@ -88,16 +87,9 @@ class Health(Record):
         """Return the metrics, to this machine and to those with a token."""
         if not self._may_see(request):
             raise not_found()
-        text = await run_in_threadpool(self._figures)
+        alive = await run_in_threadpool(self._alive)
+        text = self.services.metrics.text(alive)
         return Response(text, headers={"Content-Type": CONTENT_TYPE_PLAIN_0_0_4})
-
-    def _figures(self) -> bytes:
-        """Return the metrics; a database that is away is asked once."""
-        alive, pace = self._alive(), Pace()
-        if alive is not None:
-            with suppress(JobsUnreachable):
-                pace = self.services.jobs.pace()
-        return self.services.metrics.text(alive, pace)
 
     def _ready(self) -> Alive | None:
         """Return what is known of the engine.

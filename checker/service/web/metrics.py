@@ -9,7 +9,7 @@ from prometheus_client import CollectorRegistry, Counter, Histogram, generate_la
 from prometheus_client.core import GaugeMetricFamily
 
 from checker.base.record import Record
-from checker.service.jobs.port import Alive, Pace, Stage
+from checker.service.jobs.port import Alive
 
 BOUNDS = (0.005, 0.02, 0.1, 0.5, 2.0, 10.0)
 """Upper bounds of the histogram of durations, in seconds."""
@@ -57,21 +57,19 @@ class Metrics:
         self._requests.labels(method, route, status).inc()
         self._seconds.labels(route).observe(seconds)
 
-    def text(self, alive: Alive | None, pace: Pace) -> bytes:
+    def text(self, alive: Alive | None) -> bytes:
         """Return all figures.
 
         Args:
             alive: What is known of the engine; None if it does not answer.
-            pace: Of the stages lately.
         """
-        return generate_latest(self._registry) + generate_latest(_Engine(alive, pace))
+        return generate_latest(self._registry) + generate_latest(_Engine(alive))
 
 
 class _Engine(Record):
     """Figures of the engine: not counted, but asked for each time."""
 
     alive: Alive | None
-    pace: Pace
 
     def collect(self) -> Iterator[GaugeMetricFamily]:
         alive = self.alive
@@ -81,10 +79,8 @@ class _Engine(Record):
             yield _gauges("waiting", "Checks that wait, by queue.", "queue", alive.waiting)
             about = "Since each worker's last sign of life."
             yield _gauges("worker_silent_seconds", about, "worker", alive.workers)
-            stages = {Stage.STATIC: self.pace.static, Stage.TRIAL: self.pace.trial}
-            known = {stage.value: seconds for stage, seconds in stages.items() if seconds}
             about = "Median of what stages took lately, without waiting, by stage."
-            yield _gauges("stage_seconds", about, "stage", known)
+            yield _gauges("stage_seconds", about, "stage", alive.seconds)
 
 
 def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:

@@ -18,14 +18,13 @@ from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.pulse import watch
 from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
 from checker.service.jobs.durable.senders import Senders
-from checker.service.jobs.durable.tasks import End, Row, Task, events_of, state_of
+from checker.service.jobs.durable.tasks import STAGES, End, Row, Task, events_of, state_of
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import (
     RETENTION_DAYS,
     Alive,
     Event,
     Order,
-    Pace,
     Receipt,
     Stage,
     State,
@@ -142,11 +141,6 @@ class DurableJobs(Record):
         with reachable():
             return self.senders.wait(client, per_minute)
 
-    def pace(self) -> Pace:
-        """Return how long checks took lately."""
-        with reachable():
-            return Pace(self._seconds(Stage.STATIC), self._seconds(Stage.TRIAL))
-
     def _seconds(self, stage: Stage) -> float:
         """Return the median of what a stage took lately, seconds; 0 when that is not known."""
         rows = self.checks.client.list_workflows(
@@ -170,8 +164,9 @@ class DurableJobs(Record):
         with reachable():
             silence, layers = Workers(self.checks.engine).known()
             waiting = dict(self.checks.waiting())
+            taken = {stage.value: self._seconds(stage) for stage in STAGES}
         running = waiting.pop("")
-        return Alive(silence, waiting, running, layers)
+        return Alive(silence, waiting, running, layers, {name: s for name, s in taken.items() if s})
 
     def _rows(self, id: str) -> Sequence[Row]:
         key = key_of_check(id)
