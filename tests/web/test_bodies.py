@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from starlette.datastructures import Headers
 
 from checker.service.store.store import Store
-from checker.service.web.answers.compression import takes_gzip
+from checker.service.web.answers.bodies import takes_gzip
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.pages.site import FOLDER, release

@@ -20,8 +20,7 @@ from checker.service.jobs.port import Jobs
 from checker.service.logs import FIELDS, LOGGER, log_to_stderr
 from checker.service.store.store import Store, opened
 from checker.service.web import health
-from checker.service.web.answers.bodies import Heads
-from checker.service.web.answers.compression import Compression
+from checker.service.web.answers.bodies import Compression, Heads
 from checker.service.web.answers.headers import SecurityHeaders
 from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
 from checker.service.web.api import routes as api

@@ -15,7 +15,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.base.record import Record
 from checker.service.store.packed import SUFFIX
-from checker.service.web.answers.compression import takes_gzip
+from checker.service.web.answers.bodies import takes_gzip
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
