@@ -40,7 +40,7 @@ WORDS = "Ready: no error"
 REFUSAL = "robot.zip is not an archive"
 DEATH = "the checker could not finish: it needs more than 4 GB of memory"
 FULL = "the system of the service says: No space left on device"
-PAUSES = (0.1, 0.2, 0.3, 0.4)
+PAUSES = (0.1,) * 9
 
 
 def quick_check(

@@ -21,8 +21,8 @@ from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
 
-END = 21
-WHOLE = [(1, "queued"), (2, "static"), (11, "trial"), (12, "trial"), (END, "done")]
+READ, END = 2 * TRIES + 1, 4 * TRIES + 1
+WHOLE = [(1, "queued"), (2, "static"), (READ, "trial"), (READ + 1, "trial"), (END, "done")]
 """Events of a check with no mishap."""
 
 
@@ -54,7 +54,7 @@ class TestACheck:
         assert site.stages(id) == WHOLE
         events = site.events(id)
         assert [event.time for event in events] == sorted(event.time for event in events)
-        assert site.events(id, after=11) == events[3:]
+        assert site.events(id, after=READ) == events[3:]
         assert site.jobs.cancel(id, receipt.secret)
         assert site.state(id) == done
 
@@ -232,7 +232,7 @@ class TestAKilledWorker:
         state = site.end(id)
         assert state.stage is Stage.FAILED
         assert state.words == (
-            "the checker could not finish: its worker process ended; it was tried 5 times"
+            "the checker could not finish: its worker process ended; it was tried 10 times"
         )
         read = next(event for event in site.events(id) if event.stage is Stage.TRIAL)
         assert (read.stage, read.data["result"]) == (Stage.TRIAL, state.result)
@@ -249,7 +249,7 @@ class TestWhatTheServiceSuffers:
         assert site.begun()[f"{stage} {state.order.name}"] == TRIES
         told = [event.words for event in site.events(id) if "again" in event.words]
         assert told == [
-            f"starts again: {FULL} (try {number} of 5)" for number in range(2, TRIES + 1)
+            f"starts again: {FULL} (try {number} of {TRIES})" for number in range(2, TRIES + 1)
         ]
 
     def test_ends_in_an_honest_sentence_and_is_nobodys_result(self, site: Site) -> None:
@@ -258,7 +258,7 @@ class TestWhatTheServiceSuffers:
         state = site.end(site.jobs.submit(order).id)
         assert state.stage is Stage.FAILED
         assert state.words.startswith("the checker could not finish: the system of the service")
-        assert state.words.endswith("No space left on device; it was tried 5 times")
+        assert state.words.endswith("No space left on device; it was tried 10 times")
         again = site.end(site.jobs.submit(order).id)
         assert (again.stage, again.words) == (Stage.DONE, WORDS)
 
