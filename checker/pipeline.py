@@ -234,7 +234,7 @@ def _not_opened(path: Path, opened: Opened) -> Iterator[NotOpened]:
 
 
 def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
-    """Check a package; where its own settings are at fault, the others are checked all the same."""
+    """Check a package; where its own settings are at fault, the others are checked anyway."""
     try:
         report = _recalled_or_judged(package, task)
         return replace(report, timings={"open": task.opening, **report.timings})

@@ -14,7 +14,7 @@ EFFORT = 200_000
 
 
 SLIP = 2
-"""Characters that a slip of the pen adds, leaves out or changes; two change places."""
+"""Characters that a misspelling adds, leaves out or changes; two change places."""
 
 
 def _is_slip(word: str, known: str) -> bool:
@@ -47,7 +47,7 @@ class Suggestions:
         return self._found.get(word)
 
     def sure(self, word: str) -> str | None:
-        """Return the one known word that another is a slip of the pen for; None if several may be.
+        """Return the one known word of which another is a misspelling; None if several may be.
 
         A fix writes it: at most `SLIP` characters differ, and no digit, which tells parts apart.
         """

@@ -118,7 +118,7 @@ class Server(LanguageServer):
             try:
                 await self.read(self.session.check_all)
                 await self.publish()
-            except Exception as error:  # noqa: BLE001 - the next change is checked all the same
+            except Exception as error:  # noqa: BLE001 - the next change is checked anyway
                 self._apologise(error)
             self._collect_later()
 

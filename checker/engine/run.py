@@ -264,7 +264,7 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
     """Return one set of arguments for each combination of the parts that a rule asks for.
 
     None stands for a part that the package has not and the rule can do without; one that only
-    cannot be had is missed all the same.
+    cannot be had is missed anyway.
     """
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():

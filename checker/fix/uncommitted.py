@@ -102,7 +102,7 @@ def _asked(
 def _failed(folder: Path, reason: str) -> GitFailed:
     return GitFailed(
         f"git cannot tell whether files in {folder} have uncommitted changes "
-        f"({plain(shortened(reason, 300))}); --allow-dirty fixes them all the same"
+        f"({plain(shortened(reason, 300))}); --allow-dirty fixes them anyway"
     )
 
 

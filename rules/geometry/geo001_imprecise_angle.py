@@ -1,7 +1,7 @@
 """An angle close to a multiple of π/2 that is not written with 16 digits.
 
 A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. The robot
-drives all the same, so this is no error. But the SubT checklist asks for exact wheels, since a
+drives anyway, so this is no error. But the SubT checklist asks for exact wheels, since a
 solver may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model,
 and for other targets, it is information; for Gazebo from Fortress on, less than a microradian is
 not reported. Where the angle of a part that is no wheel changes by more than the rounding of four

@@ -113,7 +113,7 @@ def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity
 
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own. Those of
-    Gazebo Classic have no such name: one that is a slip of the pen for another is an error.
+    Gazebo Classic have no such name: one that is a misspelling of another is an error.
     """
     if context.of_submissions or is_of_gazebo(stem):
         return None

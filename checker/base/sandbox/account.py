@@ -24,7 +24,7 @@ def free_account() -> int:
 
 
 def become(account: int, needed: Iterable[str], folder: str = "", *, read_all: bool = False) -> str:
-    """Become another user, for good; the rights of root go, whether or not this can be done.
+    """Permanently become another user; the rights of root go, whether or not this can be done.
 
     Args:
         account: Its id, which is also that of its group.

@@ -1,7 +1,7 @@
 """Which files this process can still reach: Landlock, Linux's sandbox for everybody.
 
 See landlock(7) and Documentation/userspace-api/landlock.rst. What is not granted is denied to this
-process and all that it starts, for good, whatever its user may do.
+process and all that it starts, permanently and whatever its user may do.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class Sandbox(Record):
 
 
 def enter(sandbox: Sandbox) -> list[Layer]:
-    """Put this process and all that it will start in a sandbox, for good.
+    """Permanently put this process and all that it will start in a sandbox.
 
     Those that the system does not have are left out, and the result says so.
     """

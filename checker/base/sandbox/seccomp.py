@@ -131,7 +131,7 @@ def gain_nothing() -> None:
 
 
 def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = True) -> None:
-    """Forbid this process, and all that it starts, the calls of `FORBIDDEN`, for good.
+    """Permanently forbid this process, and all that it starts, the calls of `FORBIDDEN`.
 
     Args:
         opens: Whether it may still open files.
@@ -150,7 +150,7 @@ def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = Tr
 
 
 def forbid_others(*, changes: bool = True) -> None:
-    """Keep a process to itself which `forbid_calls` holds in what it may call already, for good.
+    """Permanently isolate a process that `forbid_calls` already restricts.
 
     To build that filter again takes a new process as long as to be forked.
 

@@ -209,7 +209,7 @@ class LaunchGraph(Record, eq=False, dict=True):
         environment: Environment variables set.
         includes: Files followed.
         unresolved_includes: Files not available.
-        assumed_includes: Those of them whose nodes and bridges are here all the same, as they are
+        assumed_includes: Those of them whose nodes and bridges are here anyway, as they are
             assumed to be.
         dormant_includes: Files that a condition leaves out, and that were not read for it.
         arguments: Args that the entry file declares, with their values.

@@ -23,7 +23,7 @@ ANSWER_LIMIT = 60_000_000
 
 
 def put_up() -> None:
-    """Take from this process all that expanding a text does not need, for good.
+    """Permanently take from this process all that expanding a text does not need.
 
     The expander checks expressions as well. This is the layer behind it, for what slips through.
     """

@@ -32,7 +32,7 @@ class Misread(Record):
     Attributes:
         span: The word at fault, or the whole text.
         problem: What is wrong; the end of a sentence that begins with the element.
-        lossy: Whether readers take it all the same, and may lose a part.
+        lossy: Whether readers take it anyway, and may lose a part.
     """
 
     span: Span
@@ -107,7 +107,7 @@ def _integer(text: Located[str], *, least: int = -_INT32, most: int = _INT32 - 1
         if least <= value <= most:
             return []
         return [Misread(text.span, f"is {shown}, expected {least} to {most}")]
-    # Readers stop at the point: 10.0 is 10 to them all the same, 1e3 is 1.
+    # Readers stop at the point: 10.0 is 10 to them anyway, 1e3 is 1.
     whole = re.fullmatch(r"[+-]?\d{1,9}\.0*", text.value, re.ASCII) is not None
     return [Misread(text.span, f"is {shown}, expected a whole number", lossy=whole)]
 

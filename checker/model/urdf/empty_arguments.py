@@ -17,7 +17,7 @@ SAMPLE = "1"
 def empty_arguments(package: Package, candidate: Candidate, given: Collection[str]) -> list[str]:
     """Return the arguments of a file that are empty unless somebody gives them.
 
-    A launch file that loads the file and does not name an argument leaves it empty for good.
+    A launch file that loads the file and does not name an argument leaves it empty permanently.
 
     Args:
         package: That holds the file.

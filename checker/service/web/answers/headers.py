@@ -19,7 +19,7 @@ from checker.service.web.answers.bodies import takes_gzip
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-"""For what is no page: a browser that shows it all the same runs nothing of it."""
+"""For what is no page: a browser that shows it anyway runs nothing of it."""
 PAGE = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
@@ -95,7 +95,7 @@ _REPORT = (
 def file_response(path: Path, asked: Headers | None = None) -> Response:
     """Return the answer that sends a file of a result, as what its name says.
 
-    The file is open from here on: deleted meanwhile, it is sent all the same.
+    The file is open from here on: deleted meanwhile, it is sent anyway.
 
     Args:
         path: Of the file.
