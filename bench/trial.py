@@ -62,7 +62,7 @@ def robots() -> Iterator[tuple[str, Robot]]:
     for folder in folders():
         with open_input(folder) as opened:
             for package in opened.packages:
-                for robot in Subject(package).robots:
+                for robot in Subject(package).all(Robot):
                     yield package.name, robot
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
-from typing import Any, Protocol, get_args, get_type_hints
+from typing import Any, Protocol, get_type_hints
 
 from msgspec.structs import replace
 
+from checker.base.parts import Need, need_of
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.finding import Concern, Fix, Place, Safety, Severity
@@ -190,24 +191,24 @@ class Rule(Record, dict=True):
 
     @cached_property
     def needs(self) -> dict[str, str]:
-        """Parts of the package that the function asks for: names of types by parameter name."""
-        return {
-            name: (get_args(hint)[0] if _may_be_none(hint) else hint).__name__
-            for name, hint in self._hints
-        }
+        """Parts of the package that the function asks for: names of types by parameter name.
+
+        Each with its module, as `checker.base.parts.type_name` returns it.
+        """
+        return {name: need.kind for name, need in self._needs}
 
     @cached_property
     def spares(self) -> frozenset[str]:
         """Names of the parameters for parts that a rule can do without: `Specification | None`."""
-        return frozenset(name for name, hint in self._hints if _may_be_none(hint))
+        return frozenset(name for name, need in self._needs if need.optional)
 
     @property
-    def _hints(self) -> list[tuple[str, Any]]:
-        """The types of the parameters that ask for parts."""
+    def _needs(self) -> list[tuple[str, Need]]:
+        """What the parameters ask for."""
         hints = get_type_hints(self.check)
         parameters = inspect.signature(self.check).parameters.items()
         keyword = inspect.Parameter.KEYWORD_ONLY
-        return [(name, hints[name]) for name, each in parameters if each.kind is not keyword]
+        return [(name, need_of(hints[name])) for name, it in parameters if it.kind is not keyword]
 
     @cached_property
     def options(self) -> dict[str, Any]:
@@ -217,10 +218,6 @@ class Rule(Record, dict=True):
             for name, parameter in inspect.signature(self.check).parameters.items()
             if parameter.kind is inspect.Parameter.KEYWORD_ONLY
         }
-
-
-def _may_be_none(hint: Any) -> bool:
-    return type(None) in get_args(hint)
 
 
 def rule(id: str, name: str, severity: Severity, concern: Concern) -> Callable[[Check], Rule]:

@@ -12,6 +12,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from markdown_it import MarkdownIt
@@ -20,8 +21,10 @@ from markdown_it.token import Token
 from checker import cli
 from checker.cli import arguments
 from checker.engine.options import check_against_rules
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
 from checker.rule import Rule
-from checker.rule_testing import check_example
+from checker.rule_testing import check_example, write_example
 from checker.rulebook.discovery import all_rules, rules_in
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import profile, profile_names
@@ -214,9 +217,7 @@ def test_every_rule_is_where_its_id_says(rule: Rule) -> None:
     assert any(profile(name).includes(rule) for name in profile_names())
 
 
-def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (code,) = _code(ROOT / "CONTRIBUTING.md", "python")
-    file = tmp_path / "kin900_stiff_spring.py"
+def _loaded(code: str, file: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     file.write_text(code, "utf-8")
     spec = importlib.util.spec_from_file_location(file.stem, file)
     assert spec is not None
@@ -224,6 +225,25 @@ def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.Monk
     module = importlib.util.module_from_spec(spec)
     monkeypatch.setitem(sys.modules, file.stem, module)
     spec.loader.exec_module(module)
+    return module
+
+
+def test_the_part_in_contributing_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _, code = _code(ROOT / "CONTRIBUTING.md", "python")
+    module = _loaded(code, tmp_path / "calibration.py", monkeypatch)
+    for files, reason in (
+        ({}, "config/calibration.yaml does not exist"),
+        ({"config/calibration.yaml": "fx: 1.5"}, None),
+    ):
+        with open_input(write_example(files, tmp_path / str(len(files)))) as opened:
+            had = Subject(opened.packages[0]).one(module.Calibration)
+        assert getattr(had, "reason", None) == reason
+
+
+def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    code, _ = _code(ROOT / "CONTRIBUTING.md", "python")
+    file = tmp_path / "kin900_stiff_spring.py"
+    _loaded(code, file, monkeypatch)
     (rule,) = rules_in(file.stem)
     assert_page(rule)
     for kind in ("good", "bad"):

@@ -11,6 +11,7 @@ import pytest
 from checker.base.record import Record
 from checker.engine.subject import Subject
 from checker.model.geometry.transform import Transform
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.source.text import Located, SourceText, Span
 
@@ -55,7 +56,7 @@ def records(value: Any, seen: set[int]) -> Iterator[Record]:
 def test_what_a_model_shows_of_itself_fits_on_a_line(corpus: Path) -> None:
     with open_input(corpus) as opened:
         for package in opened.packages:
-            robots = Subject(package).part("Robot")
+            robots = Subject(package).all(Robot)
             assert isinstance(robots, tuple)
             shown = [repr(record) for record in records(robots, set())]
             assert len(shown) > 1000

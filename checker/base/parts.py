@@ -1,11 +1,24 @@
-"""What a package has to offer to a rule, or why it cannot."""
+"""The parts of a package that rules ask for: what makes them, and why one cannot be had.
+
+A part is found by its type. A function marked `@part` makes it: the type that it returns is that
+of the part, and the types of its parameters are those of the parts that it is made of.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
+from functools import cached_property
+from types import NoneType
+from typing import Any, Protocol, TypeVar, get_args, get_origin, get_type_hints
 
 from checker.base.record import Record
+
+T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
+
+_MARK = "__provides_part__"
 
 
 class NotAvailable(Record):
@@ -41,9 +54,85 @@ class WorkerFailed(Record):
 class Parts(Protocol):
     """Gives the parts of a package by the names of their types.
 
-    By names, so that nobody loads the modules of parts that the package has not.
+    By names, so that a rule asks without loading the modules that it is written with.
     """
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:
-        """Return the part; several when a file holds several robots."""
+        """Return the part; several when a file holds several robots.
+
+        Args:
+            kind: As `type_name` returns it.
+        """
         ...
+
+
+class Ask(Protocol):
+    """Gives parts to a function that needs different ones for different packages."""
+
+    def one(self, kind: type[T]) -> T | NotAvailable:
+        """Return the part of a type; the first one where there are several."""
+        ...
+
+    def all(self, kind: type[T]) -> tuple[T, ...] | NotAvailable:
+        """Return all parts of a type; at least one."""
+        ...
+
+    def beside(self, package: Any) -> AbstractContextManager[Ask]:
+        """Give the parts of another package, to compare with."""
+        ...
+
+
+def type_name(kind: type) -> str:
+    """Return the module and the name of a type: `checker.model.robot:Robot`."""
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+class Need(Record):
+    """A part as the annotation of a parameter or result names it.
+
+    Attributes:
+        kind: The name of its type.
+        several: Whether it is `tuple[Robot, ...]`: all of them, in place of the first.
+        optional: Whether it is `… | NotAvailable` or `… | None`.
+    """
+
+    kind: str
+    several: bool
+    optional: bool
+
+
+def need_of(hint: Any) -> Need:
+    """Return what an annotation asks for."""
+    choices = () if get_origin(hint) is tuple else get_args(hint)
+    kinds = [each for each in choices if each not in (NotAvailable, NoneType)] or [hint]
+    several = get_origin(kinds[0]) is tuple
+    kind = get_args(kinds[0])[0] if several else kinds[0]
+    return Need(type_name(kind), several, len(kinds) < len(choices))
+
+
+class Provider(Record, dict=True):
+    """A function that makes a part."""
+
+    function: Callable[..., Any]
+
+    @cached_property
+    def needs(self) -> Mapping[str, Need]:
+        """What it needs, by parameter."""
+        hints = get_type_hints(self.function)
+        return {name: need_of(hints[name]) for name in inspect.signature(self.function).parameters}
+
+
+def part(function: F) -> F:
+    """Mark a function that makes a part.
+
+    It is called once for a package, when the part is first asked for. A parameter without
+    `| NotAvailable` is never given one: what a part needs and is missing is why that part is, too.
+    """
+    setattr(function, _MARK, True)
+    return function
+
+
+def providers_in(module: object) -> dict[str, Provider]:
+    """Return the functions of a module that make parts, by the names of the types."""
+    marked = [each for each in vars(module).values() if getattr(each, _MARK, False) is True]
+    return {need_of(get_type_hints(each)["return"]).kind: Provider(each) for each in marked}

@@ -107,10 +107,9 @@ def exported(path: Path, form: str, *, apart: bool = False, cached: bool = True)
 def _exported(
     path: Path, package: Package, subject: Subject, form: str, *, apart: bool
 ) -> Exported:
-    robots = subject.robots
-    if isinstance(robots, NotAvailable):
-        raise CheckerError(f"{path} has no robot to write: {robots.reason}")
-    robot = robots[0]
+    robot = subject.one(Robot)
+    if isinstance(robot, NotAvailable):
+        raise CheckerError(f"{path} has no robot to write: {robot.reason}")
     if form == "mjcf":
         return _as_mjcf(path, package, robot, subject.cache, apart=apart)
     done = converted_to_urdf(robot, mesh_uri=package_uris(package, robot))

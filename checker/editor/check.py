@@ -5,12 +5,15 @@ from __future__ import annotations
 from functools import cached_property
 
 from checker.base.cache import Cache
+from checker.base.parts import type_name
 from checker.engine.options import check_against_rules
 from checker.engine.review import run_and_set_aside
 from checker.engine.run import TRIALS, Outcome
 from checker.engine.subject import Subject
 from checker.model.devices.known import known_devices
+from checker.model.sensing.view import SensorViews
 from checker.package.package import Package
+from checker.physics.mass.mass_properties import MassProperties
 from checker.report.report import Cause, NotChecked, ReportedFinding
 from checker.report.scene.processes import StartedProcesses
 from checker.rule import Rule
@@ -18,8 +21,8 @@ from checker.rulebook.profiles import profile
 from checker.rulebook.rule_index import rules
 from checker.settings import Settings
 
-MEASURED = TRIALS | {"MassProperties", "SensorViews"}
-"""Parts that take long: what Pinocchio weighs, what sensors see, and the trial."""
+MEASURED = TRIALS.union(map(type_name, (MassProperties, SensorViews)))
+"""Names of the types of parts that take long: what Pinocchio weighs, what sensors see, trials."""
 
 
 class Checked:

@@ -25,11 +25,12 @@ def lenses_of(document: Document, state: State, columns: Columns) -> list[lsp.Co
         columns: How the client counts.
     """
     checked = state.checked
-    if checked is None or isinstance(checked.subject.robots, NotAvailable):
+    if checked is None:
         return []
+    robots = checked.subject.all(Robot)
     path = path_in(checked.package, document.path)
     lenses = []
-    for robot in checked.subject.robots:
+    for robot in () if isinstance(robots, NotAvailable) else robots:
         place = robot.span.place()
         if place.file == path:
             at = columns.range_of(document.source, place)

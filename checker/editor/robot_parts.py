@@ -14,6 +14,8 @@ from checker.model.components import Frame, Joint, Link, Model, Part, Plugin, Se
 from checker.model.robot import Robot
 from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.reader import read_sdf
+from checker.model.sdf.world import World
+from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.reader import read_urdf
 from checker.source.xml import Element, XmlDocument
 
@@ -124,12 +126,12 @@ def robot_parts(subject: Subject, path: str) -> RobotParts:
 
 def package_robots(subject: Subject) -> Iterator[Robot]:
     """Yield the robots of a package, those of its worlds, and those that RViz is shown."""
-    robots, worlds = subject.robots, subject.worlds
+    robots, worlds = subject.all(Robot), subject.all(World)
     yield from () if isinstance(robots, NotAvailable) else robots
     for world in () if isinstance(worlds, NotAvailable) else worlds:
         yield from world.models
     if isinstance(robots, NotAvailable) or robots[0].format == "sdf":
-        descriptions = subject.urdf.descriptions
+        descriptions = subject.all(UrdfDescription)
         if not isinstance(descriptions, NotAvailable):
             yield from (description.robot for description in descriptions)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.output import Stages
+from checker.base.parts import part
 from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.physics.mesh.package_meshes import PackageMeshes
@@ -136,3 +137,17 @@ class RobotDisplay(Record, eq=False, dict=True):
         if isinstance(meshes, PackageMeshes):
             return MeshFiles(meshes)
         return NoSurfaces()
+
+
+@part
+def robot_display(
+    robots: tuple[Robot, ...],
+    cache: Cache,
+    stages: Stages,
+    processes: StartedProcesses,
+    ends: ExitStack,
+) -> RobotDisplay:
+    """Return the display of the robots; a check that shows nothing loads none of this."""
+    display = RobotDisplay(robots, cache, stages, processes)
+    ends.callback(display.stop)
+    return display

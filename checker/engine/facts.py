@@ -20,6 +20,7 @@ from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
 from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.run import RobotTrials
 from checker.physics.trial.trial import Measurement, Trial
 from checker.report.figures import NOT_JUDGED
 
@@ -34,9 +35,8 @@ _SERIES_DIGITS = 6
 
 def trials_of(subject: Subject, outcome: Outcome) -> tuple[dict[str, Any], ...]:
     """Return the trials of a package; of several robots, each says which one it is about."""
-    driven = subject.provided(RobotTrial)
-    robots = () if isinstance(subject.robots, NotAvailable) else subject.robots
-    if len(robots) < 2:
+    driven, robots = subject.made(RobotTrial), subject.all(Robot)
+    if isinstance(robots, NotAvailable) or len(robots) < 2:
         return tuple(measured(each, outcome) for each in driven)
     numbers = {id(robot): number for number, robot in enumerate(robots)}
     return tuple(
@@ -188,10 +188,10 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     Masses in kg, lengths in m, angles in degrees, inertia in kg·m². What only meshes, Pinocchio
     or the trial can tell is there when a rule has asked for it.
     """
-    robots = subject.robots
+    robots = subject.all(Robot)
     if isinstance(robots, NotAvailable):
         return ()
-    weighed, driven = subject.provided(MassProperties), subject.provided(RobotTrial)
+    weighed, driven = subject.made(MassProperties), subject.made(RobotTrial)
     facts = [
         dict(
             _finite(
@@ -205,7 +205,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
         for number, robot in enumerate(robots[:ROBOTS_LIMIT])
     ]
     if len(robots) > 1:
-        undriven = subject.physics.undriven
+        undriven = next((trials.undriven for trials in subject.made(RobotTrials)), {})
         for number, (known, robot) in enumerate(zip(facts, robots, strict=False)):
             known["file"] = robot.document.source.file
             if number in undriven:
@@ -217,7 +217,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
 
 def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield the values that are taken for arguments which nobody gives, and others that count."""
-    files = subject.urdf.files if robot.document.root.tag == "robot" else None
+    files = subject.one(UrdfFiles) if robot.document.root.tag == "robot" else None
     if not isinstance(files, UrdfFiles):
         return
     file = robot.document.source.file

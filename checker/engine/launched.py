@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from checker.base.parts import NotAvailable
+from checker.engine.subject import Subject
+from checker.model.ros.wiring.wiring import Wiring
 from checker.report.launched import Launched, LaunchedNode, LaunchedTopic, LaunchedTransform
-
-if TYPE_CHECKING:
-    from checker.engine.subject import Subject
-    from checker.model.ros.wiring.wiring import Wiring
-    from checker.source.text import Span
+from checker.source.text import Span
 
 MOST = 300
 """Nodes, topics and transforms of a launch that a report holds, each."""
@@ -21,7 +18,7 @@ _COMMON = ("/tf", "/tf_static", "/clock", "/diagnostics", "/parameter_events", "
 
 def launched_of(subject: Subject) -> tuple[Launched, ...]:
     """Return the graph of each launch file of ROS 2 that starts a node."""
-    wirings = subject.wirings
+    wirings = subject.all(Wiring)
     return () if isinstance(wirings, NotAvailable) else tuple(map(_launched, wirings))
 
 

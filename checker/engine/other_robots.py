@@ -4,31 +4,50 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
-from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from checker.base.parts import NotAvailable
+from checker.base.parts import NotAvailable, type_name
 from checker.engine.run import Outcome
+from checker.engine.subject import Subject
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expanded import ExpandedText
+from checker.expand.xacro.expansion import Expander
 from checker.finding import Place, fingerprint
+from checker.model.devices.known import KnownDevices
+from checker.model.parts import ModelFile
+from checker.model.plugin_host import PluginHost
+from checker.model.robot import Robot
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
+from checker.physics.mass.link_inertias import LinkInertias
+from checker.physics.mesh.process import MeshServer
 from checker.report.report import Cause, ReportedFinding
-from checker.rule import Rule
+from checker.rule import Context, Rule
 
-if TYPE_CHECKING:
-    from checker.engine.subject import Subject
-    from checker.model.urdf.description import UrdfDescription
-
-_OF_A_ROBOT = frozenset(("Robot", "UrdfDescription", "RobotControl", "LinkInertias", "PluginHost"))
-_BESIDE = _OF_A_ROBOT | {"Package", "Paperwork", "Context", "KnownDevices"}
+_OF_A_ROBOT = frozenset(
+    map(type_name, (Robot, UrdfDescription, RobotControl, LinkInertias, PluginHost))
+)
+_BESIDE = _OF_A_ROBOT.union(map(type_name, (Package, Paperwork, Context, KnownDevices)))
+_SHARED = (Paperwork, Ros2Launch, Expander, MeshServer)
+"""Types of the parts that all robots of a package have in common."""
 
 
 def other_descriptions(subject: Subject) -> tuple[UrdfDescription, ...]:
     """Return the robots that other values make, if files of the package make any robot."""
-    if isinstance(subject.model, NotAvailable) or subject.model.root.tag != "robot":
+    model = subject.one(ModelFile)
+    if isinstance(model, NotAvailable) or model.document.root.tag != "robot":
         return ()
-    files = subject.urdf.files
+    files = subject.one(UrdfFiles)
     return () if isinstance(files, NotAvailable) else files.others
+
+
+def with_only(subject: Subject, description: UrdfDescription) -> Subject:
+    """Return the package with one robot, which another value of an argument makes."""
+    return subject.having(UrdfFiles((description,)), _SHARED)
 
 
 def of_one_robot(rules: Iterable[Rule]) -> list[Rule]:

@@ -14,16 +14,22 @@ from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, Stages
-from checker.base.parts import NotAvailable, Parts
-from checker.base.record import Record
+from checker.base.parts import NotAvailable, type_name
+from checker.engine.early_parts import begin, begin_display, begin_meshes
 from checker.engine.facts import facts_of, trials_of
 from checker.engine.launched import launched_of
 from checker.engine.options import check_against_rules
-from checker.engine.other_robots import of_one_robot, only_new, other_descriptions
+from checker.engine.other_robots import (
+    of_one_robot,
+    only_new,
+    other_descriptions,
+    with_only,
+)
 from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
+from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
@@ -53,17 +59,6 @@ _SHOWN = 10
 # its entries nothing was found of.
 
 
-class _With(Record):
-    """The parts of a package, and one that is known only at the end."""
-
-    parts: Parts
-    last: object
-
-    def part(self, kind: str) -> Sequence[object] | NotAvailable:
-        """Return the part."""
-        return (self.last,) if type(self.last).__name__ == kind else self.parts.part(kind)
-
-
 def run_and_set_aside(
     chosen: Sequence[Rule],
     every: Sequence[Rule],
@@ -80,8 +75,8 @@ def run_and_set_aside(
         profile: What it judges, and how gravely.
         settings: The user's.
     """
-    of_suppressions = [rule for rule in chosen if Suppressions.__name__ in rule.needs.values()]
-    of_baseline = [rule for rule in chosen if BaselineUse.__name__ in rule.needs.values()]
+    of_suppressions = [rule for rule in chosen if type_name(Suppressions) in rule.needs.values()]
+    of_baseline = [rule for rule in chosen if type_name(BaselineUse) in rule.needs.values()]
     first = [rule for rule in chosen if rule not in (*of_suppressions, *of_baseline)]
 
     held = settings.baseline.packages.get(subject.package.name, ())
@@ -90,14 +85,14 @@ def run_and_set_aside(
     run = partial(run_rules, allowance=subject.allowance)
     outcome = run(first, subject, profile, settings, matcher, unloaded)
     for description in other_descriptions(subject):
-        other = subject.with_only(description)
+        other = with_only(subject, description)
         added = run(of_one_robot(first), other, profile, settings, matcher, unloaded)
         outcome = joined(outcome, only_new(added, outcome, description))
     used = matcher.suppressions(_looked(outcome), settings.source)
-    added = run(of_suppressions, _With(subject, used), profile, settings, matcher)
+    added = run(of_suppressions, subject.having(used), profile, settings, matcher)
     outcome = joined(outcome, added)
     stale = _stale(matcher, outcome, settings, {rule.id for rule in every})
-    added = run(of_baseline, _With(subject, stale), profile, settings, matcher)
+    added = run(of_baseline, subject.having(stale), profile, settings, matcher)
     return joined(outcome, added)
 
 
@@ -142,7 +137,7 @@ def judged(
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.
-            subject.start_meshes()
+            begin_meshes(subject)
         known = rules(cache)
         check_against_rules(settings, known)
         report = _report_or_crash(subject, shown, settings, known)
@@ -188,9 +183,9 @@ def _report(
     with subject.stages.stage("rules", "rules"):
         # What needs too much is met again by the rules that ask for it.
         with suppress(Exceeded), subject.allowance.piece():
-            subject.start(needed_parts(known, judge, settings))
+            begin(subject, needed_parts(known, judge, settings))
             if settings.display:
-                subject.start_display()
+                begin_display(subject)
         outcome = run_and_set_aside(known, known, subject, judge, settings)
     blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
     unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
@@ -249,16 +244,19 @@ def _piece(
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
-    if isinstance(subject.robots, NotAvailable):
+    robot = subject.one(Robot)
+    if isinstance(robot, NotAvailable):
         return None, ()
     if not PHYSICS.is_installed:
         return None, (NotChecked("display", NO_PHYSICS, Cause.SWITCHED_OFF),)
-    if isinstance(subject.physics.display, NotAvailable):
+    from checker.engine.display import RobotDisplay
+
+    display = subject.one(RobotDisplay)
+    if isinstance(display, NotAvailable):
         return None, ()
-    first = subject.physics.display.robots[0]
-    trials = (each.trial for each in subject.provided(RobotTrial) if each.robot is first)
+    trials = (each.trial for each in subject.made(RobotTrial) if each.robot is robot)
     try:
         with subject.allowance.piece():
-            return subject.physics.display.made(next(trials, None)), ()
+            return display.made(next(trials, None)), ()
     except (Exception, Exceeded) as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (unfinished("display", error),)

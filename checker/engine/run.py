@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from checker.base.allowance import Allowance, Exceeded
 from checker.base.errors import is_momentary
 from checker.base.extras import MissingExtra
-from checker.base.parts import NotAvailable, Parts
+from checker.base.parts import NotAvailable, Parts, type_name
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.engine.covered import Cover, Parted, Said, SeverityOf, parted_by_cover
@@ -25,6 +25,7 @@ from checker.finding import (
     numbered,
     without_line_numbers,
 )
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
@@ -33,8 +34,8 @@ from checker.rulebook.suppression.finding_places import Spot, spot
 from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
 from checker.settings import Settings
 
-TRIALS = frozenset(("RobotTrial", "SettledTrial", "RepeatedTrial"))
-"""Parts for which the robot is driven."""
+TRIALS = frozenset(map(type_name, (RobotTrial, SettledTrial, RepeatedTrial)))
+"""Names of the types of parts for which the robot is driven."""
 
 
 class Outcome(Record):
@@ -200,13 +201,13 @@ def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
 
 
 def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[str]:
-    """Return the names of the parts that the rules to be run ask for."""
+    """Return the names of the types of parts that the rules to be run ask for."""
     to_run = (rule for rule in rules if wanted(rule, profile, settings))
     return {kind for rule in to_run for kind in rule.needs.values()}
 
 
 def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
-    if "RepeatedTrial" in rule.needs.values() and not settings.thorough:
+    if type_name(RepeatedTrial) in rule.needs.values() and not settings.thorough:
         return False
     return settings.selects(rule) and (settings.names(rule) or profile.includes(rule))
 
@@ -268,7 +269,7 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
     """
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():
-        had = (context,) if kind == Context.__name__ else parts.part(kind)
+        had = (context,) if kind == type_name(Context) else parts.part(kind)
         if not isinstance(had, NotAvailable):
             wanted[name] = had
         elif name in rule.spares and not had.applicable:

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.expand.ros2_launch.graph import LaunchGraph
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.expand.ros2_launch.named_paths import named_paths, unavailable
+from checker.model.robot import Robot
+from checker.model.ros.simulation import Simulations
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.report.report import ROBOT, Cause, NotChecked
@@ -35,15 +37,15 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
 
 
 def _was_read(subject: Subject) -> bool:
-    if not isinstance(subject.robots, NotAvailable):
+    if not isinstance(subject.one(Robot), NotAvailable):
         return True
-    simulations = subject.simulations
+    simulations = subject.one(Simulations)
     launched = () if isinstance(simulations, NotAvailable) else simulations.launched
     return any(simulation.robots for simulation in launched)
 
 
 def _of_launch_files(subject: Subject) -> Iterator[str]:
-    launch, simulations = subject.ros2_launch, subject.simulations
+    launch, simulations = subject.one(Ros2Launch), subject.one(Simulations)
     graphs = () if isinstance(launch, NotAvailable) else launch.entries
     elsewhere = [reason for graph in graphs for reason in _elsewhere(subject.package, graph)]
     yield from elsewhere

@@ -257,9 +257,9 @@ def _robot_in(staging: Staging) -> Iterator[Robot]:
     with open_input(staging.folder) as opened:
         subject = Subject(opened.packages[0], NO_CACHE)
         try:
-            robots = subject.robots
-            if isinstance(robots, NotAvailable):
-                raise NotMigrated(f"the new model cannot be read: {robots.reason}")
-            yield robots[0]
+            robot = subject.one(Robot)
+            if isinstance(robot, NotAvailable):
+                raise NotMigrated(f"the new model cannot be read: {robot.reason}")
+            yield robot
         finally:
             subject.close()

@@ -61,7 +61,7 @@ def servos_of(source: Source, robot: Robot) -> list[Servo]:
         return []
     subject = Subject(source.package, NO_CACHE)
     try:
-        control = subject.urdf.control
+        control = subject.one(ControlSystem)
     finally:
         subject.close()
     if not isinstance(control, ControlSystem):

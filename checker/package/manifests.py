@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from checker.base.files import NotReadable
+from checker.base.parts import part
 from checker.base.record import Record
 from checker.package.package import Package
 from checker.source.cmake import CMakeFile
@@ -224,3 +225,9 @@ class Paperwork(Record, eq=False, dict=True):
     def build(self) -> CMakeFile | None:
         """CMakeLists.txt; None when it is missing or no text."""
         return self.package.build
+
+
+@part
+def paperwork(package: Package) -> Paperwork:
+    """Return what the package's own papers say."""
+    return Paperwork(package)

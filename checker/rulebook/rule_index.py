@@ -29,7 +29,7 @@ class IndexedRule(Record):
     Attributes:
         id: As in `Rule`; `name`, `severity`, `concern` and `page` likewise.
         module: That holds it.
-        needs: Names of the parts that it asks for, by parameter.
+        needs: Names of the types of the parts that it asks for, by parameter.
         spares: Parameters for parts that it can do without.
         options: Their defaults; lists stand for tuples.
     """

@@ -38,7 +38,7 @@ def simulation(example: dict[str, object], folder: Path) -> Simulation:
     package = write_example({"@bridge": ODOMETRY, **example}, folder)
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
-        found = subject.ros2.simulations
+        found = subject.one(Simulations)
         subject.close()
     assert isinstance(found, Simulations)
     return found.launched[0]
@@ -148,7 +148,7 @@ def test_a_lidar_on_a_lumped_link_may_be_found_on_either(tmp_path: Path) -> None
 def test_a_package_without_gazebo_has_no_simulations(tmp_path: Path) -> None:
     package = write_example({"@urdf": True}, tmp_path)
     with open_input(package) as opened:
-        assert isinstance(Subject(opened.packages[0]).ros2.simulations, NotAvailable)
+        assert isinstance(Subject(opened.packages[0]).one(Simulations), NotAvailable)
 
 
 @pytest.mark.parametrize(

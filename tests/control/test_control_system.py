@@ -25,8 +25,7 @@ def part(tmp_path: Path) -> Part:
     def part_of(kind: type, changes: Mapping[str, Any] = {}, urdf: object = True) -> Any:
         package = write_example({"@urdf": urdf, **changes}, tmp_path)
         with open_input(package) as opened:
-            found = Subject(opened.packages[0]).part(kind.__name__)
-        return found if isinstance(found, NotAvailable) else found[0]
+            return Subject(opened.packages[0]).one(kind)
 
     return part_of
 

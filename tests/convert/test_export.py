@@ -16,6 +16,7 @@ from checker.convert.sdf_to_urdf import xacro_of
 from checker.convert.xml_writer import document_text
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
 from checker.package.inputs import open_input
 from checker.physics.mass.pinocchio_model import pin_model
 from checker.physics.trial.mjcf.scene import build_scene
@@ -27,7 +28,7 @@ HUSKY = "husky_migration_sensor_config_1"
 def robot_of(path: Path) -> tuple[Robot, str]:
     """Return a package's robot and its name."""
     with open_input(path) as opened:
-        robots = Subject(opened.packages[0]).robots
+        robots = Subject(opened.packages[0]).all(Robot)
         assert isinstance(robots, tuple)
         return robots[0], opened.packages[0].name
 
@@ -141,7 +142,7 @@ def test_the_xacro_expands_to_links_below_the_robots_name(samples: Path, tmp_pat
     (path / "urdf/robot_from_sdf.xacro").write_text(text, "utf-8")
     assert '<xacro:arg name="name"' in text
     with open_input(path) as opened:
-        found = Subject(opened.packages[0]).urdf.descriptions
+        found = Subject(opened.packages[0]).all(UrdfDescription)
         assert isinstance(found, tuple)
         read = next(each.robot for each in found if each.file.endswith("robot_from_sdf.xacro"))
     prefixes = {link.name.value.partition("/")[0] for link in read.links}

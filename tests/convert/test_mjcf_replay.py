@@ -14,6 +14,7 @@ from checker.cli import main
 from checker.cli.export import exported
 from checker.convert.mjcf_files import scene_of_trial
 from checker.engine.subject import Subject
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
@@ -66,8 +67,8 @@ class Exported:
 def trial_of(package: Path) -> tuple[Plan, Replay]:
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
-        assert isinstance(subject.robots, tuple)
-        scene, plan = scene_of_trial(subject.robots[0])
+        assert isinstance(subject.all(Robot), tuple)
+        scene, plan = scene_of_trial(subject.all(Robot)[0])
         subject.close()
     replay = driven(scene, plan, TIMESTEP).replay
     assert replay is not None

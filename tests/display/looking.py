@@ -34,7 +34,7 @@ def opened(path: Path, cache: Cache = NO_CACHE) -> Iterator[tuple[Robot, MeshFil
     """Open a package; give its first robot and the looks of its meshes."""
     with open_input(path) as found:
         subject = Subject(found.packages[0], cache)
-        robots = subject.robots
+        robots = subject.all(Robot)
         assert isinstance(robots, tuple)
         meshes = robots[0].meshes
         assert isinstance(meshes, PackageMeshes)

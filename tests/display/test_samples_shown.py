@@ -35,7 +35,7 @@ def robot_of(folder: Path, cache: Path) -> Iterator[Robot]:
     with open_input(folder) as opened:
         subject = Subject(opened.packages[0], Cache(cache))
         try:
-            robots = subject.robots
+            robots = subject.all(Robot)
             assert isinstance(robots, tuple)
             yield robots[0]
         finally:
@@ -160,7 +160,7 @@ def test_real_packages_are_shown_within_the_limit(corpus: Path, kept: Path) -> N
         for package in opened.packages:
             subject = Subject(package, Cache(kept))
             try:
-                robots = subject.robots
+                robots = subject.all(Robot)
                 if not isinstance(robots, tuple):
                     continue
                 assert isinstance(robots[0].meshes, PackageMeshes)

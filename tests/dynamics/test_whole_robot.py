@@ -218,7 +218,7 @@ def test_poses_that_are_no_places(number: str, place: str) -> None:
 def weighed(corpus: Path) -> Iterator[MassProperties]:
     with open_input(corpus) as opened:
         for package in opened.packages:
-            masses = Subject(package).physics.masses
+            masses = Subject(package).all(MassProperties)
             assert not isinstance(masses, NotAvailable), masses
             yield from masses
 

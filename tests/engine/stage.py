@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.parts import NotAvailable
+from checker.base.parts import NotAvailable, type_name
 from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
 from checker.rule import Concern, Finding, Findings, Rule, Severity
@@ -27,7 +27,7 @@ class Parts:
         self.answer: Sequence[object] | NotAvailable = missing or wheels
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:
-        assert kind == "Wheel"
+        assert kind == type_name(Wheel)
         return self.answer
 
 

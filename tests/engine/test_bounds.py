@@ -8,8 +8,9 @@ import pytest
 
 from checker.base.allowance import Allowance
 from checker.base.files import TooLarge
-from checker.base.parts import NotAvailable
+from checker.base.parts import NotAvailable, type_name
 from checker.engine.subject import Subject
+from checker.expand.launch.graph import LaunchGraph
 from checker.package.inputs import open_input
 from checker.package.package import DOCUMENTS_FOR_ALL
 from checker.pipeline import check_package
@@ -33,10 +34,10 @@ _REMEDY = "SUBT_CHECK_ELEMENTS=100000 doubles the limit"
 def test_a_part_that_needs_too_much_is_not_available_and_not_tried_again() -> None:
     with open_input(GOOD) as opened:
         subject = Subject(opened.packages[0], allowance=Allowance(seconds_for_all=0.0))
-        missing = subject.part("LaunchGraph")
+        missing = subject.part(type_name(LaunchGraph))
         assert isinstance(missing, NotAvailable)
         assert missing.reason.startswith("the launch graph cannot be had: it was not begun")
-        assert subject.part("LaunchGraph") is missing
+        assert subject.part(type_name(LaunchGraph)) is missing
 
 
 @pytest.mark.parametrize(

@@ -1,149 +1,123 @@
-"""The parts of a package: what they hold, and what they say when something is not available."""
+"""Parts are found by their types, made once, and missing for the reason of what they need."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib import import_module
 
 import pytest
 
-from checker.pipeline import check_package
-from checker.report.report import PackageReport, VerdictKind
-from checker.rule_testing import NAME, SPAWNER, write_example
-from checker.settings import Settings
+from checker.base.cache import Cache
+from checker.base.parts import Ask, NotAvailable, Provider, part, providers_in, type_name
+from checker.base.record import Record
+from checker.engine.subject import PROVIDERS, Subject
+from checker.expand.spawner.reader import Spawner
+from checker.package.inputs import open_input
+from checker.package.package import Package
+from checker.rule import Context
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.suppression.parts import BaselineUse, Suppressions
+from tests.conftest import SAMPLES
 
-ARM = """<sdf version="1.6"><model name="arm"><link name="wrist">
-<visual name="v"><geometry><mesh><uri>meshes/a.dae</uri></mesh></geometry></visual>
-</link></model></sdf>"""
-
-
-def checked(example: Any, workspace: Path, *select: str) -> PackageReport:
-    package = write_example(example, workspace)
-    (report,) = check_package(package, Settings(select=select)).packages
-    return report
-
-
-def including(uri: str) -> str:
-    return f"<include><uri>{uri}</uri></include>"
+OF_THE_ENGINE = {type_name(kind) for kind in (Ask, Context, Suppressions, BaselineUse)}
 
 
-@pytest.mark.parametrize(
-    ("uri", "files"),
-    [
-        ("arm", {"arm/model.sdf": ARM}),
-        ("arm/hand.sdf", {"arm/hand.sdf": ARM}),
-        (
-            "arm",
-            {"arm/model.config": "<model><sdf>hand.sdf</sdf></model>", "arm/hand.sdf": ARM},
-        ),
-        (f"model://{NAME}/arm", {"arm/model.sdf": ARM}),
-        ("model://arm", {"../arm/model.sdf": ARM, "../arm/meshes/a.dae": "<COLLADA/>"}),
-    ],
-)
-def test_an_included_model_is_found_and_its_meshes_beside_it(
-    uri: str, files: dict[str, str], tmp_path: Path
-) -> None:
-    if not uri.startswith("model://arm"):
-        files = {**files, "arm/meshes/a.dae": "<COLLADA/>"}
-    report = checked({"@fragment": including(uri), **files}, tmp_path, "REF002", "KIN001")
-    assert report.facts["links"] == 2
-    assert not report.findings
-    assert not report.not_checked
+class Seat(Record):
+    number: int
 
 
-def test_what_compares_with_the_whole_robot_waits_for_an_include(tmp_path: Path) -> None:
-    example = {
-        "@fragment": including("model://battery"),
-        "specifications.md": "# R\n### Sensors\n* VLP-16, modeled by gpu_lidar\n"
-        "### Cost and Scale\nIts weight is 50 kg.\n",
-        "launch/vehicle_topics.launch": '<launch><node pkg="b" type="image_bridge" name="n" '
-        'args="/world/w/model/m/link/l/sensor/s/image"/></launch>',
-    }
-    report = checked(example, tmp_path, "INE008", "DOC003", "ROS002")
-    assert not report.findings
-    assert {each.rule for each in report.not_checked} == {"INE008", "DOC003", "ROS002"}
-    assert all("model://battery" in each.reason for each in report.not_checked)
-    assert report.verdict is VerdictKind.INCOMPLETE
+class Bench(Record):
+    seats: tuple[Seat, ...]
+    spawner: str
 
 
-@pytest.mark.parametrize("version", ["", "1.3", "1.13", "../../x", "9" * 50])
-def test_an_sdf_version_that_is_not_known_stops_no_rule(version: str, tmp_path: Path) -> None:
-    model = f'<sdf version="{version}"><model name="m"><link name="l"/></model></sdf>'
-    report = checked({"model.sdf": model}, tmp_path, "SDF", "KIN")
-    assert not report.crashed
+class Ride(Record):
+    """Needs what a package of URDF has not."""
 
 
-def test_a_second_model_is_no_second_robot(tmp_path: Path) -> None:
-    two = """<sdf version="1.6"><model name="rover"><link name="base_link">
-    <sensor name="imu" type="imu"/></link></model>
-    <model name="box"><link name="l"/></model></sdf>"""
-    topics = """<launch><node pkg="b" type="parameter_bridge" name="n"
-      args="/world/w/model/m/link/base_link/sensor/imu/imu@a/B[c.D"/></launch>"""
-    report = checked({"model.sdf": two, "launch/vehicle_topics.launch": topics}, tmp_path, "ROS002")
-    assert not report.findings
+@part
+def seats(package: Package) -> tuple[Seat, ...]:
+    assert package.name
+    return Seat(1), Seat(2)
 
 
-ROS = "def rosExecutables(_name, _worldName)\n"
-UNREAD = {
-    "a launch file that is missing": (
-        {"launch/vehicle_topics.launch": None},
-        "launch/vehicle_topics.launch does not exist",
-    ),
-    "a package that is not available": (
-        {"launch/spawner.rb": SPAWNER.replace(f"{NAME} vehicle", "acme_topics vehicle")},
-        "package acme_topics is not available",
-    ),
-    "an include that is not available": (
-        {
-            "launch/vehicle_topics.launch": '<launch><arg name="name"/><arg name="world_name"/>'
-            '<include file="$(find acme)/launch/a.launch"/></launch>'
-        },
-        "package acme is not available",
-    ),
-    "a command that cannot be read": (
-        {"launch/spawner.rb": SPAWNER.replace(ROS, f"{ROS}  system('rm')\n")},
-        "system",
-    ),
-    "a launch file in another encoding": (
-        {"launch/vehicle_topics.launch": "<launch>\0</launch>"},
-        "launch/vehicle_topics.launch cannot be read",
-    ),
-}
+@part
+def bench(seats: tuple[Seat, ...], first: Seat, spawner: Spawner | NotAvailable) -> Bench:
+    assert first is seats[0]
+    return Bench(seats, spawner.reason if isinstance(spawner, NotAvailable) else "")
 
 
-@pytest.mark.parametrize("case", UNREAD)
-def test_bridges_that_are_not_known_are_not_passed(case: str, tmp_path: Path) -> None:
-    changes, reason = UNREAD[case]
-    report = checked(changes, tmp_path, "ROS002")
-    assert report.verdict is VerdictKind.INCOMPLETE
-    assert any(reason in each.reason for each in report.not_checked)
+@part
+def ride(spawner: Spawner, bench: Bench) -> Ride:
+    raise AssertionError(spawner, bench)
 
 
-def test_a_launch_file_is_found_by_its_exact_name_in_any_folder(tmp_path: Path) -> None:
-    started = SPAWNER.replace("vehicle_topics.launch", "Topics.launch")
-    bridge = """<launch><node pkg="b" type="image_bridge" name="n"
-      args="/world/w/model/m/link/l/sensor/s/image"/></launch>"""
-    example = {"launch/spawner.rb": started, "launch/sub/Topics.launch": bridge}
-    (finding,) = checked(example, tmp_path, "ROS002").findings
-    assert finding.places[0].file == "launch/sub/Topics.launch"
+@pytest.fixture
+def subject() -> Iterator[Subject]:
+    with open_input(SAMPLES / "my_gurdy_description") as opened:
+        subject = Subject(opened.packages[0])
+        yield subject
+        subject.close()
 
 
-def test_a_file_that_is_started_and_missing_bridges_nothing(tmp_path: Path) -> None:
-    report = checked({"launch/vehicle_topics.launch": None}, tmp_path, "PKG003")
-    assert [each.message for each in report.findings] == [
-        "launch/vehicle_topics.launch is missing, which bridges topics to ROS"
-    ]
+def providers(kind: str) -> list[Provider]:
+    modules = {kind.partition(":")[0], *(f"checker.{name}" for name in PROVIDERS)}
+    found = [providers_in(import_module(module)).get(kind) for module in modules]
+    return [provider for provider in found if provider is not None]
 
 
-def test_a_sentence_with_other_words_still_says_the_mass(tmp_path: Path) -> None:
-    sheet = "# R\n### Cost and Scale\nIt is 1 m long with its sensors, and weighs 56 kg.\n"
-    (finding,) = checked({"specifications.md": sheet}, tmp_path, "INE008").findings
-    assert "56 kg" in finding.message
+def test_what_a_rule_or_a_part_needs_is_given_or_made_by_one_function(subject: Subject) -> None:
+    wanted = {kind for rule in all_rules() for kind in rule.needs.values()}
+    assert len(wanted) > 25
+    seen = OF_THE_ENGINE | set(subject._made)
+    while left := wanted - seen:
+        for kind in left:
+            (provider,) = providers(kind)
+            wanted |= {need.kind for need in provider.needs.values()}
+        seen |= left
 
 
-def test_text_that_gazebo_cannot_decode_is_an_error(tmp_path: Path) -> None:
-    package = write_example("", tmp_path)
-    model = package / "model.sdf"
-    model.write_bytes(model.read_text("utf-8").encode("utf-16"))
-    (report,) = check_package(package, Settings(select=("SDF001",))).packages
-    assert "UTF-16" in report.findings[0].message
+def test_a_part_is_made_once_of_the_parts_that_it_needs(subject: Subject) -> None:
+    made = subject.one(Bench)
+    assert made == Bench((Seat(1), Seat(2)), "the package needs no spawner")
+    assert subject.one(Bench) is made
+    assert subject.all(Seat) is made.seats
+    assert subject.made(Seat) is made.seats
+
+
+def test_a_part_is_missing_for_the_reason_of_what_it_needs(subject: Subject) -> None:
+    assert subject.one(Ride) is subject.one(Spawner)
+    assert subject.made(Ride) == ()
+    assert subject.made(Bench) == ()
+
+
+def test_a_type_that_nothing_makes_is_no_part(subject: Subject) -> None:
+    with pytest.raises(LookupError, match="TestNothing is not a part"):
+        subject.part(f"{__name__}:TestNothing")
+
+
+def test_another_part_takes_the_place_of_one_and_of_what_depends_on_it(subject: Subject) -> None:
+    assert subject.one(Bench) is not None
+    other = subject.having(Seat(3), kept=[])
+    assert other.one(Bench).seats == (Seat(3),)
+    assert subject.one(Bench).seats == (Seat(1), Seat(2))
+    assert subject.having(Seat(3)).one(Bench) is subject.one(Bench)
+
+
+def test_modules_that_make_parts_load_no_heavy_library() -> None:
+    run = f"import sys; from importlib import import_module\nfor name in {PROVIDERS}:\n"
+    run += "    import_module(f'checker.{name}')\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True, check=True)
+    assert not {"numpy", "pinocchio", "mujoco", "ruamel.yaml", "yaml"} & set(done.stdout.split())
+
+
+def test_what_is_given_is_found_by_the_type_that_the_subject_declares() -> None:
+    class Kept(Cache):
+        """As the editor has it."""
+
+    with open_input(SAMPLES / "my_gurdy_description") as opened:
+        subject = Subject(opened.packages[0], Kept(None))
+        assert subject.one(Cache) is subject.cache
+        subject.close()

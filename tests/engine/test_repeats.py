@@ -9,6 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 from checker.base.cache import Cache, cache_folder
+from checker.base.parts import type_name
 from checker.engine.run import Outcome, run_rules
 from checker.engine.subject import Subject
 from checker.finding import Place
@@ -25,7 +26,7 @@ from tests.real_packages import MODERN, judged_folders, needed_folder
 
 Told = tuple[str, str, int, int, str]
 """A rule and a place that it reports."""
-_OF_OTHERS = {Suppressions.__name__, BaselineUse.__name__}
+_OF_OTHERS = {type_name(Suppressions), type_name(BaselineUse)}
 """What all other rules found; it is known only after these."""
 
 

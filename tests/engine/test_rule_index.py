@@ -40,7 +40,7 @@ def test_the_index_says_what_the_modules_say(indexed: tuple[Rule, ...]) -> None:
 
 def test_a_rule_of_the_index_runs_as_its_module_does(indexed: tuple[Rule, ...]) -> None:
     (rule,) = (rule for rule in indexed if rule.id == "CFG001")
-    assert rule.needs == {"suppressions": "Suppressions"}
+    assert rule.needs == {"suppressions": "checker.rulebook.suppression.parts:Suppressions"}
     with pytest.raises(TypeError, match="nonsense"):
         list(rule.check(nonsense=1))
 

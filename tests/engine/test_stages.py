@@ -9,6 +9,7 @@ import pytest
 from checker.base.output import Stages
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.rule_testing import write_example
@@ -57,7 +58,7 @@ def test_the_first_mesh_stands_for_the_reading_of_all(tmp_path: Path) -> None:
     example = {"@fragment": f'<link name="a">{shapes}</link>', **files}
     with open_input(write_example(example, tmp_path)) as opened:
         subject = Subject(opened.packages[0], stages=Stages(said.append))
-        robots = subject.robots
+        robots = subject.all(Robot)
         assert isinstance(robots, tuple)
         meshes = robots[0].meshes
         assert isinstance(meshes, PackageMeshes)

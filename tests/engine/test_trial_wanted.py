@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.parts import NotAvailable
+from checker.base.parts import NotAvailable, type_name
 from checker.engine.run import Outcome, needed_parts, run_rules
 from checker.finding import Severity
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
@@ -38,7 +38,7 @@ class Parts:
         self.trial = trial
 
     def part(self, kind: str) -> Any:
-        if kind == "Wheel":
+        if kind == type_name(Wheel):
             return (Wheel(),)
         return self.trial if isinstance(self.trial, NotAvailable) else (self.trial,)
 
@@ -90,13 +90,13 @@ def test_rules_that_looked_are_named_with_the_options_they_used() -> None:
 @pytest.mark.parametrize(
     ("settings", "needed"),
     [
-        ({}, {"RobotTrial", "Wheel"}),
-        ({"thorough": True}, {"RobotTrial", "RepeatedTrial", "Wheel"}),
-        ({"trial": False}, {"Wheel"}),
-        ({"select": ("KIN",)}, {"Wheel"}),
+        ({}, {RobotTrial, Wheel}),
+        ({"thorough": True}, {RobotTrial, RepeatedTrial, Wheel}),
+        ({"trial": False}, {Wheel}),
+        ({"select": ("KIN",)}, {Wheel}),
     ],
 )
 def test_only_parts_that_a_rule_to_be_run_asks_for_are_started(
-    settings: dict[str, Any], needed: set[str]
+    settings: dict[str, Any], needed: set[type]
 ) -> None:
-    assert needed_parts(RULES, subt(), Settings(**settings)) == needed
+    assert needed_parts(RULES, subt(), Settings(**settings)) == set(map(type_name, needed))

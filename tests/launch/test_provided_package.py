@@ -45,7 +45,7 @@ def graph_in(workspace: Path, space: Path) -> LaunchGraph:
     launch.write_text(IMU)
     (space / "subt_ros/package.xml").write_text("<package><name>subt_ros</name></package>")
     with open_input(package) as opened:
-        graph = Subject(opened.packages[0]).submission.launch
+        graph = Subject(opened.packages[0]).one(LaunchGraph)
     assert not isinstance(graph, NotAvailable)
     return graph
 

@@ -14,12 +14,13 @@ import pytest
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Asked, Server
 from checker.base.parts import WorkerFailed
+from checker.engine.early_parts import begin_meshes
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.mesh import process
-from checker.physics.mesh.process import are_new, mesh_server
+from checker.physics.mesh.process import MeshServer, are_new, mesh_server
 from checker.report.scene.processes import StartedProcesses
 from checker.rule_testing import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
@@ -40,7 +41,7 @@ def robot_of(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_C
     uris = [path for path in files if path.startswith("meshes/") and not path.endswith(".mtl")]
     changes = {"@fragment": f'<link name="a">{fragment(*uris)}</link>', **files}
     with open_input(write_example(changes, folder)) as opened:
-        robots = Subject(opened.packages[0], cache).robots
+        robots = Subject(opened.packages[0], cache).all(Robot)
         assert isinstance(robots, tuple)
         _ = robots[0].mesh_uses
         return robots[0]
@@ -74,7 +75,7 @@ def read(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
 def test_where_a_uri_leads(uri: str, trouble: MeshTrouble | None, tmp_path: Path) -> None:
     example = {"@fragment": fragment(uri), "meshes/a.stl": CUBE}
     with open_input(write_example(example, tmp_path)) as opened:
-        robots = Subject(opened.packages[0]).robots
+        robots = Subject(opened.packages[0]).all(Robot)
         assert isinstance(robots, tuple)
         found = robots[0].mesh_uses[0].file
     if trouble is None:
@@ -91,7 +92,7 @@ def test_a_lone_file_finds_the_mesh_beside_it(tmp_path: Path) -> None:
     model = tmp_path / "lone.sdf"
     model.write_text(f'<sdf version="1.6"><model name="m">{link}</model></sdf>')
     with open_input(model) as opened:
-        robots = Subject(opened.packages[0]).robots
+        robots = Subject(opened.packages[0]).all(Robot)
         assert isinstance(robots, tuple)
         assert isinstance(robots[0].mesh_uses[0].file, Mesh)
 
@@ -165,10 +166,11 @@ from pathlib import Path
 from checker.base import child_server
 from checker.base.cache import Cache
 from checker.engine.subject import Subject
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 child_server._Process = None
 with open_input(Path({str(tmp_path / NAME)!r})) as opened:
-    robot, = Subject(opened.packages[0], Cache(Path({str(tmp_path / "cache")!r}))).robots
+    robot, = Subject(opened.packages[0], Cache(Path({str(tmp_path / "cache")!r}))).all(Robot)
     print([use.file for use in robot.mesh_uses])
 print(sorted({{"numpy", "scipy", "trimesh", "collada"}} & set(sys.modules)))
 """
@@ -210,12 +212,12 @@ def test_a_reading_that_was_begun_can_be_ended(tmp_path: Path) -> None:
     changes = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
     with open_input(write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)) as opened:
         subject = Subject(opened.packages[0])
-        subject.start_meshes()
+        begin_meshes(subject)
         subject.close()
-        robots = subject.robots
+        robots = subject.all(Robot)
         assert isinstance(robots, tuple)
         assert isinstance(robots[0].mesh_uses[0].file, MeshFault)
-        assert not subject.mesh_server.alive
+        assert not subject.one(MeshServer).server.alive
 
 
 def test_a_child_that_waits_reads_what_it_is_given(
@@ -229,7 +231,7 @@ def test_a_child_that_waits_reads_what_it_is_given(
         server = mesh_server().start()
         monkeypatch.setattr("checker.base.child_server._Process", None)  # no other is started
         subject = Subject(opened.packages[0], cache, processes=StartedProcesses(server))
-        robots = subject.robots
+        robots = subject.all(Robot)
         assert isinstance(robots, tuple)
         (use,) = robots[0].mesh_uses
         assert isinstance(use.file, Mesh)
@@ -263,7 +265,7 @@ def test_the_name_in_the_model_says_the_format_not_that_behind_a_link(tmp_path: 
     example = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
     example |= {"meshes/a.blob": CUBE, "@links": {"meshes/a.stl": "a.blob"}}
     with open_input(write_example(example, tmp_path)) as opened:
-        robots = Subject(opened.packages[0]).robots
+        robots = Subject(opened.packages[0]).all(Robot)
         assert isinstance(robots, tuple)
         assert isinstance(robots[0].mesh_uses[0].file, Mesh)
 
@@ -278,7 +280,7 @@ def test_parts_that_are_picked_are_measured_by_themselves(tmp_path: Path) -> Non
     )
     example = {"@fragment": visuals, "meshes/a.dae": dae(box(1, 1, 1), node=node)}
     with open_input(write_example(example, tmp_path)) as opened:
-        robots = Subject(opened.packages[0]).robots
+        robots = Subject(opened.packages[0]).all(Robot)
         assert isinstance(robots, tuple)
         body, lid, none = robots[0].mesh_uses
         assert isinstance(body.file, Mesh)

@@ -59,7 +59,7 @@ def robot(folder: Path, kind: str, parameters: str, links: str = "") -> Robot:
     )
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
-        robots = subject.robots
+        robots = subject.all(Robot)
         subject.close()
     assert not isinstance(robots, NotAvailable)
     return robots[0]

@@ -8,6 +8,7 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
+from checker.model.urdf.description import UrdfDescription
 from checker.package.inputs import open_input
 from checker.package.installed import installed_as, left_out, source_of
 from tests.package.conftest import Write
@@ -50,8 +51,8 @@ def test_the_source_of_what_is_installed(crane: Path, path: str, source: str | N
 def test_xacro_finds_what_is_installed(crane: Path) -> None:
     with open_input(crane) as opened:
         subject = Subject(opened.packages[0])
-        assert not isinstance(subject.urdf.descriptions, NotAvailable)
-        description = subject.urdf.descriptions[0]
+        assert not isinstance(subject.all(UrdfDescription), NotAvailable)
+        description = subject.all(UrdfDescription)[0]
         assert [link.name.value for link in description.robot.links] == ["hook"]
         subject.close()
 

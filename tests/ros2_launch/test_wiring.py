@@ -22,7 +22,7 @@ def wiring(nodes: str, folder: Path, yaml: str = "") -> Wiring:
     example = {"@bridge": True, "@launch": {HEAD: f"{HEAD}{nodes},\n"}, "config/a.yaml": yaml}
     with open_input(write_example(example, folder)) as opened:
         subject = Subject(opened.packages[0])
-        found = subject.wirings
+        found = subject.all(Wiring)
         subject.close()
     assert not isinstance(found, NotAvailable)
     (launched,) = found

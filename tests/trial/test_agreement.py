@@ -38,7 +38,7 @@ def assert_agreement(robot: Robot, seed: int = 0) -> None:
 
 def robots_of(folder: Path) -> list[Robot]:
     with open_input(folder) as opened:
-        parts = [Subject(package).robots for package in opened.packages]
+        parts = [Subject(package).all(Robot) for package in opened.packages]
         return [robot for part in parts if isinstance(part, tuple) for robot in part]
 
 

@@ -39,7 +39,7 @@ def robots_of(package: str) -> dict[str, Robot]:
     """Return the robots of a package by their names, without their meshes."""
     with open_input(needed_folder(MODERN) / Path(package)) as opened:
         subject = Subject(opened.packages[0])
-        robots = subject.robots
+        robots = subject.all(Robot)
         assert isinstance(robots, tuple), robots
         found = {robot.name.value: robot for robot in robots}
         # Meshes are read while the folder is there.

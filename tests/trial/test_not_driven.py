@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from checker.engine.subject import Subject
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.trial.drivers.plans import plan_of
 from checker.pipeline import check_package
@@ -63,7 +64,7 @@ def test_a_limit_of_zero_keeps_it_from_moving(tmp_path: Path, tag: str) -> None:
 def test_constants_that_a_motor_does_not_state_are_the_plugin_s(tmp_path: Path) -> None:
     package = changed("subtcheck_quadro", tmp_path, ("maxRotVelocity", "maxRotSpeed"))
     with open_input(package) as opened:
-        (robot,) = Subject(opened.packages[0]).robots
+        (robot,) = Subject(opened.packages[0]).all(Robot)
     plan = plan_of(robot)
     assert len(plan.rotors) == 4
     assert not plan.notes

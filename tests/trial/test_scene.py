@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.trial.mjcf.scene import GROUND, Scene, build_scene
 from checker.source.text import Located
@@ -331,7 +332,7 @@ def test_mujoco_takes_every_robot_of_the_corpus(corpus: Path) -> None:
             continue
         with open_input(folder) as opened:
             for package in opened.packages:
-                robots = Subject(package).robots
+                robots = Subject(package).all(Robot)
                 for robot in robots if isinstance(robots, tuple) else ():
                     scene = build_scene(robot)
                     assert not [repair for repair in scene.repairs if repair.serious]

@@ -8,6 +8,7 @@ from checker.base.cache import Cache
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
+from checker.physics.trial.robot_trial import RobotTrial, SettledTrial
 from checker.rule_testing import write_example
 
 ROBOT = """<robot name="{name}">
@@ -44,7 +45,7 @@ def driven(folder: Path, *collisions: str, last: str = "") -> tuple[object, obje
     (package / "launch/spawn.launch").unlink()
     with open_input(package) as opened:
         subject = Subject(opened.packages[0], Cache(folder / "cache"))
-        had = subject.part("RobotTrial"), subject.part("SettledTrial")
+        had = subject.all(RobotTrial), subject.all(SettledTrial)
         subject.close()
     return had
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from checker.engine.subject import Subject
+from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.trial.trial import Trial
 from tests.trial.machines import trial_in_child, value
@@ -17,7 +18,7 @@ def trials(corpus: Path) -> dict[str, Trial]:
     found = {}
     with open_input(corpus) as opened:
         for package in opened.packages:
-            robots = Subject(package).robots
+            robots = Subject(package).all(Robot)
             if isinstance(robots, tuple):
                 trial = trial_in_child(robots[0])
                 assert isinstance(trial, Trial), f"{package.name}: {trial}"

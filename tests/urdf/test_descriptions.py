@@ -7,6 +7,7 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE
 from checker.base.output import say_nothing
 from checker.engine.review import judged
+from checker.model.urdf.files import UrdfFiles
 from checker.model.urdf.fixed_joints import Lumping
 from checker.package.inputs import open_input
 from checker.settings import Settings
@@ -29,7 +30,7 @@ BODY = """
 
 
 def test_transmissions_and_gazebo_tags(describe: Describe) -> None:
-    (description,) = describe({FILE: robot(BODY)}).urdf.package_descriptions.files.descriptions
+    (description,) = describe({FILE: robot(BODY)}).one(UrdfFiles).descriptions
     (transmission,) = description.transmissions
     assert transmission.type.value == "transmission_interface/SimpleTransmission"
     assert [end.name.value for end in transmission.joints] == ["shoulder"]
@@ -40,7 +41,7 @@ def test_transmissions_and_gazebo_tags(describe: Describe) -> None:
 
 
 def test_fixed_joints_merge_links_unless_they_are_kept(describe: Describe) -> None:
-    (description,) = describe({FILE: robot(BODY)}).urdf.package_descriptions.files.descriptions
+    (description,) = describe({FILE: robot(BODY)}).one(UrdfFiles).descriptions
     groups = Lumping(description).groups
     names = {name: [link.name.value for link in links] for name, links in groups.items()}
     assert names == {"base": ["base"], "arm": ["arm", "hand"], "tool": ["tool"]}
@@ -48,9 +49,7 @@ def test_fixed_joints_merge_links_unless_they_are_kept(describe: Describe) -> No
 
 def test_a_loop_of_fixed_joints_ends(describe: Describe) -> None:
     back = '<joint name="back" type="fixed"><parent link="hand"/><child link="arm"/></joint>'
-    (description,) = describe(
-        {FILE: robot(BODY + back)}
-    ).urdf.package_descriptions.files.descriptions
+    (description,) = describe({FILE: robot(BODY + back)}).one(UrdfFiles).descriptions
     assert sum(len(links) for links in Lumping(description).groups.values()) == 4
 
 

@@ -11,6 +11,7 @@ from checker.base.cache import Cache
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.xacro.fault import XacroFaultKind
+from checker.model.robot import Robot
 from checker.model.urdf.files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
@@ -19,7 +20,7 @@ BASE = '<link name="base"/>'
 
 
 def files_of(subject: Subject) -> UrdfFiles:
-    files = subject.urdf.files
+    files = subject.one(UrdfFiles)
     assert not isinstance(files, NotAvailable)
     return files
 
@@ -112,7 +113,7 @@ def test_macros_alone_are_no_robot_and_no_fault(describe: Describe) -> None:
     subject = describe({FILE: robot(macro)})
     assert files_of(subject) == files_of(subject)
     assert not files_of(subject).faults
-    robots = subject.robots
+    robots = subject.all(Robot)
     assert isinstance(robots, NotAvailable)
     assert not robots.applicable
 

@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 from checker.base.forked_work import in_fork
-from checker.base.parts import WorkerFailed
+from checker.base.parts import NotAvailable, WorkerFailed
 from checker.expand.xacro import worker
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
+from checker.model.robot import Robot
+from checker.model.urdf.files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
@@ -37,7 +39,7 @@ STEPS = '<a b="${len([x for x in python.range(30000)])}"/>' * 99
 
 def fault(describe: Describe, body: str, **more: str) -> XacroFault:
     files = {f"{NAME}/urdf/{name}.yaml": text for name, text in more.items()}
-    (found,) = describe({FILE: robot(LINK + body), **files}).urdf.package_descriptions.files.faults
+    (found,) = describe({FILE: robot(LINK + body), **files}).one(UrdfFiles).faults
     return found
 
 
@@ -99,9 +101,7 @@ def test_a_hostile_file_is_a_fault(
 def test_what_is_no_part_of_the_language_is_not_checked(
     describe: Describe, expression: str, construct: str
 ) -> None:
-    files = describe(
-        {FILE: robot(f'{LINK}\n<a b="${{{expression}}}"/>')}
-    ).urdf.package_descriptions.files
+    files = describe({FILE: robot(f'{LINK}\n<a b="${{{expression}}}"/>')}).one(UrdfFiles)
     assert not files.faults
     (said,) = files.unread
     assert f"expression uses {construct}" in said
@@ -114,13 +114,13 @@ def test_yaml_of_exploding_anchors(describe: Describe) -> None:
 
 
 def test_a_file_that_is_no_utf8_is_not_read(describe: Describe) -> None:
-    files = describe({FILE: robot(LINK).encode() + b"<!-- \xff -->"}).urdf.package_descriptions
-    assert not files.applicable or files.files.unread
+    files = describe({FILE: robot(LINK).encode() + b"<!-- \xff -->"}).one(UrdfFiles)
+    assert isinstance(files, NotAvailable) or files.unread
 
 
 def test_environment_and_folder_do_not_show(describe: Describe) -> None:
     body = '<link name="$(cwd)"/><link name="$(optenv HOME none)"/>'
-    robots = describe({FILE: robot(body)}).robots
+    robots = describe({FILE: robot(body)}).all(Robot)
     assert isinstance(robots, tuple)
     names = " ".join(robots[0].links_by_name)
     assert "none" in names

@@ -39,7 +39,7 @@ def described(files: dict[str, object], folder: Path) -> list[UrdfDescription]:
     package = write_example({"@urdf": True, **files}, folder)
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
-        found = subject.urdf.descriptions
+        found = subject.all(UrdfDescription)
         subject.close()
     assert not isinstance(found, NotAvailable)
     return [description for description in found if description.call is not None]

@@ -13,6 +13,8 @@ from checker.engine.subject import Subject
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.trial.robot_trial import RobotTrial
 from tests.urdf.conftest import Describe, robot
 
 NAME = "ouster_description"
@@ -30,8 +32,8 @@ def ouster(samples: Path) -> Iterator[Subject]:
 
 
 def the_robot(subject: Subject) -> Robot:
-    assert isinstance(subject.robots, tuple)
-    (found,) = subject.robots
+    assert isinstance(subject.all(Robot), tuple)
+    (found,) = subject.all(Robot)
     return found
 
 
@@ -48,8 +50,8 @@ def test_the_macro_has_the_twelve_parameters_of_the_tutorial(samples: Path) -> N
 
 
 def test_it_weighs_380_grams_and_its_inertia_is_that_of_the_cylinder(ouster: Subject) -> None:
-    assert isinstance(ouster.physics.masses, tuple)
-    lidar = ouster.physics.masses[0].links["os1_sensor"]
+    assert isinstance(ouster.all(MassProperties), tuple)
+    lidar = ouster.all(MassProperties)[0].links["os1_sensor"]
     across = MASS * (3 * RADIUS**2 + HEIGHT**2) / 12
     along = MASS * RADIUS**2 / 2
     assert lidar.mass == pytest.approx(MASS)
@@ -76,8 +78,8 @@ def test_the_lidar_is_set_to_the_defaults(ouster: Subject) -> None:
 
 
 def test_a_box_that_carries_it_settles(ouster: Subject) -> None:
-    assert isinstance(ouster.physics.driven, tuple)
-    (driven,) = ouster.physics.driven
+    assert isinstance(ouster.all(RobotTrial), tuple)
+    (driven,) = ouster.all(RobotTrial)
     assert driven.trial.trouble == ()
     assert driven.trial.refused == ""
     assert driven.trial.value("settle_tilt") == pytest.approx(0.0, abs=0.01)

@@ -9,6 +9,8 @@ from checker.base.cache import NO_CACHE
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.files import Gathered
 from checker.model.components import Link
+from checker.model.robot import Robot
+from checker.model.urdf.files import UrdfFiles
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
 from tests.effort import examples
@@ -31,7 +33,7 @@ WHEEL = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
 
 def link(describe: Describe, name: str, body: str) -> Link:
     parts = {f"{NAME}/urdf/wheel.xacro": WHEEL}
-    robots = describe({FILE: robot(body), **parts}).robots
+    robots = describe({FILE: robot(body), **parts}).all(Robot)
     assert isinstance(robots, tuple)
     return robots[0].links_by_name[name]
 
@@ -77,7 +79,7 @@ def test_a_fault_of_xacro_stands_at_its_element(describe: Describe) -> None:
         {FILE: robot(f'{INCLUDE}\n<link name="a"/>\n<link name="${{b}}"/>')}
         | {f"{NAME}/urdf/wheel.xacro": WHEEL}
     )
-    (fault,) = subject.urdf.package_descriptions.files.faults
+    (fault,) = subject.one(UrdfFiles).faults
     assert shown(fault.span) == ("urdf/acme.urdf.xacro", 5, '<link name="${b}"/>')
     assert "'b' is not defined" in fault.message
 
@@ -85,7 +87,7 @@ def test_a_fault_of_xacro_stands_at_its_element(describe: Describe) -> None:
 def test_a_fault_inside_a_macro_names_the_macro(describe: Describe) -> None:
     broken = WHEEL.replace("${mass}", "${maas}")
     subject = describe({FILE: robot(INCLUDE), f"{NAME}/urdf/wheel.xacro": broken})
-    (fault,) = subject.urdf.package_descriptions.files.faults
+    (fault,) = subject.one(UrdfFiles).faults
     assert shown(fault.span)[:2] == ("urdf/wheel.xacro", 6)
     assert "in the macro wheel" in fault.message
 

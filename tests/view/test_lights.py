@@ -54,7 +54,7 @@ def views(light: str, folder: Path, mesh: bytes = APART, more: str = "") -> Sens
     with open_input(write_example(example, folder)) as opened:
         subject = Subject(opened.packages[0], NO_CACHE)
         try:
-            found = subject.physics.views
+            found = subject.all(SensorViews)
             assert isinstance(found, tuple)
             return found[0]
         finally:

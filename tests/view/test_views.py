@@ -37,7 +37,7 @@ def views(
     with open_input(write_example(changes, folder)) as opened:
         subject = Subject(opened.packages[0], cache)
         try:
-            found = subject.physics.views
+            found = subject.all(SensorViews)
             assert isinstance(found, tuple)
             return found[0]
         finally:

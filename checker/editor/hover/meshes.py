@@ -6,6 +6,7 @@ import posixpath
 from collections.abc import Iterator
 
 from checker.base.extras import PHYSICS
+from checker.base.parts import NotAvailable
 from checker.editor.card import card, code, words
 from checker.editor.figures import number, numbers, size
 from checker.engine.subject import Subject
@@ -14,6 +15,7 @@ from checker.model.robot import Robot
 from checker.package.index import FileEntry
 from checker.package.uris import Unknown, path_behind
 from checker.physics.mesh.package_meshes import PackageMeshes
+from checker.physics.mesh.process import MeshServer
 from checker.source.text import Located
 
 MESHES = (".dae", ".stl", ".obj")
@@ -58,15 +60,15 @@ def _mesh_card(
 
 def _mesh(subject: Subject, uri: Located[str], entry: FileEntry) -> Mesh | MeshFault | str:
     """Return what a mesh file holds, or in Markdown why it is not read: a hover waits not long."""
-    robots = subject.robots if isinstance(subject.robots, tuple) else ()
-    for meshes in (robot.meshes for robot in robots):
+    robots = subject.all(Robot)
+    for meshes in () if isinstance(robots, NotAvailable) else (it.meshes for it in robots):
         if isinstance(meshes, PackageMeshes) and _names(meshes, uri):
             known = meshes.known(uri)
             if known is not None:
                 return known
-    alone = PackageMeshes(
-        subject.package, (uri,), subject.cache, subject.stages, subject.mesh_server
-    )
+    reader = subject.one(MeshServer)
+    server = None if isinstance(reader, NotAvailable) else reader.server
+    alone = PackageMeshes(subject.package, (uri,), subject.cache, subject.stages, server)
     if (known := alone.known(uri)) is not None:
         return known
     if not PHYSICS.is_installed:

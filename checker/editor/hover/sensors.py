@@ -11,7 +11,7 @@ from checker.editor.card import card, code, words
 from checker.editor.figures import angle, number
 from checker.engine.subject import Subject
 from checker.model.components import Sensor
-from checker.model.devices.devices import Device
+from checker.model.devices.devices import Device, SensorDevices
 from checker.model.robot import Robot
 from checker.model.ros.simulated_topics import simulated_topics
 from checker.model.sensing.camera import Camera
@@ -37,7 +37,7 @@ def sensor_card(subject: Subject, robot: Robot, sensor: Sensor, note: str = "") 
 
 
 def _device(subject: Subject, sensor: Sensor) -> Iterator[tuple[str, str]]:
-    devices = subject.submission.sensor_devices
+    devices = subject.one(SensorDevices)
     known = None if isinstance(devices, NotAvailable) else devices.of(sensor)
     if known is None:
         return

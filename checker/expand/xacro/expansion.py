@@ -90,6 +90,12 @@ class Unread(Record):
 Outcome = XmlDocument | XacroFault | Unread
 
 
+class XacroArguments(Record):
+    """Arguments that the user gives, before those of launch files."""
+
+    values: Mapping[str, str]
+
+
 class Expander(Record, eq=False):
     """Expands files, one request after the other.
 

@@ -16,6 +16,7 @@ from checker.base.cache import Cache
 from checker.base.child_process import Limits
 from checker.base.child_server import Server
 from checker.base.files import read_bytes
+from checker.base.record import Record
 from checker.package.index import FileEntry
 from checker.package.package import Package
 
@@ -61,6 +62,12 @@ def mesh_work(
     """
     request = {"wanted": wanted, "seconds": SECONDS_FOR_ONE, "seconds_for_all": SECONDS_FOR_ALL}
     return Work(wanted, _MODULE, _limits(), items, decode, request, files, lasts, here)
+
+
+class MeshServer(Record, eq=False):
+    """Reads the meshes of one check."""
+
+    server: Server
 
 
 def mesh_server() -> Server:

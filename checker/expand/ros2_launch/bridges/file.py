@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Direction
@@ -13,7 +14,9 @@ from checker.expand.ros2_launch.bridges.entry import (
     Passed,
 )
 from checker.source.text import Located
-from checker.source.yaml import YamlDocument, YamlNode
+
+if TYPE_CHECKING:
+    from checker.source.yaml import YamlDocument, YamlNode
 
 DIRECTIONS: Mapping[str, Direction] = {
     "BIDIRECTIONAL": Direction.BOTH,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from itertools import islice, pairwise
+from typing import TYPE_CHECKING
 
 from msgspec import field
 from msgspec.structs import replace
@@ -36,7 +37,9 @@ from checker.expand.ros2_launch.graph import (
 from checker.expand.ros2_launch.package_files import local_file, read_file
 from checker.package.package import Package
 from checker.source.text import Located, SourceText
-from checker.source.yaml import YamlDocument, read_yaml
+
+if TYPE_CHECKING:
+    from checker.source.yaml import YamlDocument
 
 _BRIDGES = ("ros_gz_bridge", "ros_ign_bridge")
 _IMAGES = ("ros_gz_image", "ros_ign_image")
@@ -133,6 +136,8 @@ def loose_bridges(package: Package, named: Iterable[str]) -> Bridges:
         package: That is checked.
         named: Those that launch files name.
     """
+    from checker.source.yaml import read_yaml
+
     reader, known = _Reader(package), set(named)
     files = (entry.path for entry in package.index.files if _LOOSE.search(entry.path.lower()))
     for path in islice((path for path in files if path not in known), _LOOSE_LIMIT):
@@ -233,6 +238,8 @@ class _Reader:
     def file(self, path: str, at: _At) -> None:
         if not path:
             return
+        from checker.source.yaml import read_yaml
+
         source = read_file(self._package, path)
         if isinstance(source, str):
             self._unread.append(f"the bridge's file {shown(path)} is not read: {source}")

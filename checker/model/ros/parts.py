@@ -1,0 +1,86 @@
+"""What ROS 2 makes of the robots: ros2_control, and what launch files simulate and connect."""
+
+from __future__ import annotations
+
+from checker.base.parts import NotAvailable, part
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.xacro.expansion import Expander
+from checker.model.ros.simulation import Simulations
+from checker.model.ros.simulation import simulations as read_simulations
+from checker.model.ros.spawned import SpawnedReader
+from checker.model.ros.wiring.wiring import Wiring
+from checker.model.ros.wiring.wiring import wirings as read_wirings
+from checker.model.ros2_control.launched import LaunchedControl, launched_files
+from checker.model.ros2_control.launched import launched_controls as read_launched_controls
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+
+_YAML = (".yaml", ".yml")
+"""Of files that may tell a bridge what to do."""
+
+
+@part
+def control_reader(package: Package, launch: Ros2Launch | NotAvailable) -> ControlReader:
+    """Return what reads ros2_control of the package's robots; each file of parameters once."""
+    graphs = () if isinstance(launch, NotAvailable) else launch.entries
+    return ControlReader(package, launched_files(package, graphs))
+
+
+@part
+def spawned_reader(package: Package, expander: Expander, control: ControlReader) -> SpawnedReader:
+    """Return what reads the robots that launch files spawn and describe; each file once."""
+    return SpawnedReader(package, expander, control)
+
+
+@part
+def robot_controls(
+    descriptions: tuple[UrdfDescription, ...], reader: ControlReader
+) -> tuple[RobotControl, ...] | NotAvailable:
+    """Return ros2_control of each robot that has it."""
+    found = map(reader.control, descriptions) if any(map(may_be_controlled, descriptions)) else ()
+    controls = tuple(control for control in found if control is not None)
+    return controls or NotAvailable("no robot is controlled by ros2_control", applicable=False)
+
+
+@part
+def launched_controls(
+    launch: Ros2Launch, controls: tuple[RobotControl, ...] | NotAvailable, reader: ControlReader
+) -> tuple[LaunchedControl, ...] | NotAvailable:
+    """Return what each launch file of ROS 2 does for ros2_control."""
+    known = () if isinstance(controls, NotAvailable) else controls
+    found = tuple(read_launched_controls(reader, launch.entries, known))
+    return found or NotAvailable("no launch file spawns a controller", applicable=False)
+
+
+@part
+def simulations(
+    package: Package, launch: Ros2Launch | NotAvailable, reader: SpawnedReader
+) -> Simulations | NotAvailable:
+    """Return what the ROS 2 launch files simulate and bridge."""
+    known = None if isinstance(launch, NotAvailable) else launch
+    paths = (entry.path.lower() for entry in package.index.files)
+    if known is not None or any(path.endswith(_YAML) for path in paths):
+        if package.only:
+            return NotAvailable("a single file has no launch files", applicable=False)
+        found = read_simulations(package, known, reader)
+        if any(it.bridges.is_there or it.starts_gazebo or it.classic_robots for it in found.all):
+            return found
+    return NotAvailable("no launch file starts Gazebo or a bridge to it", applicable=False)
+
+
+@part
+def wirings(
+    launch: Ros2Launch,
+    simulations: Simulations | NotAvailable,
+    control: ControlReader,
+    spawned: SpawnedReader,
+) -> tuple[Wiring, ...] | NotAvailable:
+    """Return the wiring of each launch file of ROS 2."""
+    known = None if isinstance(simulations, NotAvailable) else simulations
+    found = tuple(read_wirings(launch, known, control, spawned))
+    return found or NotAvailable("no launch file starts a node", applicable=False)

@@ -1,0 +1,63 @@
+"""What URDF files describe, and what controls it in a URDF package."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+from checker.base.parts import Ask, NotAvailable, part
+from checker.expand.launch.package_launch import LaunchEntries
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.xacro.expansion import Expander, XacroArguments
+from checker.model.control.controllers import ControlSystem
+from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles
+from checker.model.urdf.package_descriptions import PackageDescriptions
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+
+
+@part
+def package_descriptions(
+    package: Package,
+    expander: Expander,
+    arguments: XacroArguments,
+    launch: Ros2Launch | NotAvailable,
+    ends: ExitStack,
+) -> PackageDescriptions:
+    """Return the URDF files that stand for a robot, as they are being expanded."""
+    ros2 = None if isinstance(launch, NotAvailable) else launch
+    read = PackageDescriptions(package, expander, args=arguments.values, ros2=ros2)
+    ends.callback(read.stop)
+    return read
+
+
+@part
+def files(read: PackageDescriptions) -> UrdfFiles | NotAvailable:
+    """Return what became of the URDF files."""
+    if not read.applicable:
+        return NotAvailable("no URDF file is a robot", applicable=False)
+    return read.files
+
+
+@part
+def descriptions(package: Package, files: UrdfFiles) -> tuple[UrdfDescription, ...] | NotAvailable:
+    """Return the robots that URDF files describe."""
+    if files.descriptions:
+        return files.descriptions
+    wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
+    large = [f"{file.path} {file.reason}" for file in package.too_large]
+    reasons = [*wrong, *files.unread, *large]
+    reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
+    return NotAvailable(reason, applicable=bool(reasons))
+
+
+@part
+def control(package: Package, entries: LaunchEntries, ask: Ask) -> ControlSystem | NotAvailable:
+    """Return what controls the joints of a URDF package."""
+    alone = package.only and isinstance(ask.one(UrdfFiles), UrdfFiles)
+    if package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
+        return NotAvailable("the package is not a URDF package", applicable=False)
+    from checker.model.control.system import control_system
+
+    return control_system(package, entries, ask.all(Robot), ask.all(UrdfDescription))
