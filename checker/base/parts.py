@@ -128,11 +128,12 @@ def part(function: F) -> F:
     It is called once for a package, when the part is first asked for. A parameter without
     `| NotAvailable` is never given one: what a part needs and is missing is why that part is, too.
     """
-    setattr(function, _MARK, True)
+    function.__dict__[_MARK] = True
     return function
 
 
 def providers_in(module: object) -> dict[str, Provider]:
     """Return the functions of a module that make parts, by the names of the types."""
-    marked = [each for each in vars(module).values() if getattr(each, _MARK, False) is True]
+    functions = filter(inspect.isfunction, vars(module).values())
+    marked = [function for function in functions if _MARK in function.__dict__]
     return {need_of(get_type_hints(each)["return"]).kind: Provider(each) for each in marked}
