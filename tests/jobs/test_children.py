@@ -16,7 +16,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import NAMESPACES
 from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
-from checker.service.jobs.exchange import NICENESS
+from checker.service.jobs.exchange import NICENESS, TRIAL_NICENESS
 from checker.service.jobs.outcome import Checked, Outcome
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import Store
@@ -58,14 +58,21 @@ def killed(process: int) -> None:
     assert eventually(lambda: not is_alive(process))
 
 
-def check(store: Store, children: Children, look: Callable[[], object]) -> Outcome:
+def check(
+    store: Store, children: Children, look: Callable[[], object], stage: Stage = Stage.STATIC
+) -> Outcome:
     """Check a model that was not there before; look around meanwhile."""
     model = b"<sdf version='1.6'>" + os.urandom(8).hex().encode() + b"</sdf>"
-    return check_file(store, children, look, model, "model.sdf")
+    return check_file(store, children, look, model, "model.sdf", stage)
 
 
 def check_file(
-    store: Store, children: Children, look: Callable[[], object], data: bytes, name: str
+    store: Store,
+    children: Children,
+    look: Callable[[], object],
+    data: bytes,
+    name: str,
+    stage: Stage = Stage.STATIC,
 ) -> Outcome:
     """Check an upload; look around meanwhile."""
     with store.incoming() as incoming:
@@ -76,7 +83,7 @@ def check_file(
         look()
         return False
 
-    return check_upload(store, children, order, Stage.STATIC, never)
+    return check_upload(store, children, order, stage, never)
 
 
 def seen_in(store: Store, children: Children) -> set[int]:
@@ -114,11 +121,18 @@ def test_one_that_died_is_not_missed(whom: str, store: Store, children: Children
     assert first not in seen
 
 
-def test_all_of_its_threads_stand_back_behind_the_service(store: Store, children: Children) -> None:
+@pytest.mark.parametrize(
+    ("stage", "niceness"),
+    [(Stage.STATIC, NICENESS), (Stage.TRIAL, NICENESS + TRIAL_NICENESS)],
+)
+def test_all_of_its_threads_stand_back(
+    store: Store, children: Children, stage: Stage, niceness: int
+) -> None:
+    """Behind the service, and those of a trial behind those that look for first findings."""
     seen: list[set[int]] = []
-    outcome = check(store, children, lambda: seen.extend(map(nicenesses, tasks())))
+    outcome = check(store, children, lambda: seen.extend(map(nicenesses, tasks())), stage)
     assert isinstance(outcome, Checked)
-    assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, 19)}
+    assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + niceness, 19)}
 
 
 @pytest.mark.skipif(

@@ -25,9 +25,10 @@ from checker.base.record import Record
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.account import free_account
 from checker.base.sandbox.layers import Layer, Sandbox
+from checker.base.sandbox.priority import stand_back
 from checker.base.sandbox.program_files import program_paths
 from checker.base.sandbox.task import DEBUG
-from checker.base.sandbox.usage import Usage, usage_below
+from checker.base.sandbox.usage import Usage, below, usage_below
 
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
@@ -182,6 +183,11 @@ class OwnLauncher(Launcher):
     def usage(self, folder: Path, most: Usage) -> Usage:
         """Return what all that was started uses together; see `usage_below`."""
         return usage_below(self._process.pid, folder, most)
+
+    def stand_back(self, by: int) -> None:
+        """Have all that was started stand back further behind others, as `nice` counts it."""
+        if processes := below(self._process.pid):
+            stand_back(processes, by)
 
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""

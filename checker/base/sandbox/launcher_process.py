@@ -22,11 +22,11 @@ import socket
 import sys
 from collections.abc import Container, Sequence
 from contextlib import suppress
-from pathlib import Path
-from time import monotonic, sleep
+from time import monotonic
 from typing import Any
 
 from checker.base.sandbox.layers import ACCOUNT, NAMESPACES, Layer, Sandbox, enter
+from checker.base.sandbox.priority import stand_back
 from checker.base.sandbox.task import FAILED, prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
@@ -84,7 +84,6 @@ _MOST_DESCRIPTORS = 1_048_576
 """That come with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
 _TELL_SECONDS = 0.5
-_NICE_TRIES, _NICE_SECONDS = 20, 0.1
 _PROCESSES_LIMIT = 512
 _COUNTS_BY_NAMESPACE = (5, 14)
 
@@ -261,27 +260,10 @@ def _limit_processes(layers: Sequence[Layer]) -> None:
         resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
 
 
-def _stand_back(niceness: int) -> None:
-    """Let come first what people wait for at this very moment: uploads, pages."""
-    os.nice(niceness)
-    # A session of its own may be a group of its own, within which alone niceness counts (sched(7)).
-    # Of those who are not root, the system hears one in a tenth of a second on the whole machine.
-    group = Path("/proc/self/autogroup")
-    for _ in range(_NICE_TRIES):
-        try:
-            group.write_text(str(niceness), encoding="ascii")
-        except BlockingIOError:
-            sleep(_NICE_SECONDS)
-        except OSError:
-            return
-        else:
-            return
-
-
 def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
-        _stand_back(niceness)
+        stand_back([os.getpid()], niceness)
     if loaded:
         prepared(loaded)
     with socket.socket(fileno=descriptor) as control:

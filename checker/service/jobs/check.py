@@ -28,7 +28,14 @@ from checker.base.words import plain
 from checker.engine.report_cache import program_parts
 from checker.report.files import ARTEFACT_NAME
 from checker.service.jobs.children import ANSWER_LIMIT, Children, Ended
-from checker.service.jobs.exchange import CACHE, UPLOAD, StageLimits, is_part, read_summary
+from checker.service.jobs.exchange import (
+    CACHE,
+    TRIAL_NICENESS,
+    UPLOAD,
+    StageLimits,
+    is_part,
+    read_summary,
+)
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,
     UNFINISHED,
@@ -106,8 +113,9 @@ def _checked(
     if isinstance(content, NotReadable):
         return Disturbed(f"the stored upload {content.reason}")
     contents = chain(((UPLOAD, content),), _known_parts(store, order.upload))
+    niceness = TRIAL_NICENESS if stage is Stage.TRIAL else 0
     with children.checked(
-        json.dumps(request).encode(), contents, limits.clock_seconds, cancelled
+        json.dumps(request).encode(), contents, limits.clock_seconds, cancelled, niceness
     ) as ended:
         if ended.cancelled:
             return Cancelled()

@@ -66,6 +66,12 @@ class _Place:
             held.callback(self.child.stop)
             self._held = held.pop_all()
 
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]], niceness: int) -> None:
+        """Give it a check, which stands back behind others by so much."""
+        if niceness:
+            self._starter.stand_back(niceness)
+        self.child.give(request, contents)
+
     @property
     def alive(self) -> bool:
         """Whether it can still check."""
@@ -107,6 +113,7 @@ class Children:
         contents: Iterable[tuple[str, Content]],
         seconds: float,
         cancelled: Callable[[], bool],
+        niceness: int = 0,
     ) -> Iterator[Ended]:
         """Have a process check an upload; at the end none of its processes is left.
 
@@ -115,6 +122,7 @@ class Children:
             contents: The files that go with it.
             seconds: By the clock, before it is stopped.
             cancelled: Whether it is no longer wanted; asked a few times a second.
+            niceness: By how much it stands back behind other checks, as `nice` counts it.
 
         Yields:
             How it ended; its files can be read meanwhile.
@@ -124,7 +132,7 @@ class Children:
         """
         place = self._take()
         try:
-            place.child.give(request, contents)
+            place.give(request, contents, niceness)
             yield _watched(place, seconds, cancelled)
         finally:
             place.close()

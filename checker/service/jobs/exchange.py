@@ -27,6 +27,8 @@ from checker.service.jobs.outcome import Checked
 
 NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
+TRIAL_NICENESS = 5
+"""Of trials below static rules: somebody waits for the first findings."""
 
 
 MOST = Usage(memory=3_000_000_000, disk=2_000_000_000, files=200_000, processes=64)
