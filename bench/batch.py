@@ -78,7 +78,7 @@ class Taken:
     Attributes:
         seconds: By the clock, from the start of the workers.
         processor: Seconds of processors, of all processes of the service.
-        commits: Transactions of the database.
+        rows: That the database wrote.
         log: Bytes that the database wrote ahead.
         database: Bytes by which it grew.
         stored: Bytes of uploads, results and parts.
@@ -86,7 +86,7 @@ class Taken:
 
     seconds: float
     processor: float
-    commits: int
+    rows: int
     log: int
     database: int
     stored: int
@@ -120,12 +120,12 @@ def _processor() -> float:
 
 
 def _figures(engine: sa.Engine) -> tuple[int, int, int]:
-    """Return commits, bytes written ahead and bytes of a database of PostgreSQL."""
-    query = """SELECT xact_commit, pg_current_wal_lsn() - '0/0', pg_database_size(datname)
-        FROM pg_stat_database WHERE datname = current_database()"""
+    """Return rows written, bytes written ahead and bytes of a database of PostgreSQL."""
+    query = """SELECT tup_inserted + tup_updated + tup_deleted, pg_current_wal_lsn() - '0/0',
+        pg_database_size(datname) FROM pg_stat_database WHERE datname = current_database()"""
     with engine.connect() as connection:
-        commits, log, size = connection.exec_driver_sql(query).one()
-    return int(commits), int(log), int(size)
+        rows, log, size = connection.exec_driver_sql(query).one()
+    return int(rows), int(log), int(size)
 
 
 def main() -> None:
@@ -146,7 +146,7 @@ def main() -> None:
             show("  load after", os.getloadavg()[0], "")
     each = took[2]
     show("a check: seconds of processors", each.processor / number, "s")
-    show("  transactions of the database", each.commits / number, "")
+    show("  rows that the database writes", each.rows / number, "")
     show("  written ahead by it", each.log / number / 1e3, "kB")
     show("  by which it grows", each.database / number / 1e3, "kB")
     show("  stored: upload, result, parts", each.stored / number / 1e3, "kB")
