@@ -14,13 +14,12 @@ from checker.base.output import Stages
 from checker.base.parts import part
 from checker.base.record import Record
 from checker.model.robot import Robot
-from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
 from checker.report.report import Display
 from checker.report.scene.builder import scene_of
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import MeshFiles, NoSurfaces, Surfaces
-from checker.report.scene.pictures import Drawing
+from checker.report.scene.mesh_files import MeshFiles, NoSurfaces, Surfaces, surfaces_of
+from checker.report.scene.pictures import ASPECT, Drawing, shots_of
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.report.scene.scene import DisplayScene, Layer
 
@@ -61,7 +60,7 @@ def display_of(
     if not any(link.items for link in scene.links):
         return None
     if drawing is not None:
-        drawing.give(scene)
+        drawing.give(scene, tuple(shots_of(scene, ASPECT)))
     for spared in _SPARED:
         glb = glb_of(without(scene, spared))
         if len(glb) <= BYTES:
@@ -133,10 +132,7 @@ class RobotDisplay(Record, eq=False, dict=True):
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:
-        meshes = self.robots[0].meshes
-        if isinstance(meshes, PackageMeshes):
-            return MeshFiles(meshes)
-        return NoSurfaces()
+        return surfaces_of(self.robots[0])
 
 
 @part

@@ -1,122 +1,18 @@
-"""Meshes and pictures that the robot uses, in the new package, and pictures drawn of it."""
+"""Meshes and pictures that the robot uses, in the new package."""
 
 from __future__ import annotations
 
-import base64
-import json
 import posixpath
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
 from checker.base.cache import NO_CACHE
-from checker.base.child_process import NONSENSE, Limits, ask, from_json
 from checker.base.files import NotReadable
-from checker.base.parts import WorkerFailed
-from checker.base.record import Record
-from checker.base.sandbox.files import from_disk
 from checker.migrate.source import Source
-from checker.model.components import Visual
 from checker.model.mesh import Mesh
-from checker.model.robot import Robot
 from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
-from checker.physics.mesh.process import SIZE_LIMIT
 from checker.physics.mesh.uris import MeshFile, file_behind
-from checker.physics.trial.mjcf.names import quaternion
-
-# Pictures of the robot from five sides, by MuJoCo in a child process, where OpenGL is there.
-
-
-NAMES = ("1", "2", "3", "4", "5")
-"""Slantwise, from above, from the left, from the front, from the rear."""
-SHAPES = ("box", "sphere", "cylinder", "capsule", "mesh")
-_GREY = (0.6, 0.6, 0.6, 1.0)
-_SECONDS, _MEMORY = 60.0, 16_000_000_000
-"""Of processor time, and bytes of address space: software renderers map far more than they use."""
-
-
-class Thumbnails(Record):
-    """Pictures, or why there are none.
-
-    Attributes:
-        files: PNG files by their name without suffix.
-        trouble: What the author has to do instead; empty when they were drawn.
-    """
-
-    files: Mapping[str, bytes] = {}
-    trouble: str = ""
-
-
-def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
-    """Draw a robot.
-
-    Args:
-        robot: To draw.
-        folder: Of its package, to which the URIs of its meshes are relative.
-    """
-    shapes = list(_shapes(robot, folder))
-    if not shapes:
-        return Thumbnails(trouble=_trouble("the model has no visuals"))
-    request = json.dumps({"shapes": shapes}).encode()
-    files = dict.fromkeys((str(shape["file"]) for shape in shapes if shape["file"]), SIZE_LIMIT)
-    limits = Limits(_SECONDS, _MEMORY, draws=True)
-    data = ask(f"{__package__}.thumbnail_worker", request, limits, from_disk(files.items()))
-    if isinstance(data, WorkerFailed):
-        return Thumbnails(trouble=_trouble(f"the process that draws {data.reason}"))
-    try:
-        answer = from_json(data)
-        if "pictures" not in answer:
-            return Thumbnails(trouble=_trouble(str(answer.get("unable", "there is no picture"))))
-        pictures = (base64.b64decode(picture) for picture in answer["pictures"])
-        return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
-    except NONSENSE:
-        return Thumbnails(trouble=_trouble("the process that draws sent an invalid answer"))
-
-
-def _trouble(reason: str) -> str:
-    return f"thumbnails/1.png to 5.png (at an angle, top, left, front, rear), not drawn: {reason}"
-
-
-def _shapes(robot: Robot, folder: Path) -> Iterator[dict[str, Any]]:
-    for link in robot.links:
-        for visual in link.visuals:
-            pose = robot.pose_of_part(link, visual.pose)
-            shape = visual.geometry.shape
-            if pose is None or shape not in SHAPES:
-                continue
-            file = _file(visual, folder) if shape == "mesh" else ""
-            if shape == "mesh" and not file:
-                continue
-            yield {
-                "shape": shape,
-                "sizes": {
-                    name: [value.value for value in values]
-                    for name, values in visual.geometry.sizes.items()
-                },
-                "file": file,
-                "position": pose.translation,
-                "quaternion": quaternion(pose.rotation),
-                "colour": _colour(visual),
-            }
-
-
-def _file(visual: Visual, folder: Path) -> str:
-    """Return where a mesh lies on disk; empty for one that the package does not hold."""
-    uri = visual.geometry.uri
-    path = posixpath.normpath(uri.value) if uri is not None else ""
-    if not path or path.startswith(("/", "../")) or "://" in path:
-        return ""
-    real = folder / path
-    return str(real.resolve()) if real.is_file() else ""
-
-
-def _colour(visual: Visual) -> list[float]:
-    colour = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
-    values = [min(max(number.value, 0.0), 1.0) for number in colour[:4]]
-    return [*values, *_GREY[len(values) :]]
-
 
 MESHES, TEXTURES = "meshes", "materials/textures"
 _PICTURES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".gif", ".dds")

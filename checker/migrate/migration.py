@@ -21,7 +21,7 @@ from checker.engine.review import findings_of
 from checker.engine.subject import Subject
 from checker.finding import Safety
 from checker.fix.rounds import fix_package
-from checker.migrate.assets import Assets, thumbnails_of
+from checker.migrate.assets import Assets
 from checker.migrate.bridges import sensor_bridges
 from checker.migrate.drive import Drive, drive_of, turn_forward
 from checker.migrate.measured_facts import facts_of
@@ -38,6 +38,7 @@ from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.plugins import Judged, Servo, judge_plugins, servos_of
 from checker.migrate.sensors import rewrite_sensors
 from checker.migrate.source import Source, opened_source, original_text, papers_of
+from checker.migrate.thumbnails import thumbnails_of
 from checker.migrate.wheels import find_drive_wheels
 from checker.migrate.xml_parts import sharpen_angles
 from checker.model.robot import Robot
@@ -210,7 +211,7 @@ def _surround(
     log.points += [*_what_moves_it(drive, servos), *papers.open_points]
     if not any(sensor.kind is SensorType.IMU for sensor in robot.sensors):
         log.points.append("an IMU: the description has none, but every SubT robot has one")
-    pictures = thumbnails_of(robot, staging.folder)
+    pictures = thumbnails_of(robot)
     for name, picture in pictures.files.items():
         staging.write(f"thumbnails/{name}.png", picture)
     log.points += [pictures.trouble] if pictures.trouble else []

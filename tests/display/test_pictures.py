@@ -22,7 +22,7 @@ from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
 from checker.report.scene.drawing.request import FIELD_OF_VIEW, drawn_items, framed
 from checker.report.scene.drawing.worker import LARGEST
-from checker.report.scene.pictures import HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
+from checker.report.scene.pictures import ASPECT, HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from tests.mesh.files import box
 
@@ -65,7 +65,7 @@ def red(picture: Picture) -> Any:
 def pictures_of(shown: DisplayScene) -> tuple[Picture, ...]:
     drawing = Drawing()
     try:
-        drawing.give(shown)
+        drawing.give(shown, tuple(shots_of(shown, ASPECT)))
         return drawing.pictures
     finally:
         drawing.stop()
@@ -168,7 +168,8 @@ def test_a_drawing_may_begin_before_it_is_known_what_to_draw() -> None:
         assert drawing.pictures == ()
         drawing.begin()
         assert drawing.pictures == ()
-        drawing.give(scene(surface()))
+        shown = scene(surface())
+        drawing.give(shown, tuple(shots_of(shown, ASPECT)))
         early = drawing.pictures
     finally:
         drawing.stop()
@@ -182,7 +183,7 @@ def test_what_was_drawn_once_is_not_drawn_again(
     def pictures(shown: DisplayScene) -> tuple[Picture, ...]:
         drawing = Drawing(Cache(tmp_path))
         try:
-            drawing.give(shown)
+            drawing.give(shown, tuple(shots_of(shown, ASPECT)))
             return drawing.pictures
         finally:
             drawing.stop()

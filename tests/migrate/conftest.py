@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from checker.migrate import migration
-from checker.migrate.assets import Thumbnails
+from checker.migrate.thumbnails import Thumbnails
 
 MANIFEST = """<package format="2"><name>rover_description</name><version>1.0.0</version>
 <description>A rover</description><maintainer email="a@example.org">A</maintainer>

@@ -2,65 +2,64 @@
 
 from __future__ import annotations
 
-import json
-import os
+import io
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
-from checker.base.child_process import Limits, ask
-from checker.migrate.assets import thumbnails_of
-from checker.model.sdf.reader import read_sdf
-from tests.model.robots import document
+from checker.base.cache import NO_CACHE
+from checker.engine.subject import Subject
+from checker.migrate.thumbnails import Thumbnails, thumbnails_of
+from checker.model.robot import Robot
+from checker.package.inputs import open_input
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-FLAT = "v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 3 4\n"
-ROBOT = """<sdf version="1.6"><model name="m"><link name="l"><visual name="v"><geometry>
-<mesh><uri>a.obj</uri></mesh></geometry></visual></link></model></sdf>"""
-LIMITS = Limits(60.0, 16_000_000_000, draws=True)
-NO_OPENGL = "OpenGL is not available (EGL or OSMesa)"
+ROBOT = """<sdf version="1.6"><model name="m"><link name="l">{}</link></model></sdf>"""
+VISUAL = """<visual name="v"><geometry><mesh><uri>a.obj</uri></mesh></geometry>
+<material><diffuse>1 0 0 1</diffuse></material></visual>"""
 
 
-def request_of(folder: Path, mesh: str) -> bytes:
+def drawn(folder: Path, mesh: str, visual: str = VISUAL) -> Thumbnails:
     (folder / "a.obj").write_text(mesh, "utf-8")
-    shape = {
-        "shape": "mesh",
-        "sizes": {},
-        "file": str(folder / "a.obj"),
-        "position": [0, 0, 0],
-        "quaternion": [1, 0, 0, 0],
-        "colour": [1, 1, 1, 1],
-    }
-    return json.dumps({"shapes": [shape]}).encode()
+    (folder / "model.sdf").write_text(ROBOT.format(visual), "utf-8")
+    with open_input(folder) as opened:
+        subject = Subject(opened.packages[0], NO_CACHE)
+        try:
+            robot = subject.one(Robot)
+            assert isinstance(robot, Robot)
+            return thumbnails_of(robot)
+        finally:
+            subject.close()
 
 
 @pytest.mark.parametrize(
-    ("mesh", "said"),
+    ("mesh", "visual", "said"),
     [
-        ("no mesh", "no mesh of the robot can be read"),
-        (TRIANGLE, "no mesh of the robot can be read"),
-        (FLAT, "MuJoCo refuses the shapes"),
+        ("no mesh", VISUAL, "a.obj"),
+        (TETRAHEDRON, VISUAL.replace("a.obj", "b.obj"), "b.obj"),
+        (TETRAHEDRON, "", "the model has no visuals"),
     ],
 )
-def test_a_mesh_that_cannot_be_drawn_is_not_a_lack_of_opengl(
-    tmp_path: Path, mesh: str, said: str
-) -> None:
-    request, path = request_of(tmp_path, mesh), str(tmp_path / "a.obj")
-    drawn = ask("checker.migrate.thumbnail_worker", request, LIMITS, [(path, mesh.encode())])
-    assert isinstance(drawn, bytes)
-    unable = json.loads(drawn)["unable"]
-    assert said in unable or unable == NO_OPENGL
+def test_what_cannot_be_drawn_is_named(tmp_path: Path, mesh: str, visual: str, said: str) -> None:
+    pictures = drawn(tmp_path, mesh, visual)
+    assert pictures.files == {}
+    assert pictures.trouble.startswith("thumbnails/1.png to 5.png ")
+    assert said in pictures.trouble
 
 
 @pytest.mark.programs
-def test_a_robot_of_a_mesh_is_drawn_from_a_relative_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "a.obj").write_text(TETRAHEDRON, "utf-8")
-    monkeypatch.chdir(tmp_path)
-    (robot,) = read_sdf(document(ROBOT))
-    drawn = thumbnails_of(robot, Path(os.curdir))
-    if NO_OPENGL in drawn.trouble:
-        pytest.skip(NO_OPENGL)
-    assert (drawn.trouble, len(drawn.files)) == ("", 5)
+def test_a_robot_is_drawn_from_five_sides(tmp_path: Path) -> None:
+    pictures = drawn(tmp_path, TETRAHEDRON)
+    if "the process that draws" in pictures.trouble:
+        pytest.skip(pictures.trouble)
+    assert (pictures.trouble, [*pictures.files]) == ("", ["1", "2", "3", "4", "5"])
+    seen = [
+        np.asarray(Image.open(io.BytesIO(file), formats=("PNG",)), np.int64)
+        for file in pictures.files.values()
+    ]
+    for pixels in seen:
+        red = (pixels[..., 0] > 90) & (pixels[..., 1] < 80)
+        assert 0.05 < red.mean() < 0.6
+    assert len({pixels.tobytes() for pixels in seen}) == 5

@@ -18,6 +18,7 @@ from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.model.mesh import Mesh, MeshFault
+from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.physics.mesh import process
 from checker.physics.mesh.obj import MATERIAL_LIMIT
@@ -150,6 +151,12 @@ class MeshFiles(Record, eq=False, dict=True):
             "appearance", self._asked[1], appearance_from_json, _lasts, _files_of
         )
         return Background(work, self.meshes.cache, self.meshes.server)
+
+
+def surfaces_of(robot: Robot) -> MeshFiles | NoSurfaces:
+    """Return what gives the look of the mesh files of a robot."""
+    meshes = robot.meshes
+    return MeshFiles(meshes) if isinstance(meshes, PackageMeshes) else NoSurfaces()
 
 
 def _asked_of(

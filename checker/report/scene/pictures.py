@@ -59,12 +59,28 @@ def shots_of(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
         Layer.COLLISION: "Its collision shapes, from its front left",
     }
     for layer, caption in captions.items():
-        boxes = _boxes(scene, layer)
-        if boxes:
-            points = _points(scene, boxes, 0)
-            camera = framed(points, *_FROM_FRONT_LEFT, aspect)
-            yield Shot(caption, layer, camera, _tile(camera))
+        if shot := shot_of(scene, layer, _FROM_FRONT_LEFT, aspect, caption):
+            yield shot
     yield from _moments(scene, aspect)
+
+
+def shot_of(
+    scene: DisplayScene, layer: Layer, direction: tuple[float, float], aspect: float, caption: str
+) -> Shot | None:
+    """Return a shot of a robot at rest; None where nothing of a layer can be shown.
+
+    Args:
+        scene: Of the robot.
+        layer: What is seen.
+        direction: Azimuth and elevation of the line of sight, degrees.
+        aspect: Width of the picture over its height.
+        caption: A sentence without its dot.
+    """
+    boxes = _boxes(scene, layer)
+    if not boxes:
+        return None
+    camera = framed(_points(scene, boxes, 0), *direction, aspect)
+    return Shot(caption, layer, camera, _tile(camera))
 
 
 def _moments(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
@@ -162,6 +178,7 @@ def ground_of(scene: DisplayScene) -> float:
 
 WIDTH, HEIGHT = 640, 480
 """Pixels."""
+ASPECT = WIDTH / HEIGHT
 
 
 @dataclass(eq=False)
@@ -190,26 +207,42 @@ class Drawing:
         if self.child is not None:
             self.child.stop()
 
-    def give(self, scene: DisplayScene) -> None:
-        """Say what to draw; it is drawn while the caller does something else."""
-        self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
+    def give(self, scene: DisplayScene, shots: Sequence[Shot], form: str = "JPEG") -> None:
+        """Say what to draw; it is drawn while the caller does something else.
+
+        Args:
+            scene: Of a robot.
+            shots: Pictures of it.
+            form: Of the files: JPEG, or PNG.
+        """
+        self._shots = tuple(shots)
         if self._shots:
             item = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
+            item["form"] = form
             key = work_key([json.dumps(item)], ["report/scene/drawing"], ["mujoco"])
             self._drawn = tuple(self._background(key, item, platform) for platform in PLATFORMS)
             self._drawn[0].begin()
 
     @property
-    def pictures(self) -> tuple[Picture, ...]:
-        """The pictures; none where nothing can draw without a window."""
+    def files(self) -> list[bytes] | WorkerFailed:
+        """The files in the order of the shots, or why nothing can draw without a window."""
+        files: list[bytes] | WorkerFailed = []
         for answer in self._drawn:
             files = answer.result()
             if not isinstance(files, WorkerFailed):
-                return tuple(
-                    Picture(shot.caption, jpeg, WIDTH, HEIGHT)
-                    for shot, jpeg in zip(self._shots, files, strict=True)
-                )
-        return ()
+                break
+        return files
+
+    @property
+    def pictures(self) -> tuple[Picture, ...]:
+        """The files of JPEG as pictures; none where nothing can draw without a window."""
+        files = self.files
+        if isinstance(files, WorkerFailed):
+            return ()
+        return tuple(
+            Picture(shot.caption, jpeg, WIDTH, HEIGHT)
+            for shot, jpeg in zip(self._shots, files, strict=True)
+        )
 
     def _background(
         self, key: str, item: Mapping[str, Any], platform: str

@@ -48,6 +48,7 @@ def rehearsal() -> Mapping[str, Any]:
     return {
         "width": 64,
         "height": 48,
+        "form": "JPEG",
         "ground": 0.0,
         "meshes": [surface_to_json(plain), surface_to_json(coloured)],
         "links": [0],
@@ -66,7 +67,7 @@ def rehearsal() -> Mapping[str, Any]:
 
 
 LARGEST = 60_000
-"""Bytes of a picture."""
+"""Bytes of a JPEG file."""
 _QUALITIES = (80, 70, 60, 45, 30)
 _THREADS = "2"
 _BESIDES = 10
@@ -84,6 +85,7 @@ def load(platform: str) -> None:
     os.environ["LP_NUM_THREADS"] = _THREADS
     import_module("mujoco")
     import_module("PIL.JpegImagePlugin")
+    import_module("PIL.PngImagePlugin")
     # Mesa compiles what it draws with when it is first drawn: that is half of what a picture takes.
     _pictures(rehearsal())
 
@@ -95,7 +97,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
         request: JSON; `items` of the form that `checker.report.scene.drawing.request` has.
 
     Returns:
-        JSON: of each the JPEG files in the order of the shots, as base64.
+        JSON: of each the files in the order of the shots, as base64.
     """
     return json.dumps([_encoded(item) for item in json.loads(request)["items"]]).encode()
 
@@ -106,7 +108,7 @@ def _encoded(item: Mapping[str, Any]) -> list[str]:
 
 def _pictures(item: Mapping[str, Any]) -> list[bytes]:
     easel = _Easel(item)
-    return [_jpeg(easel.drawn(shot), item) for shot in item["shots"]]
+    return [_file(easel.drawn(shot), item) for shot in item["shots"]]
 
 
 class _Easel:
@@ -184,14 +186,14 @@ def _only(group: int) -> Any:
     return options
 
 
-def _jpeg(pixels: Any, item: Mapping[str, Any]) -> bytes:
+def _file(pixels: Any, item: Mapping[str, Any]) -> bytes:
     from PIL import Image
 
     size = (item["width"], item["height"])
     image = Image.fromarray(pixels).resize(size, Image.Resampling.HAMMING)
     for quality in _QUALITIES:
         file = io.BytesIO()
-        image.save(file, "JPEG", quality=quality)
-        if file.tell() <= LARGEST:
+        image.save(file, item["form"], quality=quality)
+        if item["form"] != "JPEG" or file.tell() <= LARGEST:
             break
     return file.getvalue()
