@@ -16,6 +16,7 @@ from contextlib import suppress
 from msgspec.structs import replace
 
 from checker.base.record import Record
+from checker.source.python_places import span_of_node
 from checker.source.text import Located, SourceText, Span
 
 LIMIT = 200_000
@@ -104,7 +105,7 @@ def read_setup(source: SourceText) -> SetupFile | None:
     scripts = tuple(reader.executables(given["entry_points"])) if "entry_points" in given else ()
     plain = {"package_dir", "options", None}.isdisjoint(given)
     if "data_files" not in given:
-        return SetupFile((), None not in given, reader.span(call), scripts, plain)
+        return SetupFile((), None not in given, span_of_node(reader.source, call), scripts, plain)
     return replace(reader.setup_file(given["data_files"]), executables=scripts, plain=plain)
 
 
@@ -160,21 +161,6 @@ class _Reader:
     def __init__(self, source: SourceText, names: Mapping[str, ast.expr]) -> None:
         self.source = source
         self.names = names
-        self.lines = [0]
-        for line in source.text.splitlines(keepends=True):
-            self.lines.append(self.lines[-1] + len(line))
-
-    def span(self, node: ast.expr) -> Span:
-        """Return the text of an expression."""
-        ends = (node.end_lineno or node.lineno, node.end_col_offset or 0)
-        return Span(self.source, self._offset(node.lineno, node.col_offset), self._offset(*ends))
-
-    def _offset(self, line: int, column: int) -> int:
-        """Return an offset in characters; the tree counts a line's bytes."""
-        start = self.lines[min(line, len(self.lines)) - 1]
-        end = self.lines[min(line, len(self.lines) - 1)]
-        before = self.source.text[start:end].encode("utf-8", "surrogatepass")[:column]
-        return start + len(before.decode("utf-8", "ignore"))
 
     def setup_file(self, given: ast.expr) -> SetupFile:
         """Read what is given as `data_files`."""
@@ -185,7 +171,7 @@ class _Reader:
                 complete = False
             else:
                 entries.append(entry)
-        return SetupFile(tuple(entries), complete, self.span(given))
+        return SetupFile(tuple(entries), complete, span_of_node(self.source, given))
 
     def _entries(self, node: ast.expr, depth: int) -> Iterator[DataFiles | None]:
         if depth > _DEEPEST:
@@ -213,7 +199,7 @@ class _Reader:
             destination,
             tuple(item for item in items if isinstance(item, Located)),
             tuple(item for item in items if isinstance(item, Pattern)),
-            self.span(node),
+            span_of_node(self.source, node),
         )
 
     def executables(self, node: ast.expr) -> Iterator[Executable]:
@@ -228,7 +214,9 @@ class _Reader:
             for entry in group.elts if isinstance(group, ast.List | ast.Tuple) else ():
                 with suppress(_Unknown):
                     if match := _EXECUTABLE.fullmatch(self._text(entry, 0)):
-                        yield Executable(match[1], match[2], match[3] or "", self.span(entry))
+                        yield Executable(
+                            match[1], match[2], match[3] or "", span_of_node(self.source, entry)
+                        )
 
     def _items(self, node: ast.expr, depth: int) -> Iterator[Located[str] | Pattern]:
         if depth > _DEEPEST:
@@ -237,7 +225,7 @@ class _Reader:
             yield from self._items(self.names[node.id], depth + 1)
         elif isinstance(node, ast.List | ast.Tuple):
             for item in node.elts:
-                yield Located(self._text(item, 0), self.span(item))
+                yield Located(self._text(item, 0), span_of_node(self.source, item))
         elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
             yield from self._items(node.left, depth + 1)
             yield from self._items(node.right, depth + 1)

@@ -51,6 +51,15 @@ def test_the_usual_forms_are_read() -> None:
     assert setup.data_files[1].span.text == "('share/' + package_name, ['package.xml'])"
 
 
+@pytest.mark.parametrize("character", ["\f", "\x1c", "\u2028", "\x85"])
+def test_characters_that_end_no_line_of_python_move_no_place(character: str) -> None:
+    """`str.splitlines` takes them for line ends."""
+    text = f"title = 'a{character}b'\n{character if character == chr(12) else ''}{SETUP}"
+    setup = read_setup(SourceText("setup.py", text))
+    assert setup is not None
+    assert setup.data_files[1].span.text == "('share/' + package_name, ['package.xml'])"
+
+
 def test_executables_are_read() -> None:
     text = """setup(entry_points={
     'console_scripts': ['talker = arm.nodes.talker:main', computed(), 'tool=arm.tool'],

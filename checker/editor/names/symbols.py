@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from checker.editor.names.outline.robot_symbols import sdf_symbols, urdf_symbols
 from checker.editor.names.outline.symbol import Symbol, SymbolKind, element_symbol
-from checker.editor.names.readers.python_places import PythonPlaces
 from checker.expand.ros2_launch.python.launch_file import parsed
 from checker.package.package import Package
+from checker.source.python_places import span_of_node
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
@@ -113,17 +113,18 @@ def _of_python(source: SourceText) -> Iterator[Symbol]:
     tree = parsed(source)
     if isinstance(tree, str):
         return
-    yield from _functions(tree, source, PythonPlaces(source.text))
+    yield from _functions(tree, source)
 
 
-def _functions(tree: ast.AST, source: SourceText, places: PythonPlaces) -> Iterator[Symbol]:
+def _functions(tree: ast.AST, source: SourceText) -> Iterator[Symbol]:
     for node in ast.iter_child_nodes(tree):
         if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             continue
         is_class = isinstance(node, ast.ClassDef)
-        start, end = places.of(node)
+        span = span_of_node(source, node)
+        start, end = span.start, span.end
         at = source.text.find(node.name, start, end)
         place = (at, at + len(node.name)) if at >= 0 else (start, start)
-        inside = tuple(_functions(node, source, places)) if is_class else ()
+        inside = tuple(_functions(node, source)) if is_class else ()
         kind = SymbolKind.CLASS if is_class else SymbolKind.FUNCTION
         yield Symbol(node.name, kind, start, end, *place, inside)

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from checker.editor.names.mention import Role, WrittenName
 from checker.editor.names.readers.launch_names import ARGUMENT
-from checker.editor.names.readers.python_places import PythonPlaces
 from checker.editor.names.readers.values import ELSEWHERE, files_named, names_in
+from checker.source.python_places import span_of_node
 from checker.source.text import SourceText
 
 _DECLARING = ("DeclareLaunchArgument", "SetLaunchConfiguration")
@@ -30,8 +30,7 @@ class PythonNames:
         """Read all of it."""
         self.names: list[WrittenName] = []
         self.values: set[str] = set()
-        self._text = source.text
-        self._places = PythonPlaces(source.text)
+        self._source, self._text = source, source.text
         waiting: list[tuple[ast.AST, str, tuple[str, ...]]] = [(tree, "", ())]
         while waiting:
             waiting += self._node(*waiting.pop())
@@ -121,7 +120,8 @@ class PythonNames:
             it.value if isinstance(it, ast.Constant) and isinstance(it.value, str) else "#{}"
             for it in node.values
         )
-        start, end = self._places.of(node)
+        span = span_of_node(self._source, node)
+        start, end = span.start, span.end
         for found in names_in("".join(parts), 0, key):
             if found.kinds != ARGUMENT:
                 kinds = found.kinds
@@ -129,7 +129,8 @@ class PythonNames:
 
     def _inside(self, node: ast.Constant, text: str) -> int | None:
         """Return where the text of a string begins; None where it is written otherwise."""
-        start, end = self._places.of(node)
+        span = span_of_node(self._source, node)
+        start, end = span.start, span.end
         quotes = _QUOTES.match(self._text, start)
         if quotes is None:
             return None

@@ -17,7 +17,6 @@ from checker.expand.ros2_launch.python.scope import (
     Method,
     Partial,
     Scope,
-    span_of_node,
 )
 from checker.expand.ros2_launch.python.statements import RETURNED, Flow, run_block
 from checker.expand.ros2_launch.values import (
@@ -33,6 +32,7 @@ from checker.expand.ros2_launch.values import (
     chosen,
     placed,
 )
+from checker.source.python_places import span_of_node
 from checker.source.text import Located, SourceText, Span
 
 

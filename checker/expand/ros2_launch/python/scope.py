@@ -6,7 +6,7 @@ import ast
 from dataclasses import dataclass, field
 
 from checker.expand.ros2_launch.values import Choice, Guarded, Value
-from checker.source.text import SourceText, Span
+from checker.source.text import SourceText
 
 
 @dataclass(eq=False)
@@ -104,20 +104,3 @@ def merged(before: dict[str, Value], first: Guarded, second: Guarded) -> dict[st
         same = len(alternatives) == 2 and alternatives[0].value is alternatives[1].value
         merged_values[name] = alternatives[0].value if same else Choice(tuple(alternatives))
     return merged_values
-
-
-def span_of_node(source: SourceText, node: ast.AST) -> Span:
-    """Return the place of a node of the syntax tree."""
-    start = _offset(source, getattr(node, "lineno", 1), getattr(node, "col_offset", 0))
-    end = _offset(source, getattr(node, "end_lineno", 1), getattr(node, "end_col_offset", 0))
-    return Span(source, start, max(start, end))
-
-
-def _offset(source: SourceText, line: int, column: int) -> int:
-    """Return the offset of a line, from 1, and a column in bytes, from 0."""
-    start = source.offset_of(line, 1)
-    if start is None:
-        return len(source.text)
-    if column and not source.text.isascii():
-        column = len(source.line(line).encode()[:column].decode("utf-8", "ignore"))
-    return min(start + column, len(source.text))
