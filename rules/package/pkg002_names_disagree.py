@@ -15,10 +15,10 @@ Source: REP 140 and catkin: the project name must equal the package name.
 
 from collections.abc import Iterator
 
-from checker.fix.package_name import package_renamed
 from checker.package.inheritance import Found
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.renaming import package_renamed
 from checker.package.submissions import NAME, configuration_number, stated_number
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located

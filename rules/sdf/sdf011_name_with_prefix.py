@@ -16,12 +16,12 @@ from collections import Counter
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.fix.flattening.names import SUFFIXES, FlatNames, topic_mentions
-from checker.fix.flattening.renames import Renaming
-from checker.fix.package_name import is_mentioned_beside, leaves_mentions
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
+from checker.model.sdf.flattening.names import SUFFIXES, FlatNames, topic_mentions
+from checker.model.sdf.flattening.renames import Renaming
 from checker.package.package import Package
+from checker.package.renaming import is_mentioned_beside, leaves_mentions
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.text import SourceText
 

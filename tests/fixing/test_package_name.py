@@ -9,8 +9,8 @@ import pytest
 
 from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
-from checker.fix.package_name import package_renamed
 from checker.package.inputs import open_input
+from checker.package.renaming import package_renamed
 from checker.rule_testing import write_example
 from tests.conftest import SAMPLES
 from tests.each import of_each

@@ -8,8 +8,8 @@ from html import escape
 
 from checker.base.record import Record
 from checker.finding import Edit
-from checker.fix.flattening.names import FlatNames
 from checker.model.frames import MODEL_FRAME
+from checker.model.sdf.flattening.names import FlatNames
 from checker.source.text import Located, SourceText, Span
 from checker.source.xml import Element
 from checker.source.xml_insertion import insertion, with_blanks

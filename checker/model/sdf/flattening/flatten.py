@@ -12,16 +12,16 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.finding import Edit
-from checker.fix.flattening import poses
-from checker.fix.flattening.draft import Draft, Holder, written
-from checker.fix.flattening.names import SEPARATOR, FlatNames, named_by
-from checker.fix.flattening.poses import pose_text
 from checker.model.components import Frame, Joint, Link, Model
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
+from checker.model.sdf.flattening import poses
+from checker.model.sdf.flattening.draft import Draft, Holder, written
+from checker.model.sdf.flattening.names import SEPARATOR, FlatNames, named_by
+from checker.model.sdf.flattening.poses import pose_text
 from checker.model.sdf.links import read_plugin
 from checker.source.text import Located, SourceText
 from checker.source.xml import Element

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from checker.fix.flattening.draft import Draft, Holder
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
+from checker.model.sdf.flattening.draft import Draft, Holder
 from checker.model.sdf.poses import in_degrees, transform_of
 from checker.model.values import ValueReader
 from checker.source.text import Located

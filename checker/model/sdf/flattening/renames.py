@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.finding import Edit
-from checker.fix.flattening.draft import Draft, Holder
-from checker.fix.flattening.names import FlatNames, named_by
 from checker.model.robot import Robot
+from checker.model.sdf.flattening.draft import Draft, Holder
+from checker.model.sdf.flattening.names import FlatNames, named_by
 
 _PARTS = ("link", "joint", "frame", "gripper")
 
