@@ -5,25 +5,19 @@ What only the launching machine knows (`find`, `env`, `optenv`, `anon`) stays as
 
 from __future__ import annotations
 
-import ast
-import operator
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchFaultKind
 
-# `$(eval …)`: comparisons, logic, arithmetic and joining of strings over the args.
-#
-# roslaunch hands the expression to Python. Here Python's own grammar is read with `ast`, and a few
-# kinds of nodes are evaluated; everything else is not known. Nothing is executed.
-
-
 Value = str | int | float | bool
 
 MAX_EXPRESSION = 400
-MAX_DEPTH = 40
-_LARGEST = 10**100
+_CONSTANTS: Mapping[str, Value] = {"true": True, "false": False}
+_BUILTINS = ("list", "dict", "map", "str", "float", "int")
+"""That roslaunch offers, beside all of `math`."""
 
 
 class Unknown(Record):
@@ -40,59 +34,69 @@ class ExpressionFault(Record):
     undeclared: str = ""
 
 
-class _Stop(Exception):
-    """Ends an evaluation with `outcome`."""
-
-    def __init__(self, outcome: Unknown | ExpressionFault) -> None:
-        super().__init__()
-        self.outcome = outcome
+class _NotKnown(Exception):
+    """The expression uses what only the launching machine knows."""
 
 
-_COMPARISONS: dict[type[ast.cmpop], Callable[[Value, Value], bool]] = {
-    ast.Eq: operator.eq,
-    ast.NotEq: operator.ne,
-    ast.Lt: operator.lt,
-    ast.LtE: operator.le,
-    ast.Gt: operator.gt,
-    ast.GtE: operator.ge,
-}
-_ARITHMETIC: dict[type[ast.operator], Callable[[float, float], float]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.FloorDiv: operator.floordiv,
-    ast.Mod: operator.mod,
-}
-_SIGNS: dict[type[ast.unaryop], Callable[[float], float]] = {
-    ast.USub: operator.neg,
-    ast.UAdd: operator.pos,
-}
-_CONSTANTS: dict[str, Value] = {"true": True, "false": False}
+class _Undeclared(Exception):
+    """The expression uses an arg that is not declared; the text is its name."""
+
+
+class _Names:
+    """The names that roslaunch gives to an expression."""
+
+    def __init__(self, args: Mapping[str, str]) -> None:
+        self._args = args
+
+    def __getitem__(self, name: str) -> Any:
+        from checker.expand.xacro.expression.builtins import FUNCTIONS
+        from checker.expand.xacro.expression.function import Function
+        from checker.expand.xacro.symbols import NAMES
+
+        if name in _CONSTANTS:
+            return _CONSTANTS[name]
+        if name == "arg":
+            return Function(name, lambda _, name: self._arg(name))
+        if name in (*_MACHINE, "dirname"):
+            raise _NotKnown
+        if name in self._args:
+            return self._arg(name)
+        if name in _BUILTINS:
+            return FUNCTIONS[name]
+        return NAMES[name] if name in NAMES else self._arg(name)
+
+    def _arg(self, name: str) -> Value:
+        text = self._args.get(name)
+        if text is None:
+            raise _Undeclared(name)
+        if not is_known(text):
+            raise _NotKnown
+        return convert(text)
 
 
 def evaluate(expression: str, args: Mapping[str, str]) -> Value | Unknown | ExpressionFault:
-    """Evaluate an expression.
+    """Evaluate an expression as roslaunch does, which hands it to Python; here nothing is executed.
 
     Args:
         expression: The text between `$(eval ` and `)`.
         args: Values of the declared args; as names they count as numbers or truth values when
             they read so.
     """
+    from checker.expand.xacro.expression import bounds, evaluation
+
     if len(expression) > MAX_EXPRESSION:
         return Unknown()
     try:
-        tree = ast.parse(expression.strip(), mode="eval")
-    except (SyntaxError, ValueError):
+        value = evaluation.evaluate(expression, _Names(args))
+    except SyntaxError:
         return ExpressionFault(f"{expression.strip()!r} is not a Python expression")
-    except (RecursionError, MemoryError):
+    except _Undeclared as name:
+        return ExpressionFault(f"the arg {str(name)!r} is used but not declared", str(name))
+    except (_NotKnown, bounds.RefusedExpression, bounds.ExpressionLimit):
         return Unknown()
-    try:
-        return _Evaluation(args).value(tree.body, 0)
-    except _Stop as stop:
-        return stop.outcome
-    except (ArithmeticError, TypeError, ValueError) as error:
+    except Exception as error:  # noqa: BLE001 - whatever Python raises for it
         return ExpressionFault(f"{expression.strip()!r} fails: {error}")
+    return value if isinstance(value, Value) else Unknown()
 
 
 def convert(text: str) -> Value:
@@ -101,84 +105,6 @@ def convert(text: str) -> Value:
         return float(text) if "." in text else int(text)
     except ValueError:
         return _CONSTANTS.get(text.lower(), text)
-
-
-class _Evaluation:
-    def __init__(self, args: Mapping[str, str]) -> None:
-        self._args = args
-
-    def value(self, node: ast.expr, depth: int) -> Value:  # noqa: PLR0911 - one per kind of node
-        if depth > MAX_DEPTH:
-            raise _Stop(Unknown())
-        match node:
-            case ast.Constant(value=str() | int() | float() as value):
-                return value
-            case ast.Name(id=name):
-                return self._name(name)
-            case ast.Call(func=ast.Name(id="arg"), args=[ast.Constant(value=str(name))]):
-                return self._arg(name)
-            case ast.BoolOp(op=op, values=values):
-                return self._logic(op, values, depth + 1)
-            case ast.Compare():
-                return self._compare(node, depth + 1)
-            case ast.UnaryOp(op=ast.Not(), operand=operand):
-                return not self.value(operand, depth + 1)
-            case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _SIGNS:
-                return _SIGNS[type(sign)](_number(self.value(operand, depth + 1)))
-            case ast.BinOp(left=left, op=op, right=right):
-                return _binary(op, self.value(left, depth + 1), self.value(right, depth + 1))
-        raise _Stop(Unknown())
-
-    def _name(self, name: str) -> Value:
-        return _CONSTANTS[name] if name in _CONSTANTS else self._arg(name)
-
-    def _arg(self, name: str) -> Value:
-        text = self._args.get(name)
-        if text is None:
-            message = f"the arg {name!r} is used but not declared"
-            raise _Stop(ExpressionFault(message, undeclared=name))
-        if "$(" in text:
-            raise _Stop(Unknown())
-        return convert(text)
-
-    def _logic(self, op: ast.boolop, values: list[ast.expr], depth: int) -> Value:
-        stops_at = isinstance(op, ast.Or)
-        result: Value = not stops_at
-        for node in values:
-            result = self.value(node, depth)
-            if bool(result) is stops_at:
-                break
-        return result
-
-    def _compare(self, node: ast.Compare, depth: int) -> bool:
-        left = self.value(node.left, depth)
-        for op, right_node in zip(node.ops, node.comparators, strict=True):
-            compare = _COMPARISONS.get(type(op))
-            if compare is None:
-                raise _Stop(Unknown())
-            right = self.value(right_node, depth)
-            if not compare(left, right):
-                return False
-            left = right
-        return True
-
-
-def _binary(op: ast.operator, left: Value, right: Value) -> Value:
-    if isinstance(op, ast.Add) and isinstance(left, str) and isinstance(right, str):
-        return left + right
-    calculate = _ARITHMETIC.get(type(op))
-    if calculate is None:
-        raise _Stop(Unknown())
-    result = calculate(_number(left), _number(right))
-    if isinstance(result, int) and abs(result) > _LARGEST:
-        raise _Stop(Unknown())
-    return result
-
-
-def _number(value: Value) -> float:
-    if isinstance(value, str):
-        raise TypeError(f"{value!r} is not a number")
-    return value
 
 
 MAX_LENGTH = 20_000
