@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.model.ros.wiring.wiring import Wiring
 from checker.report.launched import Launched, LaunchedNode, LaunchedTopic, LaunchedTransform
+from checker.ros.wiring.wiring import Wiring
 from checker.source.text import Span
 
 MOST = 300

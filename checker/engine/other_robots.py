@@ -18,7 +18,6 @@ from checker.model.devices.known import KnownDevices
 from checker.model.parts import ModelFile
 from checker.model.plugin_host import PluginHost
 from checker.model.robot import Robot
-from checker.model.ros2_control.robot_control import RobotControl
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
 from checker.package.manifests import Paperwork
@@ -26,6 +25,7 @@ from checker.package.package import Package
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mesh.process import MeshServer
 from checker.report.report import Cause, ReportedFinding
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Context, Rule
 
 _OF_A_ROBOT = frozenset(

@@ -26,7 +26,7 @@ from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 
 T = TypeVar("T")
 
-PROVIDERS = ("expand.parts", "model.parts", "model.urdf.parts", "model.ros.parts", "physics.parts")
+PROVIDERS = ("expand.parts", "model.parts", "model.urdf.parts", "ros.parts", "physics.parts")
 """Modules that make parts whose types are defined elsewhere."""
 
 _ASK = type_name(Ask)

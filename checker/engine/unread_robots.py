@@ -10,10 +10,10 @@ from checker.engine.subject import Subject
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.expand.ros2_launch.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
-from checker.model.ros.simulation import Simulations
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.report.report import ROBOT, Cause, NotChecked
+from checker.ros.simulation import Simulations
 
 _NO_ROBOT = "no URDF, xacro or SDF file of it is a robot, and no launch file starts one"
 _MODELS = (".urdf", ".xacro", ".sdf")

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import Channel, sensor_channels
 from checker.model.sensing.kind import SensorType
+from checker.ros.topics import Channel, sensor_channels
 
 _RELEASE = "dome"
 _ANY_ROBOT = "/world/*/model/*/"

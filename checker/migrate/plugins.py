@@ -18,7 +18,6 @@ from checker.engine.subject import Subject
 from checker.migrate import sensor_forms as forms
 from checker.migrate.source import Source
 from checker.migrate.xml_parts import build, number_at, put
-from checker.model.control.controllers import Controller, ControlSystem
 from checker.model.geometry.transform import Transform
 from checker.model.plugin_library import (
     SUBT_RELEASE,
@@ -27,6 +26,7 @@ from checker.model.plugin_library import (
     plugin_libraries,
 )
 from checker.model.robot import Robot
+from checker.ros.control.controllers import Controller, ControlSystem
 
 # Joints that position controllers held in Gazebo 9, and that a system of Ignition holds now.
 

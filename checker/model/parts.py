@@ -9,14 +9,13 @@ from checker.base.parts import Ask, NotAvailable, part
 from checker.base.record import Record
 from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.expand.xacro.expansion import Expander
+from checker.model.controllers import Controller
 from checker.model.devices.devices import SensorDevices
 from checker.model.devices.known import KnownDevices
 from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
-from checker.model.locomotion.controlled import without_idle
 from checker.model.plugin_host import PluginHost, model_host, world_host
 from checker.model.robot import Robot
-from checker.model.ros2_control.robot_control import RobotControl
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.expanded import expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
@@ -48,6 +47,18 @@ class PlainRobots(Record, eq=False):
     """The robots of a package without their meshes."""
 
     robots: tuple[Robot, ...]
+
+
+class ControlledRobot(Record, eq=False):
+    """A robot of a URDF file that ros2_control controls.
+
+    Attributes:
+        robot: As the file describes it.
+        controllers: Those that may run.
+    """
+
+    robot: Robot
+    controllers: tuple[Controller, ...]
 
 
 @part
@@ -118,7 +129,7 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
     """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
     root = model.document.root
     if root.tag == "robot":
-        return _described(package, ask)
+        return _described(ask)
     includes = ModelIncludes(package)
     robots = read_sdf(model.document, includes)
     if package.kind is PackageKind.WORLD:
@@ -137,15 +148,14 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
     return NotAvailable(reason, applicable=not nothing_to_see)
 
 
-def _described(package: Package, ask: Ask) -> PlainRobots | NotAvailable:
+def _described(ask: Ask) -> PlainRobots | NotAvailable:
     """Return the robots of URDF files with their controllers."""
-    descriptions, controls = ask.all(UrdfDescription), ask.all(RobotControl)
+    descriptions, controlled = ask.all(UrdfDescription), ask.all(ControlledRobot)
     if isinstance(descriptions, NotAvailable):
         return descriptions
     robots = {id(it.robot): it.robot for it in descriptions}
-    for control in () if isinstance(controls, NotAvailable) else controls:
-        controllers = without_idle(control.controllers, package.workspace.launch_words)
-        robots[id(control.robot)] = replace(control.robot, controllers=controllers)
+    for each in () if isinstance(controlled, NotAvailable) else controlled:
+        robots[id(each.robot)] = replace(each.robot, controllers=each.controllers)
     return PlainRobots(tuple(robots.values()))
 
 

@@ -20,6 +20,7 @@ from checker.model.components import (
     Sensor,
     Visual,
 )
+from checker.model.controllers import Controller
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
@@ -32,7 +33,6 @@ from checker.model.locomotion.drive import WING_CLASSES, driven_joints, find_whe
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
-from checker.model.ros2_control.controllers import Controller
 from checker.model.tree import LinkTree, link_tree
 from checker.model.unknowns import (
     LooseParts,

@@ -9,7 +9,7 @@ Source: ros_gz_bridge, parameter_bridge.cpp.
 """
 
 from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
-from checker.model.ros.simulation import Simulations
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -14,14 +14,14 @@ from collections.abc import Iterator
 from checker.base.words import listed
 from checker.expand.ros2_launch.bridges.entry import GZ_PREFIXES, BridgeEntry
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.bridge_types import (
+from checker.ros.bridge_types import (
     all_ros_types,
     gz_messages,
     meant_gz_message,
     meant_ros_type,
     ros_types,
 )
-from checker.model.ros.simulation import Simulations
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 

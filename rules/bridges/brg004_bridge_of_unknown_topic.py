@@ -15,9 +15,9 @@ from collections.abc import Iterable
 
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
-from checker.model.ros.simulated_topics import SimulatedTopic
-from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.package import Package
+from checker.ros.simulated_topics import SimulatedTopic
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument

@@ -11,7 +11,7 @@ Source: ros_gz_bridge; gz-sensors and Gazebo's systems.
 
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
-from checker.model.ros.simulation import Simulation, Simulations
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}

@@ -11,7 +11,7 @@ Source: ros_gz_bridge, bridge_config.cpp; gazebosim/ros_gz issue 337.
 """
 
 from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
-from checker.model.ros.simulation import Simulations
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

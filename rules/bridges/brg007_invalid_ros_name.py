@@ -11,7 +11,7 @@ Source: rcl, validation of topic names; gazebosim/ros_gz issue 660.
 import re
 
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.simulation import Simulations
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _LEGAL = re.compile(r"(?:~(?=/|\Z))?/?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*)?\Z", re.ASCII)

@@ -11,7 +11,7 @@ Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 
 from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
 from checker.expand.ros2_launch.graph import GAZEBO, Node
-from checker.model.ros.simulation import Simulation, Simulations
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _IGNORED = BridgeFaultKind.UNKNOWN_KEY

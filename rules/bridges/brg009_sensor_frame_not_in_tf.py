@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.graph import Node, is_known
 from checker.model.components import Sensor
-from checker.model.ros.simulation import Simulation, Simulations
-from checker.model.ros.spawned import SpawnedRobot
 from checker.model.sensing.kind import SensorType, frame_ids
+from checker.ros.simulation import Simulation, Simulations
+from checker.ros.spawned import SpawnedRobot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.components import Plugin
-from checker.model.ros.simulation import Simulation
-from checker.model.ros.wiring.wiring import Wiring
-from checker.model.ros2_control.controllers import Controller
+from checker.model.controllers import Controller
+from checker.ros.simulation import Simulation
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _CHILD_FRAMES = {

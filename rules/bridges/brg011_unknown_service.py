@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from checker.base.words import listed
 from checker.expand.ros2_launch.bridges.entry import BridgedService, gz_name
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.bridge_types import meant_service, service_messages
-from checker.model.ros.simulation import Simulation, Simulations
+from checker.ros.bridge_types import meant_service, service_messages
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _OF_WORLD = re.compile(r"/world/([^/]{1,200})/")

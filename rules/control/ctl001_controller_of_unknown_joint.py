@@ -9,7 +9,7 @@ has registered is not found.
 """
 
 from checker.base.words import Suggestions
-from checker.model.control.controllers import Controller, ControlSystem
+from checker.ros.control.controllers import Controller, ControlSystem
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
 from checker.source.text import Located
 

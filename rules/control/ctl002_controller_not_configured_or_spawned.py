@@ -11,7 +11,7 @@ Source: ros_control, `controller_manager::ControllerManager::loadController`: th
 """
 
 from checker.base.words import Suggestions
-from checker.model.control.controllers import Controller, ControlSystem
+from checker.ros.control.controllers import Controller, ControlSystem
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 

@@ -12,7 +12,7 @@ gazebo_ros_control, `DefaultRobotHWSim::initSim`.
 
 from collections.abc import Mapping
 
-from checker.model.control.controllers import Controller, ControlSystem
+from checker.ros.control.controllers import Controller, ControlSystem
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 INTERFACES: Mapping[str, str] = {

@@ -10,7 +10,7 @@ a controller of type `joint_state_controller/JointStateController`.
 Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`; controller_manager, `spawner`.
 """
 
-from checker.model.control.controllers import ControlSystem
+from checker.ros.control.controllers import ControlSystem
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 

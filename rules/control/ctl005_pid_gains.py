@@ -10,7 +10,7 @@ Source: ros_controllers (effort_controllers, velocity_controllers); control_tool
 
 from collections.abc import Iterator, Mapping
 
-from checker.model.control.controllers import Controller, ControlSystem, Gain
+from checker.ros.control.controllers import Controller, ControlSystem, Gain
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 NEED_GAINS: Mapping[str, tuple[str, ...]] = {

@@ -10,7 +10,7 @@ with the `<robotNamespace>` of the controllers.
 Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`.
 """
 
-from checker.model.control.controllers import ControlSystem
+from checker.ros.control.controllers import ControlSystem
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 

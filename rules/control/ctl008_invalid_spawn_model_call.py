@@ -12,8 +12,8 @@ Source: gazebo_ros, `spawn_model`; gazebo_ros_api_plugin, `walkChildAddRobotName
 from collections.abc import Iterable
 
 from checker.base.words import Suggestions
-from checker.model.control.controllers import ControlSystem
-from checker.model.control.nodes import SpawnedModel
+from checker.ros.control.controllers import ControlSystem
+from checker.ros.control.nodes import SpawnedModel
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 FORMATS = ("-urdf", "-sdf")

@@ -19,8 +19,8 @@ from collections.abc import Iterator
 
 from checker.model.components import Axis, Joint, Plugin
 from checker.model.robot import Robot
-from checker.model.ros2_control.distributions import distribution_of, is_from, is_of_gazebo
-from checker.model.ros2_control.hardware import Hardware, read_hardware
+from checker.ros.ros2_control.distributions import distribution_of, is_from, is_of_gazebo
+from checker.ros.ros2_control.hardware import Hardware, read_hardware
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _MOTORS = (

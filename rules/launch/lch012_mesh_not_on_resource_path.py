@@ -27,9 +27,9 @@ from checker.expand.ros2_launch.package_files import holder_of
 from checker.expand.xacro.expanded import ExpandedText
 from checker.finding import Fix
 from checker.model.robot import Robot
-from checker.model.ros.resource_path import resource_path
-from checker.model.ros.simulation import Simulations
 from checker.package.package import Package
+from checker.ros.resource_path import resource_path
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to

@@ -17,9 +17,9 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
-from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.package import Package
 from checker.package.resource_path import names_plugin_path
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -24,7 +24,7 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import (
+from checker.ros.topics import (
     Channel,
     Need,
     by_topic,

@@ -25,10 +25,10 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Link, Plugin, Sensor
 from checker.model.plugin_library import gazebo_libraries, library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.model.ros.topics import comparable, sensor_channels
 from checker.model.sdf.links import read_plugin
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
+from checker.ros.topics import comparable, sensor_channels
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _Own = Callable[[Plugin], bool]

@@ -17,7 +17,7 @@ from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import Channel, by_topic, channels
+from checker.ros.topics import Channel, by_topic, channels
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 
 from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
-from checker.model.ros.topics import comparable
+from checker.ros.topics import comparable
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _SHARED = "camera_info"

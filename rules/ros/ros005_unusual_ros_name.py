@@ -27,8 +27,8 @@ from checker.model.components import Sensor
 from checker.model.devices.known import KnownDevices, spaced
 from checker.model.devices.lidar_class import LidarClass, class_of_sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import Channel, channels, comparable
 from checker.model.sensing.kind import SensorType
+from checker.ros.topics import Channel, channels, comparable
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _NAMESPACE = f"/{SAMPLE_NAME}/"

@@ -16,8 +16,8 @@ from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import Channel, channels, comparable
-from checker.model.ros.transforms import optical_frames
+from checker.ros.topics import Channel, channels, comparable
+from checker.ros.transforms import optical_frames
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _COLOUR, _DEPTH = "image", "depth image"

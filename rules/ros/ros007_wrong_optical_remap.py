@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.spawner.reader import SAMPLE_NAME
-from checker.model.ros.transforms import OpticalFrame, optical_frames
+from checker.ros.transforms import OpticalFrame, optical_frames
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}

@@ -17,11 +17,11 @@ from collections.abc import Iterator
 from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
 from checker.model.robot import Robot
-from checker.model.ros.robot_description import fixed_frames, robot_descriptions
-from checker.model.ros.transforms import state_publishers, static_transforms
 from checker.model.urdf.files import UrdfFiles
 from checker.package.inheritance import Found
 from checker.package.package import Package
+from checker.ros.robot_description import fixed_frames, robot_descriptions
+from checker.ros.transforms import state_publishers, static_transforms
 from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked
 from checker.source.xml import XmlDocument
 

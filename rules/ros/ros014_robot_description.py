@@ -14,15 +14,15 @@ from collections.abc import Iterator
 
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.substitution import is_known
-from checker.model.ros.description_script import DescriptionScript, read_description_script
-from checker.model.ros.robot_description import (
+from checker.package.inheritance import SUBMISSION_NAME, Found
+from checker.package.package import Package
+from checker.ros.description_script import DescriptionScript, read_description_script
+from checker.ros.robot_description import (
     NAME,
     DescriptionFile,
     RobotDescription,
     robot_descriptions,
 )
-from checker.package.inheritance import SUBMISSION_NAME, Found
-from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument

@@ -10,14 +10,14 @@ with the template all_robots.launch of subt_ros, whose content is assumed.
 """
 
 from checker.expand.launch.graph import LaunchGraph
-from checker.model.ros.transforms import (
+from checker.package.inheritance import Found
+from checker.package.package import Package
+from checker.ros.transforms import (
     BROADCASTER,
     carries_transforms,
     may_publish_transforms,
     publishes_transforms,
 )
-from checker.package.inheritance import Found
-from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _TOPICS = "launch/vehicle_topics.launch"

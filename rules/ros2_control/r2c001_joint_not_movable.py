@@ -11,9 +11,9 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp,
 """
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import distribution_of, is_from
-from checker.model.ros2_control.hardware import HardwareJoint
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.distributions import distribution_of, is_from
+from checker.ros.ros2_control.hardware import HardwareJoint
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 

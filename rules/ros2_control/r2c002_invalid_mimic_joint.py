@@ -14,9 +14,9 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp,
 from collections.abc import Iterator
 
 from checker.model.components import Joint
-from checker.model.ros2_control.distributions import distribution_of, is_from
-from checker.model.ros2_control.hardware import Hardware, HardwareJoint
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.distributions import distribution_of, is_from
+from checker.ros.ros2_control.hardware import Hardware, HardwareJoint
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 

@@ -13,14 +13,14 @@ from collections.abc import Iterator
 
 from checker.base.words import Suggestions
 from checker.expand.xacro.expanded import written_elements
-from checker.model.ros2_control.hardware import (
+from checker.ros.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,
     Hardware,
     HardwareJoint,
     Interface,
 )
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

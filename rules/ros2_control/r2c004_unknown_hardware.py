@@ -17,15 +17,15 @@ import re
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import (
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
+from checker.ros.ros2_control.distributions import (
     distribution_of,
     hardware_classes,
     has_every_class,
     is_from,
 )
-from checker.model.ros2_control.robot_control import RobotControl
-from checker.package.manifests import Paperwork
-from checker.package.package import Package
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText
 from checker.source.xml import XmlDocument

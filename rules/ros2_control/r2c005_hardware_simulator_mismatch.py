@@ -15,8 +15,8 @@ Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branc
 
 from collections.abc import Iterator, Mapping
 
-from checker.model.ros2_control.distributions import is_of_gazebo
-from checker.model.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.ros.ros2_control.distributions import is_of_gazebo
+from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {

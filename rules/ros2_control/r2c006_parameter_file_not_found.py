@@ -9,10 +9,10 @@ Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 """
 
 from checker.expand.xacro.files import ROOT
-from checker.model.ros2_control.robot_control import ParametersFile, RobotControl
 from checker.package.installed import left_out, listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.ros.ros2_control.robot_control import ParametersFile, RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 

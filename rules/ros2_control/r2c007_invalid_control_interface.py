@@ -14,8 +14,8 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
 from checker.model.components import Axis, Joint
-from checker.model.ros2_control.hardware import STANDARD_INTERFACES, HardwareJoint, Interface
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.hardware import STANDARD_INTERFACES, HardwareJoint, Interface
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _LIMITED = ("revolute", "prismatic")

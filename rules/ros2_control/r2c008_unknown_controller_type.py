@@ -18,13 +18,13 @@ Source: plugin descriptions of ros2_controllers, by branch.
 from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import (
+from checker.package.package import Package
+from checker.ros.ros2_control.distributions import (
     ControllerType,
     controller_types,
     distribution_of,
 )
-from checker.model.ros2_control.robot_control import RobotControl
-from checker.package.package import Package
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -16,11 +16,11 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from checker.base.words import Suggestions, listed
-from checker.model.ros2_control.claims import Claim, claims_of, sensors_of
-from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.hardware import HardwareJoint
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.model.controllers import Controller
 from checker.package.package import Package
+from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
+from checker.ros.ros2_control.hardware import HardwareJoint
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 

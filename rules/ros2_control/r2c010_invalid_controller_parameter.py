@@ -12,14 +12,14 @@ Source: parameter files of ros2_controllers, by branch; rclcpp, `InvalidParamete
 from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions, listed
-from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.distributions import (
+from checker.model.controllers import Controller
+from checker.model.ros_parameters import Parameter
+from checker.ros.ros2_control.distributions import (
     ControllerType,
     controller_types,
     distribution_of,
 )
-from checker.model.ros2_control.parameters import Parameter
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import (
     Concern,
     Context,

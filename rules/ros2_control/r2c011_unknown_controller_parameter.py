@@ -11,13 +11,13 @@ Source: parameter files of ros2_controllers, by branch.
 """
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import (
+from checker.ros.ros2_control.distributions import (
     COMMON_PARAMETERS,
     ControllerType,
     controller_types,
     distribution_of,
 )
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _STAMPED = "use_stamped_vel"

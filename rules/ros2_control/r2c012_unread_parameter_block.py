@@ -10,9 +10,9 @@ the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
 """
 
-from checker.model.ros2_control.controllers import ControllerFile
-from checker.model.ros2_control.parameters import NodeBlock
-from checker.model.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.model.controllers import ControllerFile
+from checker.model.ros_parameters import NodeBlock
+from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

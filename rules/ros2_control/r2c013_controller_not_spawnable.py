@@ -18,9 +18,9 @@ Source: ros2_control, controller_manager/spawner.py and `ControllerManager::load
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import is_of_gazebo
-from checker.model.ros2_control.launched import LaunchedControl
 from checker.package.package import Package
+from checker.ros.ros2_control.distributions import is_of_gazebo
+from checker.ros.ros2_control.launched import LaunchedControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"

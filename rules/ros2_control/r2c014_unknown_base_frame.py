@@ -10,9 +10,9 @@ steering controllers; REP 105.
 """
 
 from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.distributions import controller_types
-from checker.model.ros2_control.robot_control import RobotControl
+from checker.model.controllers import Controller
+from checker.ros.ros2_control.distributions import controller_types
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 

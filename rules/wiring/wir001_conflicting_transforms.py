@@ -22,8 +22,8 @@ Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_loca
 from itertools import combinations
 
 from checker.model.components import Joint
-from checker.model.ros.wiring.transforms import Transform
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.wiring.transforms import Transform
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _MOST = 8

@@ -15,10 +15,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.spawned import CLASSIC_SPAWNS, SPAWNS
-from checker.model.ros.transforms import STATE_PUBLISHER
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.spawned import CLASSIC_SPAWNS, SPAWNS
+from checker.ros.transforms import STATE_PUBLISHER
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 

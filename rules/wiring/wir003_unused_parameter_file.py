@@ -16,10 +16,10 @@ Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`; ROS 2 design, "Para
 from collections.abc import Iterator
 
 from checker.expand.ros2_launch.graph import NodeKind, is_known
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.parameters import LoadedFile
-from checker.model.ros.wiring.wiring import Wiring
-from checker.model.ros2_control.parameters import MANAGER, NodeBlock
+from checker.model.ros_parameters import MANAGER, NodeBlock
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.parameters import LoadedFile
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _COSTMAPS = ("local_costmap", "global_costmap")

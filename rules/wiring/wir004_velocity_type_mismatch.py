@@ -11,9 +11,9 @@ Fix: state the parameter that the message names, or put twist_stamper between th
 Source: ros2_controllers, navigation2, teleop_twist_keyboard and teleop_twist_joy by distribution.
 """
 
-from checker.model.ros.wiring.velocity import Velocity, velocities
-from checker.model.ros.wiring.wiring import Wiring
-from checker.model.ros2_control.distributions import distribution_of
+from checker.ros.ros2_control.distributions import distribution_of
+from checker.ros.wiring.velocity import Velocity, velocities
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 

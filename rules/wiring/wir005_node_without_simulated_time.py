@@ -15,9 +15,9 @@ Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and nav
 """
 
 from checker.expand.ros2_launch.graph import NodeKind
-from checker.model.ros.transforms import STATE_PUBLISHER
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.transforms import STATE_PUBLISHER
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _PARAMETER = "use_sim_time"

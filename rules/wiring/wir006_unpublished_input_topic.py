@@ -18,9 +18,9 @@ ros2_controllers, topics of the controllers.
 import re
 from collections.abc import Iterator
 
-from checker.model.ros.wiring.endpoints import Endpoint
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.wiring.endpoints import Endpoint
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _TYPES = (

@@ -14,7 +14,7 @@ instead of the name stand for every node.
 Source: ros2/rcl, rcl_yaml_param_parser, `parse_file_events`.
 """
 
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

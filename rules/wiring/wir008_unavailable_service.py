@@ -14,9 +14,9 @@ Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design,
 """
 
 from checker.expand.ros2_launch.graph import LaunchGraph, Node, Ros2Launch
-from checker.model.ros.wiring.facts import NodeFacts, node_facts, program_of
-from checker.model.ros.wiring.services import Wanted, offered, wanted
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
+from checker.ros.wiring.services import Wanted, offered, wanted
+from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 

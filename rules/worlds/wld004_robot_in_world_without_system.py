@@ -19,10 +19,10 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.model.components import Sensor
-from checker.model.ros.servers import GazeboServer
-from checker.model.ros.simulation import Simulation, Simulations
-from checker.model.ros.spawned import SpawnedRobot
 from checker.model.sdf.world import EMPTY_SYSTEMS, World, holds, sensor_system
+from checker.ros.servers import GazeboServer
+from checker.ros.simulation import Simulation, Simulations
+from checker.ros.spawned import SpawnedRobot
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
 
 _CONFIGURATIONS = ("GZ_SIM_SERVER_CONFIG_PATH", "IGN_GAZEBO_SERVER_CONFIG_PATH")

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.locomotion.friction import FrictionReader
 from checker.model.robot import Robot
-from checker.model.ros.engine_uses import EngineUse, engine_uses
-from checker.model.ros.simulation import Simulations
 from checker.model.sdf.world import World, holds, systems_of
+from checker.ros.engine_uses import EngineUse, engine_uses
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
 
 _DART = "expected the default engine, DART"

@@ -16,8 +16,8 @@ from checker.expand.ros2_launch.bridges.entry import (
     read_argument,
 )
 from checker.expand.ros2_launch.bridges.file import read_bridge_file
-from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.inputs import open_input
+from checker.ros.simulation import Simulation, Simulations
 from checker.rule_testing import write_example
 from checker.source.text import Located, SourceText
 from checker.source.yaml import read_yaml

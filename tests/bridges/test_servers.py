@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.ros.simulation import Simulation
+from checker.ros.simulation import Simulation
 from tests.bridges.test_bridges_of_launch_files import simulation
 
 GAZEBO = 'IncludeLaunchDescription(gazebo, launch_arguments=[("gz_args", "-r empty.sdf")]),'

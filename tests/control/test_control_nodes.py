@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.graph import LaunchGraph, Node
-from checker.model.control.nodes import (
+from checker.ros.control.nodes import (
     Spawned,
     published_states,
     read_listener,

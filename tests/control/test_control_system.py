@@ -11,8 +11,8 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
-from checker.model.control.controllers import ControlSystem
 from checker.package.inputs import open_input
+from checker.ros.control.controllers import ControlSystem
 from checker.rule_testing import URDF_NAME, write_example
 
 Part = Callable[..., Any]
@@ -125,7 +125,7 @@ def test_a_package_that_only_spawns_a_robot(part: Part) -> None:
 
 
 def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.model.control.system.MAX_VALUES", 50)
+    monkeypatch.setattr("checker.ros.control.system.MAX_VALUES", 50)
     load = f'<rosparam ns="{{}}" file="$(find {URDF_NAME})/config/control.yaml"/>'
     text = "".join(load.format(f"r{number}") for number in range(20))
     control = part(ControlSystem, {"launch/all.launch": f"<launch>{text}</launch>"})

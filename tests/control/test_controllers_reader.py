@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.control.controllers import Controller, SimulatorGains
-from checker.model.control.controllers_reader import read_controllers
+from checker.ros.control.controllers import Controller, SimulatorGains
+from checker.ros.control.controllers_reader import read_controllers
 from checker.source.text import SourceText
 from checker.source.yaml import read_yaml
 

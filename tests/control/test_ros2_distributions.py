@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.ros2_control.distributions import distribution_of, is_from
 from checker.pipeline import check_package
+from checker.ros.ros2_control.distributions import distribution_of, is_from
 from checker.rule import Context
 from checker.rule_testing import write_example
 from checker.settings import Settings

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from checker.model.ros2_control.controllers import ControllerFile, controllers_of
-from checker.model.ros2_control.parameters import NodeBlock, bare_managers, read_blocks
+from checker.model.controllers import ControllerFile, controllers_of
+from checker.model.ros_parameters import NodeBlock, bare_managers, read_blocks
 from checker.source.text import SourceText
 from checker.source.yaml import YamlNode, read_yaml
 

@@ -68,7 +68,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ): "a user's: no repetition, few choices",
     ("checker/model/devices/devices.py", PATTERN): "of our table of devices",
     ("checker/model/locomotion/classic.py", PATTERN): "of our table of plugins",
-    ("checker/model/ros/wiring/inputs.py", PATTERN): "of our table of nodes, escaped",
+    ("checker/ros/wiring/inputs.py", PATTERN): "of our table of nodes, escaped",
     ("checker/package/teams.py", PATTERN): "of our table of teams",
     ("checker/model/plugin_library.py", PATTERN): "of our table of plugins",
     ("checker/source/xml_errors.py", PATTERN): "a name, escaped",

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.ros.description_script import DescriptionScript, read_description_script
 from checker.package.inputs import open_input
+from checker.ros.description_script import DescriptionScript, read_description_script
 
 SHELL = "#!/bin/bash\n"
 PYTHON = "#!/usr/bin/env python3\n"

@@ -10,9 +10,9 @@ import pytest
 from checker.expand.launch.attributes import MAX_STEPS, Reader
 from checker.expand.launch.expansion import MAX_DEPTH
 from checker.expand.launch.graph import LaunchFaultKind as Kind
-from checker.model.ros.robot_description import robot_descriptions
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
+from checker.ros.robot_description import robot_descriptions
 from checker.rule_testing import write_example
 from checker.settings import Settings
 from checker.source.xml import Element

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.expand.launch.attributes import launch_tags, left_outside
-from checker.model.ros.robot_description import fixed_frames
+from checker.ros.robot_description import fixed_frames
 from tests.launch.conftest import document
 
 NAMES = st.from_regex(r"[a-z][a-z0-9_-]{0,20}", fullmatch=True)

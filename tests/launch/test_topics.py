@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from checker.base.resources import table
 from checker.expand.launch.bridge import Direction
-from checker.model.ros.topics import (
+from checker.model.sensing.kind import SensorType
+from checker.ros.topics import (
     Channel,
     channels,
     comparable,
     standard_topics,
 )
-from checker.model.sensing.kind import SensorType
 from tests.model.robots import sdf
 
 SENSOR = "/world/*/model/*/link/base/sensor/front"

@@ -8,9 +8,9 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.model.ros.wiring.services import wanted
-from checker.model.ros.wiring.wiring import Wiring
 from checker.package.inputs import open_input
+from checker.ros.wiring.services import wanted
+from checker.ros.wiring.wiring import Wiring
 from checker.rule_testing import write_example
 
 HEAD = "LaunchDescription([\n"

@@ -13,10 +13,10 @@ from checker.engine.subject import Subject
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevices
 from checker.model.robot import Robot
-from checker.model.ros.simulated_topics import simulated_topics
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.lidar import Lidar, Scan
 from checker.model.sensing.noise import Noise
+from checker.ros.simulated_topics import simulated_topics
 
 _SHOWN = 3
 """Topics of one sensor, and sizes of pictures, that are shown."""

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from checker.model.components import Joint
+from checker.model.controllers import Controller
 from checker.model.locomotion.locomotion import MotionLimits, Side, Wheel, WheelDrive
 from checker.model.locomotion.wheels import WheelReader
-from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ import enum
 
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Plugin
+from checker.model.controllers import Controller
 from checker.model.geometry.transform import Vector
-from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located, Span
 
 

@@ -10,11 +10,11 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.model.components import Plugin
+from checker.model.controllers import Controller
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, TrackedDrive, Wheel, WheelDrive
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
 from checker.model.locomotion.wheels import stands_askew, tread
-from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located
 
 if TYPE_CHECKING:

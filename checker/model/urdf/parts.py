@@ -1,19 +1,15 @@
-"""What URDF files describe, and what controls it in a URDF package."""
+"""What URDF files describe."""
 
 from __future__ import annotations
 
 from contextlib import ExitStack
 
-from checker.base.parts import Ask, NotAvailable, part
-from checker.expand.launch.package_launch import LaunchEntries
+from checker.base.parts import NotAvailable, part
 from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expander, XacroArguments
-from checker.model.control.controllers import ControlSystem
-from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
 from checker.model.urdf.package_descriptions import PackageDescriptions
-from checker.package.kind import PackageKind
 from checker.package.package import Package
 
 
@@ -50,14 +46,3 @@ def descriptions(package: Package, files: UrdfFiles) -> tuple[UrdfDescription, .
     reasons = [*wrong, *files.unread, *large]
     reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
     return NotAvailable(reason, applicable=bool(reasons))
-
-
-@part
-def control(package: Package, entries: LaunchEntries, ask: Ask) -> ControlSystem | NotAvailable:
-    """Return what controls the joints of a URDF package."""
-    alone = package.only and isinstance(ask.one(UrdfFiles), UrdfFiles)
-    if package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
-        return NotAvailable("the package is not a URDF package", applicable=False)
-    from checker.model.control.system import control_system
-
-    return control_system(package, entries, ask.all(Robot), ask.all(UrdfDescription))

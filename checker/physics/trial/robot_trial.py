@@ -6,8 +6,8 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
+from checker.model.controllers import Controller
 from checker.model.robot import Robot
-from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.trial import Leg, Trial
 
 

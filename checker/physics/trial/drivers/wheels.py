@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from checker.model.controllers import Controller
 from checker.model.locomotion.locomotion import Locomotion, Side, Wheel, WheelDrive
 from checker.model.robot import Robot
-from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.course import (
     TURN,
     angular_command,

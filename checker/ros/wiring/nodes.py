@@ -9,12 +9,12 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.launch.graph import remapped, resolve_name
 from checker.expand.ros2_launch.graph import Node, NodeKind, ParameterFile, is_known
-from checker.model.ros.wiring.facts import NodeFacts, node_facts, program_of
-from checker.model.ros.wiring.inputs import Input, inputs
-from checker.model.ros.wiring.parameters import LoadedFile, Setting, settings_of
-from checker.model.ros2_control.launched import Spawner, spawner_of
-from checker.model.ros2_control.parameters import NodeBlock
-from checker.model.ros2_control.robot_control import ControlReader
+from checker.model.ros_parameters import NodeBlock
+from checker.ros.ros2_control.launched import Spawner, spawner_of
+from checker.ros.ros2_control.robot_control import ControlReader
+from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
+from checker.ros.wiring.inputs import Input, inputs
+from checker.ros.wiring.parameters import LoadedFile, Setting, settings_of
 
 _REFERENCE = re.compile(r"\{([\w.]+)\}")
 _DEEPEST = 4

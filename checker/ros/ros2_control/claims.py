@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.model.ros2_control.controllers import Controller
-from checker.model.ros2_control.distributions import controller_types
+from checker.model.controllers import Controller
+from checker.ros.ros2_control.distributions import controller_types
 from checker.source.text import Located
 
 _GROUPS: Mapping[str, str] = {

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from checker.expand.ros2_launch.graph import is_known
 from checker.model.robot import Robot
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.transforms import Transform
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.transforms import Transform
 
 _STATIC_PUBLISHER = "tf2_ros/static_transform_publisher"
 _STATIC, _SUFFIX = "/tf_static", "_static"

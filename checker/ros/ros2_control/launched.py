@@ -8,11 +8,11 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import LaunchGraph, Node, ParameterFile, is_known
 from checker.expand.ros2_launch.package_files import local_file
-from checker.model.ros.unread import unread_parts
-from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
-from checker.model.ros2_control.parameters import MANAGER
-from checker.model.ros2_control.robot_control import ControlReader, RobotControl
+from checker.model.controllers import Controller, ControllerFile, controllers_of
+from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
+from checker.ros.ros2_control.robot_control import ControlReader, RobotControl
+from checker.ros.unread import unread_parts
 from checker.source.text import Located, Span
 
 MANAGER_NODE = "ros2_control_node"

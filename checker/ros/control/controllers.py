@@ -8,8 +8,8 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.expand.launch.graph import resolve_name
 from checker.model.components import Joint, Plugin
-from checker.model.control.nodes import Spawned, SpawnedModel, StateListener
 from checker.model.urdf.description import Transmission
+from checker.ros.control.nodes import Spawned, SpawnedModel, StateListener
 from checker.source.text import Located, Span
 
 IMMOBILE = ("fixed", "floating")

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.expand.launch.graph import resolve_name
-from checker.model.control.controllers import Controller, Gain, SimulatorGains
+from checker.ros.control.controllers import Controller, Gain, SimulatorGains
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:

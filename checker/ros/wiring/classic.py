@@ -13,7 +13,7 @@ from checker.expand.launch.graph import remapped
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.model.ros.wiring.endpoints import Endpoint, remap_rule
+from checker.ros.wiring.endpoints import Endpoint, remap_rule
 
 _DEFAULT_OUTPUT = "sensor_msgs/PointCloud2"
 _TRUE = ("1", "true")

@@ -9,9 +9,9 @@ from msgspec import convert, field
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.expand.launch.bridge import Direction
-from checker.model.ros.wiring.controllers import RunController
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros.wiring.wiring import Wiring
+from checker.ros.wiring.controllers import RunController
+from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.wiring import Wiring
 from checker.source.text import Span
 
 _MESSAGES = "geometry_msgs/msg/"

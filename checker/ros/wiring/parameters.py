@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import Node, NodeKind, Parameter, ParameterFile, is_known
-from checker.model.ros2_control.parameters import NodeBlock
+from checker.model.ros_parameters import NodeBlock
 from checker.source.text import Span
 
 _EVERY = "/**"

@@ -16,8 +16,8 @@ from checker.base.resources import table
 from checker.expand.launch.bridge import Direction
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.ros.topics import comparable
 from checker.model.sensing.kind import SensorType
+from checker.ros.topics import comparable
 
 _PARAMETER = re.compile(r"\{(\w+)(?::(\w+))?\}")
 _CHOICES = 30

@@ -20,18 +20,18 @@ from checker.expand.ros2_launch.graph import (
 from checker.expand.xacro.expansion import Expander, Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
-from checker.model.ros.servers import CLASSIC_PACKAGE, is_gazebo_include
-from checker.model.ros.transforms import STATE_PUBLISHER
-from checker.model.ros.wiring.facts import program_of
-from checker.model.ros2_control.robot_control import (
-    ControlReader,
-    RobotControl,
-    may_be_controlled,
-)
 from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.reader import read_sdf
 from checker.model.urdf.description import read_description
 from checker.package.package import Package
+from checker.ros.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
+from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo_include
+from checker.ros.transforms import STATE_PUBLISHER
+from checker.ros.wiring.facts import program_of
 from checker.source.xml import XmlDocument
 
 SPAWNS = tuple((package, "create") for package in GAZEBO)

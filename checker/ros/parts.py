@@ -1,24 +1,31 @@
-"""What ROS 2 makes of the robots: ros2_control, and what launch files simulate and connect."""
+"""What controls the robots, and what launch files simulate and connect."""
 
 from __future__ import annotations
 
-from checker.base.parts import NotAvailable, part
+from checker.base.parts import Ask, NotAvailable, part
+from checker.expand.launch.package_launch import LaunchEntries
 from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expander
-from checker.model.ros.simulation import Simulations
-from checker.model.ros.simulation import simulations as read_simulations
-from checker.model.ros.spawned import SpawnedReader
-from checker.model.ros.wiring.wiring import Wiring
-from checker.model.ros.wiring.wiring import wirings as read_wirings
-from checker.model.ros2_control.launched import LaunchedControl, launched_files
-from checker.model.ros2_control.launched import launched_controls as read_launched_controls
-from checker.model.ros2_control.robot_control import (
+from checker.model.locomotion.controlled import without_idle
+from checker.model.parts import ControlledRobot
+from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.ros.control.controllers import ControlSystem
+from checker.ros.ros2_control.launched import LaunchedControl, launched_files
+from checker.ros.ros2_control.launched import launched_controls as read_launched_controls
+from checker.ros.ros2_control.robot_control import (
     ControlReader,
     RobotControl,
     may_be_controlled,
 )
-from checker.model.urdf.description import UrdfDescription
-from checker.package.package import Package
+from checker.ros.simulation import Simulations
+from checker.ros.simulation import simulations as read_simulations
+from checker.ros.spawned import SpawnedReader
+from checker.ros.wiring.wiring import Wiring
+from checker.ros.wiring.wiring import wirings as read_wirings
 
 _YAML = (".yaml", ".yml")
 """Of files that may tell a bridge what to do."""
@@ -45,6 +52,18 @@ def robot_controls(
     found = map(reader.control, descriptions) if any(map(may_be_controlled, descriptions)) else ()
     controls = tuple(control for control in found if control is not None)
     return controls or NotAvailable("no robot is controlled by ros2_control", applicable=False)
+
+
+@part
+def controlled_robots(
+    package: Package, controls: tuple[RobotControl, ...]
+) -> tuple[ControlledRobot, ...]:
+    """Return these robots with the controllers that may run."""
+    started = package.workspace.launch_words
+    return tuple(
+        ControlledRobot(control.robot, without_idle(control.controllers, started))
+        for control in controls
+    )
 
 
 @part
@@ -84,3 +103,16 @@ def wirings(
     known = None if isinstance(simulations, NotAvailable) else simulations
     found = tuple(read_wirings(launch, known, control, spawned))
     return found or NotAvailable("no launch file starts a node", applicable=False)
+
+
+@part
+def control_system(
+    package: Package, entries: LaunchEntries, ask: Ask
+) -> ControlSystem | NotAvailable:
+    """Return what controls the joints of a URDF package."""
+    alone = package.only and isinstance(ask.one(UrdfFiles), UrdfFiles)
+    if package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
+        return NotAvailable("the package is not a URDF package", applicable=False)
+    from checker.ros.control.system import control_system as read_control_system
+
+    return read_control_system(package, entries, ask.all(Robot), ask.all(UrdfDescription))

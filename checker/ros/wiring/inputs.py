@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import NodeKind
-from checker.model.ros.wiring.parameters import Setting, settings_of
+from checker.ros.wiring.parameters import Setting, settings_of
 
 if TYPE_CHECKING:
-    from checker.model.ros.wiring.nodes import WiredNode
+    from checker.ros.wiring.nodes import WiredNode
 
 _WHOLE = re.compile(r"\{([\w.]+)(#?)\}")
 _COSTMAPS = {

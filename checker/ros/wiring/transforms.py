@@ -9,9 +9,9 @@ from checker.expand.launch.bridge import Direction
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.model.ros.simulation import Simulation
-from checker.model.ros.wiring.controllers import RunController
-from checker.model.ros.wiring.nodes import WiredNode
+from checker.ros.simulation import Simulation
+from checker.ros.wiring.controllers import RunController
+from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
 TOPIC = "/tf"

@@ -13,12 +13,12 @@ from checker.base.record import Record
 from checker.base.resources import table
 from checker.expand.launch.graph import remapped
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.spawned import SpawnedRobot
-from checker.model.ros.wiring.endpoints import Endpoint, remap_rule
-from checker.model.ros.wiring.nodes import WiredNode
-from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
-from checker.model.ros2_control.launched import MANAGER_NODE
-from checker.model.ros2_control.parameters import MANAGER
+from checker.model.controllers import Controller, ControllerFile, controllers_of
+from checker.model.ros_parameters import MANAGER
+from checker.ros.ros2_control.launched import MANAGER_NODE
+from checker.ros.spawned import SpawnedRobot
+from checker.ros.wiring.endpoints import Endpoint, remap_rule
+from checker.ros.wiring.nodes import WiredNode
 
 _REMAPS = ("-r", "--remap")
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.expand.launch.bridge import Direction
-from checker.model.ros.simulation import Simulation
-from checker.model.ros.wiring.nodes import WiredNode
+from checker.ros.simulation import Simulation
+from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
 

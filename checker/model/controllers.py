@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checker.base.record import Record
-from checker.model.ros2_control.parameters import MANAGER, NodeBlock, Parameter
+from checker.model.ros_parameters import MANAGER, NodeBlock, Parameter
 from checker.source.text import Located, Span
 
 _TYPE = re.compile(r"\w{1,200}/\w{1,200}\Z")

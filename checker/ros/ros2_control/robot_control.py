@@ -12,11 +12,10 @@ from checker.base.record import Record
 from checker.expand.ros2_launch.package_files import local_file
 from checker.expand.xacro.files import ROOT, local_path, package_in
 from checker.model.components import Joint, Plugin
+from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
-from checker.model.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
-from checker.model.ros2_control.parameters import (
+from checker.model.ros_parameters import (
     MANAGER,
     bare_managers,
     read_blocks,
@@ -24,6 +23,7 @@ from checker.model.ros2_control.parameters import (
 )
 from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
+from checker.ros.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:

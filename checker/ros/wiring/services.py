@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import is_known
-from checker.model.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
 STATE = "get_state"

@@ -13,7 +13,11 @@ from checker.expand.launch.graph import LaunchGraph, Node, Param, resolve_name
 from checker.expand.launch.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
 from checker.expand.launch.substitution import is_known
 from checker.model.components import Plugin
-from checker.model.control.controllers import (
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+from checker.ros.control.controllers import (
     ControlLaunch,
     Controller,
     ControlPlugin,
@@ -21,18 +25,14 @@ from checker.model.control.controllers import (
     ParameterFault,
     SimulatorGains,
 )
-from checker.model.control.controllers_reader import MANAGER_PLUGIN, read_controllers
-from checker.model.control.nodes import (
+from checker.ros.control.controllers_reader import MANAGER_PLUGIN, read_controllers
+from checker.ros.control.nodes import (
     Spawned,
     published_states,
     read_listener,
     read_model,
     read_spawned,
 )
-from checker.model.plugin_library import library_stem
-from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
-from checker.package.package import Package
 from checker.source.text import Excerpt, Located, SourceText, Span, text_excerpt
 
 if TYPE_CHECKING:

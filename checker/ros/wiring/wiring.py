@@ -13,17 +13,17 @@ from checker.expand.ros2_launch.graph import (
     is_known,
 )
 from checker.model.robot import Robot
-from checker.model.ros.simulated_topics import unknown_owner
-from checker.model.ros.simulation import Simulation, Simulations
-from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
-from checker.model.ros.unread import unread_parts
-from checker.model.ros.wiring.classic import of_classic, unknown_plugin
-from checker.model.ros.wiring.controllers import RunController, run_controllers
-from checker.model.ros.wiring.endpoints import Endpoint, of_bridges, of_node
-from checker.model.ros.wiring.frames import of_joints, of_static
-from checker.model.ros.wiring.nodes import WiredNode, spawned_names, wired_node
-from checker.model.ros.wiring.transforms import Transform, transforms
-from checker.model.ros2_control.robot_control import ControlReader
+from checker.ros.ros2_control.robot_control import ControlReader
+from checker.ros.simulated_topics import unknown_owner
+from checker.ros.simulation import Simulation, Simulations
+from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
+from checker.ros.unread import unread_parts
+from checker.ros.wiring.classic import of_classic, unknown_plugin
+from checker.ros.wiring.controllers import RunController, run_controllers
+from checker.ros.wiring.endpoints import Endpoint, of_bridges, of_node
+from checker.ros.wiring.frames import of_joints, of_static
+from checker.ros.wiring.nodes import WiredNode, spawned_names, wired_node
+from checker.ros.wiring.transforms import Transform, transforms
 
 
 class Wiring(Record, eq=False, dict=True):

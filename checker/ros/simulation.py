@@ -9,24 +9,24 @@ from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.model.robot import Robot
-from checker.model.ros.servers import (
+from checker.model.sdf.world import World, systems_of
+from checker.package.package import Package
+from checker.ros.servers import (
     GazeboServer,
     includes_classic,
     is_gazebo_include,
     read_servers,
     starts_classic,
 )
-from checker.model.ros.simulated_topics import (
+from checker.ros.simulated_topics import (
     SimulatedTopic,
     is_silent,
     simulated_topics,
     unknown_owner,
 )
-from checker.model.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
-from checker.model.ros.topics import comparable
-from checker.model.ros.unread import unread_parts
-from checker.model.sdf.world import World, systems_of
-from checker.package.package import Package
+from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
+from checker.ros.topics import comparable
+from checker.ros.unread import unread_parts
 
 
 class Simulation(Record, eq=False, dict=True):

@@ -1,1 +1,0 @@
-"""The robot's side of ROS: bridges, topics, transforms."""

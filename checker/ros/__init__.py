@@ -1,0 +1,1 @@
+"""The robot together with launch files: controllers, bridges, topics, transforms."""
