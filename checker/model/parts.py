@@ -32,7 +32,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
 _WITHOUT_ROBOT = {
-    PackageKind.PLUGIN: "the package only carries a plugin",
+    PackageKind.PLUGIN: "the package contains only a plugin",
     PackageKind.UNKNOWN: "the package contains no robot",
 }
 

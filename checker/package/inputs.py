@@ -154,7 +154,7 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     advice = f"give the package folder {enclosing}" if enclosing else WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
-        missing = f"contains no package outside of what {found.ignored[0]} leaves out"
+        missing = f"contains no package except those that {found.ignored[0]} excludes"
     elif not enclosing and (instead := found_in(folder)) is not None:
         missing = f"contains no package, but {instead.kind} ({instead.name})"
         advice = instead.advice
@@ -166,7 +166,7 @@ def _opened(
 ) -> Opened:
     """Open units; those with one home share a workspace, in which the nearest sibling counts."""
     if not found.complete:
-        reason = f"contains more than {MAX_FOLDERS} folders; the rest is not looked into"
+        reason = f"contains more than {MAX_FOLDERS} folders; the rest is not searched"
         skipped = (*skipped, Skipped("", reason))
     beside = (*found.units, *_around(folder, within))
     spaces: dict[Path, Workspace] = {}
@@ -199,7 +199,7 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
             yield Skipped(place.name, "cannot be read: permission denied")
         elif not any(unit.folder.is_relative_to(place) for unit in found.units):
             marks = [mark.name for mark in found.ignored if mark.is_relative_to(place)]
-            why = f"is left out by {marks[0]}" if marks else "contains no package"
+            why = f"is excluded by {marks[0]}" if marks else "contains no package"
             yield Skipped(place.name, why)
 
 

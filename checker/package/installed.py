@@ -89,11 +89,11 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
     folder = _left_out_folder(holder, path)
     if holder is package and folder in USUAL_FOLDERS:
         return None
-    instead = f"folder {folder}/ exists in the source alone"
+    instead = f"folder {folder}/ exists only in the source"
     if not folder:
         target = installed_as(holder, path)
         instead = (
-            f"the file {f'is installed as {target}' if target else 'exists in the source alone'}"
+            f"the file {f'is installed as {target}' if target else 'exists only in the source'}"
         )
     return LeftOut(instead, f"{holder.name}/{folder or path}")
 

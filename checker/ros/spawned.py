@@ -141,7 +141,7 @@ class SpawnedReader:
             control = self._control.control(description) if controlled else None
             return _Described(description.robot, control)
         models = read_sdf(document, ModelIncludes(self._package))
-        return _Described(models[0]) if models else f"{path} holds no model"
+        return _Described(models[0]) if models else f"{path} contains no model"
 
 
 def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:

@@ -18,7 +18,7 @@ def unread_parts(graph: LaunchGraph) -> Iterator[str]:
     yield from (unread.reason for unread in graph.unread)
     yield from (fault.message for fault in graph.faults)
     if not all(map(_starts_no_node, graph.processes)):
-        yield "a command may start anything"
+        yield "a command may start further nodes"
     for include in graph.includes:
         if include.is_unknown and not _is_of_gazebo(include):
             yield f"{shown(include.target.value)} is not read"

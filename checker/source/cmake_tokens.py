@@ -124,7 +124,7 @@ def read_commands(source: SourceText, faults: list[CMakeFault]) -> Iterator[Comm
     tokens = islice(_Tokens(source, faults), MAX_TOKENS)
     for name in tokens:
         if not _is_name(name):
-            message = f"{name.text.value[:40]!r} is in the place of a command"
+            message = f"{name.text.value[:40]!r} is not a command"
             faults.append(CMakeFault(name.text.span, message))
             return
         opening = next(tokens, None)

@@ -1,8 +1,8 @@
 """A battery that never drains, or that is empty from the start.
 
-A full battery lasts forever unless the plugin is told when to start draining: by `start_on_motion`,
-or by a `power_draining_topic` whose first message starts it. Gazebo Dome starts with the first
-command to a joint. Tracks command no joint, so a tracked robot needs the topic.
+A full battery lasts forever unless the plugin has a condition to start draining: `start_on_motion`,
+or a `power_draining_topic` whose first message starts it. Gazebo Dome starts with the first command
+to a joint. Tracks command no joint, so a tracked robot needs the topic.
 
 A load of 0 W drains nothing, and with no charge the robot does not move at all.
 

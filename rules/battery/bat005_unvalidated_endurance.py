@@ -1,12 +1,12 @@
 """A battery that lasts long, without a measurement that proves it.
 
 Above one hour on the ground and ten minutes in the air, the organisers ask for proof from the real
-robot: a video or a log of an endurance test, linked in specifications.md. Without proof they
-ask for the standard endurance. A sheet whose section on validation refers to that of another
-configuration has its proof there.
+robot: a video or a log of an endurance test, linked in specifications.md. Without proof they ask
+for the standard endurance. A section on validation that refers to that of another configuration
+counts as proof.
 
 A link proves endurance in that section or in the one about endurance, unless its line is about a
-device. It does not where specifications.md says that the test was not made or is to be made.
+device. It does not where specifications.md says that the test was not made or is planned.
 
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, raise `power_load`.

@@ -1,7 +1,7 @@
 """A controller of a joint that does not exist.
 
 The controller manager refuses such a controller, the spawner ends with an error, and the joint
-stays loose. Names must match exactly. A fixed joint cannot be controlled either.
+moves freely. Names must match exactly. A fixed joint cannot be controlled either.
 
 Fix: write the joint's name as in the URDF file.
 Source: ros_control, `hardware_interface::ResourceManager::getHandle`: a joint that no transmission

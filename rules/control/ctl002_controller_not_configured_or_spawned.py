@@ -1,6 +1,6 @@
 """A controller that is spawned but not configured, or configured and never spawned.
 
-For a controller without configuration the spawner ends with an error, and the joint stays loose. A
+For a controller without configuration the spawner ends with an error, and the joint moves freely. A
 controller that is configured but never spawned does nothing: the joint has no controller although
 the file suggests one.
 

@@ -1,7 +1,7 @@
 """Transmissions, but no plugin that uses them.
 
 Gazebo itself ignores transmissions. Without `gazebo_ros_control` there is no controller manager,
-the spawner waits for one forever, and the joints are loose. It is information where no launch file
+the spawner waits for one forever, and the joints move freely. It is information if no launch file
 of the package starts a controller: transmissions also serve real robots, and the plugin may be in
 another file.
 

@@ -2,7 +2,7 @@
 
 The node turns joint states into transforms. If it listens to another topic than the
 joint_state_controller publishes, the moving links have no transforms: RViz shows them at the
-origin, and whatever uses tf fails.
+origin, and programs that use tf fail.
 
 Fix: remap `joint_states` to the topic in the namespace of the controllers, or start the node in
 that namespace.

@@ -3,8 +3,8 @@
 Teams choose a robot by its specification sheet. They notice only in the first run that a listed
 sensor is missing, or is modelled under another type.
 
-Fix: add the sensor to the model, or correct specifications.md; write "modeled by a … sensor" where
-the device's name does not say what it is.
+Fix: add the sensor to the model, or correct specifications.md; write "modeled by a … sensor" if the
+device's name does not contain the type.
 Source: SubT maintainers compare specifications.md and model sensor by sensor in their reviews.
 """
 

@@ -1,8 +1,8 @@
 """A sensor of the model that specifications.md does not list.
 
-Teams choose a robot by its specification sheet: nobody uses a sensor that is not listed, and the
-real robot may not carry it. Every robot has a gas detector and a barometer, which need no entry.
-Most IMUs contain a magnetometer; a missing one is information.
+Teams choose a robot by its specification sheet: they do not use a sensor that is not listed, and
+the real robot may not carry it. Every robot has a gas detector and a barometer, which need no
+entry. Most IMUs contain a magnetometer; a missing one is information.
 
 Fix: list the sensor in the section "Sensors" with its device and the type that models it, or remove
 it from the model.

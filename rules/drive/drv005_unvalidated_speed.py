@@ -7,7 +7,7 @@ that we checked, two show this: one links only datasheets, the other placeholder
 
 A link proves speed in the section "Validation and Specification Links" or in the one on motion,
 unless its line is about a device. It does not where specifications.md says that the test was not
-made or is to be made.
+made or is planned.
 
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, lower the limits.

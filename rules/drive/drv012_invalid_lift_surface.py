@@ -1,9 +1,10 @@
-"""A wing, rudder or blade whose lift has no direction, or no area to act on.
+"""A wing, rudder or blade whose lift has no direction or no area.
 
 LiftDrag and AdvancedLiftDrag work in the plane of `<forward>` and `<upward>`. Where one of them is
-zero, or both point along one line, there is no such plane: the surface neither lifts nor brakes,
-and Gazebo prints no message. Neither does one without area. A centre of pressure far outside of the
-vehicle turns it with a lever that it does not have: usually the numbers are millimetres.
+zero, or both point along one line, there is no such plane: the surface has no lift and no drag, and
+Gazebo prints no message. A surface without area has neither, too. A centre of pressure far outside
+the vehicle gives the force a lever that the vehicle does not have: usually the numbers are in
+millimetres.
 
 Fix: write the direction of flight in `<forward>` and that of the lift in `<upward>`, at right
 angles, in the link's frame; the area in m², and `<cp>` in metres from the link's origin.

@@ -1,10 +1,10 @@
 """An angle close to a multiple of π/2 that is not written with 16 digits.
 
 A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. The robot
-drives anyway, so this is no error. But the SubT checklist asks for exact wheels, since a
-solver may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model,
-and for other targets, it is information; for Gazebo from Fortress on, less than a microradian is
-not reported. Where the angle of a part that is no wheel changes by more than the rounding of four
+drives anyway, so this is not an error. But the SubT checklist asks for exact wheels, since a solver
+may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model, and for
+other targets, it is information; for Gazebo from Fortress on, less than a microradian is not
+reported. Where the angle of a part that is not a wheel changes by more than the rounding of four
 decimals, as for 3.14, the part moves: the fix is unsafe.
 
 Fix: write 1.5707963267948966 or 3.1415926535897932.

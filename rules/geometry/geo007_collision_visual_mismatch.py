@@ -7,11 +7,11 @@ of the accepted packages that we checked shows this.
 Wheels of published robots differ by up to 0.25 of the diagonal, as a narrow disc in a wide tyre
 does, and other links by up to 0.46.
 
-The collision of a link may stand for those that are fixed to it as well, such as a capsule around a
+The collision of a link may also cover the links that are fixed to it, such as a capsule around a
 flange with its gripper: it is compared with the visuals of all of them, too.
 
-A wheel may also roll beside itself: its collision is too far out or in along the axle. If the mesh
-of a wheel's visual is not available, its pose and that of the joint say where the wheel is. In 18
+The collision of a wheel may also be too far out or in along the axle. If the mesh of a wheel's
+visual is not available, its pose and that of the joint give the position of the wheel. In 18
 accepted packages the offset is at most 0.15 of the width.
 
 Fix: give collision and visual the same pose and about the same size.

@@ -2,8 +2,8 @@
 
 A camera or an antenna in the air next to the robot usually has a wrong pose: a decimal point, a
 sign, a unit, or the pose of another configuration. A box of a centimetre that marks a frame, such
-as `base_footprint`, is no part. In published robots, gaps that are meant so measure up to 16 mm,
-and those that are mistakes 38 mm or more.
+as `base_footprint`, is not a part. In published robots, intended gaps measure up to 16 mm, and
+mistakes 38 mm or more.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.

@@ -207,7 +207,7 @@ def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
 
 def _written(joint: Joint) -> str:
     xyz = joint.axes[0].xyz
-    default = "" if xyz[0].stated else " (the default, for it states none)"
+    default = "" if xyz[0].stated else " (the default, as none is stated)"
     return " ".join(f"{number.value:g}" for number in xyz) + default
 
 

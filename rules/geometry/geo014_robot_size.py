@@ -3,7 +3,7 @@
 A robot of 400 m was drawn in millimetres, one of 4 mm was scaled twice; masses become wrong when
 grams are taken for kilograms. Contacts and controllers are made for robots of real size. None of
 the accepted packages that we checked shows this. Outside of SubT, only models that drive or have
-wheels are judged: others may be a sensor, a tool or scenery.
+wheels are checked: others may be a sensor, a tool or scenery.
 
 Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` of meshes.
 Source: SDFormat and URDF use SI units; ground and air robots from 5 cm and 50 g to lorries of

@@ -1,11 +1,11 @@
-"""An angle that looks like degrees, where radians are read.
+"""An angle that looks like degrees, but is read as radians.
 
-90 rad are more than 14 turns: the part stands askew, and a joint with limits of ±180 turns freely.
+90 rad are more than 14 turns: the part is tilted, and a joint with limits of ±180 turns freely.
 
 Fix: write the angle in radians (90° is 1.5707963267948966); in SDF 1.8 and later, a pose can state
 `degrees="true"`.
-Source: SDFormat and URDF specifications: angles are in radians; 30, 45, 60, 90 and 180 are no
-angles that anyone means in radians.
+Source: SDFormat and URDF specifications: angles are in radians; 30, 45, 60, 90 and 180 are not
+plausible angles in radians.
 """
 
 import math

@@ -5,8 +5,8 @@ as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`. With
 part is there and has another colour: this is a warning.
 
 `package://` leads to the installed package: a file that the build does not install there is not
-found either. What lies in one folder of which nothing is installed is reported once; meshes/ and
-other usual folders are PKG008's.
+found either. Files in one folder of which nothing is installed are reported once; PKG008 reports
+meshes/ and other usual folders.
 
 Fix: add the file, correct the path, or install the folder.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package;

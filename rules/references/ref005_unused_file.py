@@ -1,7 +1,7 @@
 """A mesh or texture that nothing uses.
 
 Each user of the robot downloads it. Often a wrong path should lead to it. A folder of meshes
-without a model is for other models: it is not judged.
+without a model is for other models: it is not reported.
 
 Fix: delete it, or correct the reference that should lead to it.
 Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what the model uses.

@@ -1,10 +1,10 @@
 """No bridge connects a sensor or drive to ROS.
 
-Gazebo's topics are separate from those of ROS: without a bridge nobody receives a camera's images,
-and a robot never receives `cmd_vel`. Topics that a condition of the launch file switches off for
-this configuration count as not bridged. The launch files of the package subt_ros are not part of a
-submission. The rule assumes which topics those of `models_common` bridge, from how accepted
-packages use them (`models_common.json`).
+Gazebo's topics are separate from those of ROS: without a bridge no ROS node receives a camera's
+images, and the robot never receives `cmd_vel`. Topics that a condition of the launch file switches
+off for this configuration count as not bridged. The launch files of the package subt_ros are not
+part of a submission. The rule assumes which topics those of `models_common` bridge, from how
+accepted packages use them (`models_common.json`).
 
 Contact sensors, logical cameras, altimeters and plugins that are not Gazebo's own need no bridge
 here. A lidar needs a bridge for its scan or for its points. The topics

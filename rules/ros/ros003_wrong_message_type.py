@@ -1,7 +1,7 @@
 """A bridge has another message type or direction than its topic.
 
-The bridge starts, finds no message that it can convert, and its ROS topic stays silent. A bridge
-for `cmd_vel` from Gazebo to ROS never moves the robot. Even with matching types, a LaserScan holds
+The bridge starts, finds no message that it can convert, and publishes nothing in ROS. A bridge for
+`cmd_vel` from Gazebo to ROS never moves the robot. Even with matching types, a LaserScan contains
 only one row of a lidar that has many, and no lidar of Gazebo publishes a Range.
 
 Fix: write the types of the message, and `[` for Gazebo to ROS, `]` for ROS to Gazebo. Bridge

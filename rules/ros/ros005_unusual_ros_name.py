@@ -3,12 +3,12 @@
 Teams' programs find a robot's topics by their names: `cmd_vel`, `odom`, `imu/data`, `points`,
 `front_scan`, `camera_front/image_raw`. Other names work only for their author. The rule judges
 names by pattern, not by a list: the kind of data comes last, the place of the sensor (`front`,
-`rear`, `left`, `right`, …) comes before it. The device (`d435/image_raw`, `velodyne/points`) says
-nothing about the place; both together (`front_d435/image_raw`) are fine. All topics of a depth
-camera have the same words in front, so that its points are found beside its image.
+`rear`, `left`, `right`, …) comes before it. The device (`d435/image_raw`, `velodyne/points`) does
+not give the place; both together (`front_d435/image_raw`) are fine. All topics of a depth camera
+have the same prefix, so that its points are found with its image.
 
-The points of the robot's only 3D lidar are `points` on most robots. Words in front of it
-(`front_laser/points`) are information.
+The points of the robot's only 3D lidar are `points` on most robots. A prefix (`front_laser/points`)
+is information.
 
 Fix: remap the bridge to the usual name.
 Source: SubT API; review findings about names with `back` instead of `rear`, with the device

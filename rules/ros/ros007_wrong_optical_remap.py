@@ -1,7 +1,7 @@
 """An optical_frame_publisher whose remaps are missing, swapped or copied.
 
 The node reads the topics that its remaps name. Without a remap, or with that of another camera, it
-waits for a topic that nobody publishes, or publishes one camera's image under the name of another.
+waits for a topic that is not published, or publishes one camera's image under the name of another.
 
 Fix: remap `input/image` and `input/camera_info` to the topics of one camera's bridges, and
 `output/image` and `output/camera_info` to new names; with `args="depth"` only the images.

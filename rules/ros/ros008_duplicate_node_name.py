@@ -1,8 +1,8 @@
 """Two nodes with the same name.
 
 ROS identifies a node by its full name. roslaunch refuses a file that starts two nodes with the same
-name. If two files start them, the second node shuts down the first, whose topics are then silent.
-The same holds for a file of subt_ros that is included twice for the same robot, such as
+name. If two files start them, the second node shuts down the first, which then publishes nothing.
+The same applies to a file of subt_ros that is included twice for the same robot, such as
 `mapping_server_relays.launch` by a file and again by one that it includes.
 
 Fix: give each node its own name, put the nodes into groups with different `ns`, or remove one

@@ -1,7 +1,7 @@
 """A tag or attribute that roslaunch does not know, or a missing required one.
 
 roslaunch prints one warning in its log and continues: a misspelt `<remap srom=…>` renames nothing,
-and the topic keeps a name that nobody subscribes to. Without a required attribute roslaunch does
+and the topic keeps a name to which no node subscribes. Without a required attribute roslaunch does
 not start, and the robot has no topics.
 
 Fix: spell the tag or attribute as roslaunch does, or move it to where roslaunch reads it.

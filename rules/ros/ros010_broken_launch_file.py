@@ -2,7 +2,7 @@
 
 roslaunch reads all files before it starts anything. With an undeclared arg, an include without a
 required arg, or an include of a missing file, the robot starts without any of its topics. Files in
-packages that are not available are not judged.
+packages that are not available are not checked.
 
 Fix: declare the arg with `<arg name="…"/>`, pass it with `<arg name="…" value="…"/>` inside the
 include, or correct the path.

@@ -2,9 +2,9 @@
 
 The place of a sensor on the robot is published once, separately from the poses that change. Without
 it sensor data cannot be placed on the robot. Fixed joints of the package's own description are not
-in the SDF model: the conversion merges their links, and only `robot_state_publisher` knows them.
-They are taken from what xacro makes of the description, with all that it includes and the arguments
-of the launch file; where it cannot be expanded, from the file as it stands.
+in the SDF model: the conversion merges their links, and only `robot_state_publisher` publishes
+them. They are read from the expanded description, with all included files and the arguments of the
+launch file; if it cannot be expanded, from the unexpanded file.
 
 Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` if the description has
 fixed frames that the model lacks.

@@ -1,9 +1,9 @@
 """The robot's description cannot be loaded, or has the wrong parameter name.
 
 Tools look for `/<robot's name>/robot_description`. If xacro does not find its file, roslaunch stops
-and starts no node of the file. Without `name:=` all robots of a team get the same frames. A script
-of the shell or of Python that the command names is read, not run: it must hand its arguments to
-xacro (`"$@"`, `sys.argv`), or `name:=` with what it is given.
+and starts no node of the file. Without `name:=` all robots of a team get the same frames. A shell
+or Python script in the command is read, not run: it must pass its arguments to xacro (`"$@"`,
+`sys.argv`), or `name:=` with the value of an argument.
 
 Fix: `<param name="$(arg name)/robot_description" command="$(find xacro)/xacro '$(find
 <package>)/urdf/robot_from_sdf.xacro' name:=$(arg name)"/>`.
@@ -126,9 +126,9 @@ def _given(description: RobotDescription, script: DescriptionScript | None) -> s
     """Return what xacro gets instead of the robot's name, and what is expected."""
     if script is not None and "name" in script.arguments:
         given = f"name:={script.arguments['name']}"
-        return f"{script.path} gives it {given}: expected what the launch file hands over"
+        return f"{script.path} gives it {given}: expected the name from the launch file"
     if script is not None and not script.takes_arguments:
-        return f"{script.path} passes none of its arguments to xacro"
+        return f"{script.path} does not pass its arguments to xacro"
     name = description.arguments.get("name")
     gets = f"gets {'no name:=' if name is None else f'name:={name}'}"
     gets = f"{script.path} {gets}" if script is not None else gets

@@ -1,7 +1,7 @@
 """Nothing publishes the robot's transforms.
 
-Without TF, sensor data has no place: RViz shows nothing, and mapping and navigation reject every
-message. The bridged poses are not TF; `pose_tf_broadcaster` converts them.
+Without TF, the position of sensor data is not known: RViz shows nothing, and mapping and navigation
+reject every message. The bridged poses are not TF; `pose_tf_broadcaster` converts them.
 
 Fix: start `<node pkg="subt_ros" type="pose_tf_broadcaster" name="pose_tf_broadcaster"/>` in the
 group of the robot's name.

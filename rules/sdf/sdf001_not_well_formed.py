@@ -6,7 +6,7 @@ comment, `&` for `&amp;`, control characters and a second root element. In files
 reads these are information; the parsers of ROS refuse them.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
-Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tried out.
+Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested.
 """
 
 from collections.abc import Iterator

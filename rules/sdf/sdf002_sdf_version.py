@@ -1,7 +1,7 @@
 """An SDF version that the target does not use, or that does not exist.
 
 The version defines what each element means: the frame of a pose, the joint types and the sensors. A
-parser reads a file by its stated version, turns older ones into its own, and refuses newer ones:
+parser reads a file by its stated version, converts older ones to its own, and refuses newer ones:
 Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT asks for
 1.6; another version that Dome reads is a warning. If `model.config` states another version than the
 model file, tools that choose by it choose the wrong file.

@@ -1,12 +1,13 @@
 """An element that SDFormat does not know.
 
-libsdformat copies unknown elements with a warning, and nothing asks for them, so their content has
-no effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the
-name resembles a known one, or if the part would move otherwise; what only changes the look of a
-part, and what resembles an element that the target does not read (such as `<always_on>`), is a
-warning. A file of an older version is read as one of the newest version: elements of that version
-are known, too. Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008
-reports a known element in the wrong place, SEN028 those that name the frame of a sensor.
+libsdformat copies unknown elements with a warning, and nothing reads them, so their content has no
+effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the name
+resembles a known one, or if it would change how the part moves; an element that only changes the
+look of a part, and one that resembles an element that the target does not read (such as
+`<always_on>`), is a warning. A file of an older version is read as one of the newest version:
+elements of that version are known, too. Elements below `<plugin>` and elements with a namespace
+prefix are ignored. SDF008 reports a known element in the wrong place, SEN028 those that name the
+frame of a sensor.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.

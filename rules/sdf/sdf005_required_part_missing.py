@@ -1,9 +1,9 @@
 """A required element or attribute that is missing or empty.
 
-A part without a default cannot be invented: the parser refuses the file, or builds an incomplete
-part. A part without a name cannot be found. A visual without geometry loads and shows nothing, so
-that is a warning where the profile names no Gazebo release. KIN001 reports the ends of joints. None
-of the accepted packages that we checked shows this.
+A required part has no default: the parser refuses the file, or builds an incomplete part. A part
+without a name cannot be found. A visual without geometry loads and shows nothing, so that is a
+warning where the profile names no Gazebo release. KIN001 reports the ends of joints. None of the
+accepted packages that we checked shows this.
 
 Fix: add the element or attribute that the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute.

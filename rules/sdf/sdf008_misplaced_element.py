@@ -1,7 +1,7 @@
 """A known element in a place where it is not allowed.
 
 Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
-directly below `<sensor>` does not reach the IMU. If the right place is set, if it says what is the
+directly below `<sensor>` does not reach the IMU. If the right place is set, if its value is the
 default there, if it only changes the look of a part, or if the target does not read it in its place
 either, it is a warning. SDF003 reports elements that are not known in any place.
 

@@ -1,9 +1,9 @@
 """A pose with the attribute `frame`.
 
 Gazebo 9 never read it, and since SDF 1.7 `relative_to` replaces it. libsdformat from Gazebo 11 and
-Dome on turns it into `relative_to` in files before SDF 1.7, so that the part stands in another
-place than in Gazebo 9; in newer files it has no effect. An empty one has none in any file. SDF017
-reports a frame that does not exist.
+Dome on converts it to `relative_to` in files before SDF 1.7, so that the part is in another place
+than in Gazebo 9; in newer files it has no effect. An empty attribute has no effect in any file.
+SDF017 reports a frame that does not exist.
 
 Fix: remove the attribute, and write the pose relative to the element around it.
 Source: SDFormat specification, pose 1.5 to 1.7; how libsdformat 12 reads it. The Model Migration

@@ -1,8 +1,8 @@
 """An included model that cannot become a part of this one.
 
 libsdformat refuses the whole file: the included file contains no model, includes itself, or is
-nested too deep. A model that is merged gives its links, joints and frames to the model around it,
-so none of them may have a name that this one, or another merged model, has already.
+nested too deep. The links, joints and frames of a merged model become those of the model around it,
+so none of them may have a name that this model, or another merged model, has already.
 
 Fix: name a file that contains a model, end the circle, or rename the part.
 Source: SDFormat specification, include, and 1.9, include/@merge; what libsdformat 12 refuses.

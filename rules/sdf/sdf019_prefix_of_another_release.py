@@ -2,7 +2,7 @@
 
 `<fdir1>` is the direction in which `<mu>` counts. Without a frame that is read, it turns with the
 wheel, so rollers of a mecanum wheel push in changing directions and the robot does not move
-sideways. From Garden on, physics engines ask for the attribute `gz:expressed_in`; that with
+sideways. From Garden on, physics engines read the attribute `gz:expressed_in`; the one with
 `ignition:` is for Fortress and older.
 
 Fix: write `gz:expressed_in`, and `xmlns:gz="http://gazebosim.org/schema"` in `<sdf>`.

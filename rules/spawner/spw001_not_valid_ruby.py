@@ -2,12 +2,12 @@
 
 The SubT launcher cannot load the file, so it cannot start the robot.
 
-Only errors that cannot be anything else are reported: what Ruby never accepts, such as a heredoc
-whose end has blanks behind it, and a missing `end`, quote, bracket or comma with which the whole
-file could be read. What is only likely is a warning of SPW002.
+Only certain errors are reported: code that Ruby never accepts, such as a heredoc whose end is
+followed by blanks, and a missing `end`, quote, bracket or comma that would make the whole file
+valid. SPW002 reports likely errors as warnings.
 
-Fix: correct the code that the message names; `ruby -c launch/spawner.rb` tells whether more is
-left.
+Fix: correct the code that the message names; run `ruby -c launch/spawner.rb` to find further
+errors.
 Source: Ruby's grammar. None of the accepted packages that we checked shows this.
 """
 

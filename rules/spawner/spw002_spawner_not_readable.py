@@ -4,10 +4,10 @@ The checker never runs uploaded Ruby. It evaluates a small part of the language:
 conditions, loops, strings, numbers, arrays, hashes and YAML files. The message names code outside
 this part; rules that need what the spawner emits are then not checked.
 
-What the grammar does not know is a warning, for Ruby most likely refuses the file (SPW001 reports
-it where that is certain); so is an error that Ruby raises.
+Code that the grammar does not know is a warning, because Ruby probably refuses the file (SPW001
+reports it where that is certain). An error that Ruby raises is a warning, too.
 
-Fix: correct what was mistyped, and build the XML from the function's parameters only, without other
+Fix: correct misspelt code, and build the XML from the function's parameters only, without other
 programs, files or network.
 Source: the Ruby evaluator of this checker. None of the accepted packages that we checked goes
 beyond it.

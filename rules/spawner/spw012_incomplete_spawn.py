@@ -2,7 +2,7 @@
 
 Without `<is_performer>true</is_performer>` the robot does not count as a member of the team. If
 renaming is allowed, its topics may have another name than the robot: this is a warning. Without
-`<world>` it is not spawned, nor with an `<include>` that stands in no `<sdf>`.
+`<world>`, or with an `<include>` that is not in an `<sdf>`, the robot is not spawned.
 
 Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
 `<allow_renaming>false</allow_renaming>` below `<spawn>`, and `<sdf version="1.6">` around the

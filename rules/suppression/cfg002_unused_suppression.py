@@ -2,7 +2,7 @@
 
 The fault is corrected or has moved, and the suppression would hide the next one. A comment applies
 to one line: its own or, if alone on its line, also the next one. Only rules that ran count;
-comments on CFG rules are not judged.
+comments on CFG rules are not checked.
 
 Fix: remove the comment or the entry of the settings, or move it to the line that the finding names.
 Source: README, section "Suppress".

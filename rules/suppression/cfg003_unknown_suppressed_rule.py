@@ -1,6 +1,6 @@
 """A suppression that names no known rule.
 
-The suppression has no effect, although it looks as if it had.
+The suppression has no effect: the findings still count.
 
 Fix: write ids or names of rules in the bracket: `subt-check: ignore[SEN005, GEO001] reason`.
 `subt-check rules` lists them. Groups, such as `SEN`, cannot be suppressed by a comment.

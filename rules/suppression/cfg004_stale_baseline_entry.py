@@ -1,7 +1,7 @@
 """A finding of the baseline that no longer occurs.
 
-The fault is corrected: while the baseline contains it, the same fault may return unseen. Only rules
-that ran count, and those that do not exist.
+The fault is corrected: while the baseline contains it, the same fault may return without being
+reported. Only rules that ran count, and those that do not exist.
 
 Fix: write the baseline again with `--write-baseline`, or remove the entry from its file.
 Source: README, section "Suppress".

@@ -1,8 +1,8 @@
 """A model that MuJoCo refuses.
 
-Gazebo loads such a model, so this is a warning: a tool that reads it as strictly as MuJoCo does not
-take it. Impossible masses, sizes, axes and limits, and meshes that are missing or open, are
-reported by the INE, GEO, KIN, REF and MSH rules, and not again by this one.
+Gazebo loads such a model, so this is a warning: a tool as strict as MuJoCo does not load it.
+Impossible masses, sizes, axes and limits, and meshes that are missing or open, are reported by the
+INE, GEO, KIN, REF and MSH rules, and not again by this one.
 
 Fix: correct the part that the message names. The result of the trial lists the repairs that the
 trial needed.

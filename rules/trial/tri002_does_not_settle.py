@@ -1,9 +1,9 @@
 """A robot that does not come to rest.
 
-The robot sinks, tips, jumps, slides or folds up before any command, so all later measurements mean
-nothing: how it drives is then not checked. Usually a collision is missing or tilted, parts start
-inside each other, or the inertia of a part is far too small. Outside of SubT, only
-robots that drive are judged: others may be held by what includes them.
+The robot sinks, tips, jumps, slides or folds up before any command, so all later measurements are
+meaningless: how it drives is then not checked. Usually a collision is missing or tilted, parts
+start inside each other, or the inertia of a part is far too small. Outside of SubT, only robots
+that drive are checked: others may be fixed by the model that includes them.
 
 Fix: check first the collisions and inertias of the parts that touch the ground.
 Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.

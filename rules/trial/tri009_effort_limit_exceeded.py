@@ -1,8 +1,8 @@
 """A joint that needs more torque than its effort limit allows.
 
 The servos of the trial have unlimited torque, but the simulated motor stops at its limit: the robot
-starts slower, does not reach its speed, or drops its load. A joint whose limits do not hold 0,
-where the trial starts, is not judged, nor one whose effort limit specifications.md explains.
+starts slower, does not reach its speed, or drops its load. A joint whose limits exclude 0, where
+the trial starts, is not checked, nor is one whose effort limit specifications.md explains.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without

@@ -1,7 +1,7 @@
 """A legged robot or an arm that does not hold its initial pose.
 
 With its joints held in their initial position, the robot sinks, tips or gives way: it cannot stand
-in this pose. A joint that starts outside its limits is not judged. This does not test whether the
+in this pose. A joint that starts outside its limits is not checked. This does not test whether the
 robot walks.
 
 Fix: check the initial pose, the collisions of the feet and the centre of mass.

@@ -1,12 +1,12 @@
 """A frame gets its transform from two publishers of a launch.
 
-TF keeps what came last. With two publishers of one transform the robot jumps between two places,
-many times a second; with two parents for one frame the tree is a different one each time, and
-whatever looks up a transform fails now and then. A drive (DiffDrive in Gazebo, a drive plugin of
-Gazebo Classic, a drive controller of ros2_control) and a filter that takes its odometry
-(`ekf_node`) both publish `odom` to the base unless one of them is told not to. The joints of the
-robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
-at `base_link` where that is a child of `base_footprint`, makes two of one.
+TF keeps the last transform that it received. With two publishers of one transform the robot jumps
+between two places, many times a second; with two parents for one frame the tree is a different one
+each time, and lookups of transforms fail at times. A drive (DiffDrive in Gazebo, a drive plugin of
+Gazebo Classic, a drive controller of ros2_control) and a filter that uses its odometry (`ekf_node`)
+both publish `odom` to the base unless this is switched off in one of them. The joints of the robot
+are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends at
+`base_link` where that is a child of `base_footprint`, is a second transform.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.

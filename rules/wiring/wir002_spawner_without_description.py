@@ -1,11 +1,13 @@
 """A spawner waits for a robot on a topic that nothing publishes.
 
 The robot never appears: `create -topic X` and `spawn_entity.py -topic X` wait until a description
-comes on that topic. robot_state_publisher publishes it on `robot_description`, in the namespace of
-its node: a namespace on only one of the two nodes, or a remap, makes the topics differ as well.
+is published on that topic. robot_state_publisher publishes it on `robot_description`, in the
+namespace of its node: a namespace on only one of the two nodes, or a remap, makes the topics differ
+as well.
 
 It is reported where the launch file starts robot_state_publisher, and all other nodes that it
-starts are known. A spawner in a launch file of its own may be for the one of another file.
+starts are known. A spawner in a separate launch file may belong to the robot_state_publisher of
+another file.
 
 Fix: give the spawner the topic of robot_state_publisher, and both the same namespace.
 Source: ros_gz_sim, create.cpp; gazebo_ros, spawn_entity.py; robot_state_publisher.
@@ -37,7 +39,7 @@ def check(wiring: Wiring) -> Findings:
             if not topic or topic in published:
                 continue
             if unknown := wiring.more_publishers(_DESCRIPTION):
-                yield unchecked(f"whether something publishes {topic} is not known: {unknown}")
+                yield unchecked(f"the publishers of {topic} are not all known: {unknown}")
                 continue
             yield finding(
                 word,

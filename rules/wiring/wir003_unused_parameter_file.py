@@ -1,8 +1,8 @@
-"""A parameter file without a block for the node that gets it.
+"""A parameter file without a block for the node that loads it.
 
-The node starts with its defaults, and no message says so: a block of a parameter file is for the
-node whose full name is its key. With a `name` in the launch file, or a namespace, it is another
-node: `controller_server:` is not for `/follower`, and not for `/robot/controller_server`.
+The node starts with its defaults, without a message: a block of a parameter file is for the node
+whose full name is its key. A `name` or a namespace in the launch file changes the full name:
+`controller_server:` is not for `/follower`, and not for `/robot/controller_server`.
 
 It is reported where a block has the usual name of the program or the node's name in another
 namespace, and no node of the launch reads it; or where no node of the launch reads any of the

@@ -1,11 +1,12 @@
 """A velocity whose publisher and subscriber use different message types.
 
-The robot does not move: a topic connects publishers and readers of one type only. Drive controllers
-read `TwistStamped` alone from Jazzy on, while teleop_twist_keyboard, teleop_twist_joy and Nav2 of
-Jazzy publish `Twist` unless a parameter is set; a bridge to Gazebo reads the type that it is given.
+The robot does not move: a topic connects publishers and readers of one type only. From Jazzy on,
+drive controllers read only `TwistStamped`, while teleop_twist_keyboard, teleop_twist_joy and Nav2
+of Jazzy publish `Twist` unless a parameter is set; a bridge to Gazebo reads the type that is
+configured.
 
-It is reported where no known node of the launch reads the type that is published. Where the launch
-starts nodes that are not known, it is a warning: one of them may read it.
+It is reported where no known node of the launch reads the type that is published. If the launch
+starts unknown nodes, this is a warning: one of them may read it.
 
 Fix: state the parameter that the message names, or put twist_stamper between the two.
 Source: ros2_controllers, navigation2, teleop_twist_keyboard and teleop_twist_joy by distribution.

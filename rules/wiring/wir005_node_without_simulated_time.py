@@ -1,14 +1,14 @@
-"""A node works with the time of the machine, in a launch that simulates.
+"""A node uses the system clock in a launch with simulated time.
 
-Its time is decades ahead of the stamps of all that Gazebo sends: a filter drops the measurements as
-too old, lookups of transforms fail ("extrapolation into the past"), and navigation waits. With
-`use_sim_time` a node takes its time from /clock. A block of a parameter file that gives it to one
-node gives it to no other.
+Its time is decades ahead of the time stamps of Gazebo's messages: a filter drops the measurements
+as too old, lookups of transforms fail ("extrapolation into the past"), and navigation waits. With
+`use_sim_time` a node takes its time from /clock. A block of a parameter file sets it for one node
+only.
 
-It is reported of localisation, mapping and navigation, where all parameters of the node were read,
-and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another such node or
-a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away from the
-other's.
+It is reported for nodes of localisation, mapping and navigation where all parameters of the node
+were read, and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another
+such node or a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away
+from the other's.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
@@ -35,10 +35,10 @@ def check(wiring: Wiring) -> Findings:
     nodes = (it for it in wiring.nodes if it.node.kind is not NodeKind.INCLUDED)
     timed = [it for it in nodes if it.knows_parameters and _compares_time(it)]
     simulated = [node for node in timed if _text(node) == "true"]
-    reason = "this launch starts Gazebo, and what it sends has the time of /clock"
+    reason = "this launch starts Gazebo, whose messages have the time of /clock"
     if not _has_clock(wiring):
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
-        reason = f"{simulated[0].called} of this launch has the time of /clock" if elsewhere else ""
+        reason = f"{simulated[0].called} of this launch uses /clock" if elsewhere else ""
     for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
         is_affected = node.node.package.value != STATE_PUBLISHER

@@ -1,14 +1,14 @@
 """A node reads a topic that nothing publishes, while its messages are on another topic.
 
-The node starts and waits: a filter gets no odometry, a costmap stays empty, mapping
-maps nothing, and no message says so. The name is often that of another package or tutorial:
-DiffDrive in Gazebo publishes `odom` below the name of its model, `diff_drive_controller` publishes
-`~/odom`, the steering controllers `~/odometry`.
+The node starts and waits without a message: a filter gets no odometry, a costmap or a map stays
+empty. The name is often that of another package or tutorial: DiffDrive in Gazebo publishes `odom`
+below the name of its model, `diff_drive_controller` publishes `~/odom`, the steering controllers
+`~/odometry`.
 
-It is reported of odometry, scans, point clouds, ranges and IMUs, where a parameter says what is
-read, and a robot or driver of the same launch publishes the type under another name which the node
-does not read. Where the launch starts nodes whose topics are not known, it is only reported if both
-names differ in nothing but separators (`imu_data`, `imu/data`): such a node may pass messages on.
+It is reported for odometry, scans, point clouds, ranges and IMUs where a parameter names the topic,
+and a robot or driver of the same launch publishes the type under another name which the node does
+not read. Where the launch starts nodes whose topics are not known, it is only reported if both
+names differ only in separators (`imu_data`, `imu/data`): such a node may pass messages on.
 
 Fix: write the name that is published, or remap it.
 Source: robot_localization, slam_toolbox and navigation2: parameters that name topics;
@@ -43,7 +43,7 @@ def check(wiring: Wiring) -> Findings:
             continue
         unknown = wiring.more_publishers(message) or wiring.unknown_parts
         if unknown and not _alike(wanted, others[0]):
-            yield unchecked(f"whether something publishes {wanted.topic} is not known: {unknown}")
+            yield unchecked(f"the publishers of {wanted.topic} are not all known: {unknown}")
             continue
         kind = message.rpartition("/")[2]
         names = ", ".join(dict.fromkeys(it.topic for it in others))

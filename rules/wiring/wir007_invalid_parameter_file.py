@@ -1,13 +1,13 @@
 """A parameter file that rcl refuses: the node ends when it starts.
 
-A parameter file of ROS 2 holds names of nodes, below each of them `ros__parameters`, and the
+A parameter file of ROS 2 contains names of nodes, below each of them `ros__parameters`, and the
 values below that. A value anywhere else makes rcl refuse the whole file ("Cannot have a value
-before ros__parameters"), for every node that is given it, whether the rest is for it or not. Files
-of ROS 1, and those that a library reads by itself, have their values at the top.
+before ros__parameters"), for every node that loads it. Files of ROS 1, and those that a library
+reads by itself, have their values at the top.
 
-It is reported where a launch file gives the file to a node as its parameters. A text that holds the
-path of such a file is no parameter file. For a component launch reads the file, and takes values
-at the top.
+It is reported where a launch file loads the file as the parameters of a node. A parameter whose
+value is the path of such a file is not reported. For a component, launch itself reads the file, and
+accepts values at the top.
 
 Fix: put the values below the name of the node and `ros__parameters`. A slash and two asterisks
 instead of the name stand for every node.

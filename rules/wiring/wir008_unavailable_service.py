@@ -1,13 +1,12 @@
 """A node waits for a service or action that nothing in the launch offers.
 
-Bringing up stops there: a lifecycle manager asks each of its `node_names` for its state and waits
-until the node answers, so that a name that no node has holds up all others; `bt_navigator` does not
-become active without the servers of its behaviour tree. A namespace on only one of two nodes, or a
-`name` in the launch file, makes the names differ as well.
+The startup stops there: a lifecycle manager requests the state of each of its `node_names` and
+waits for the answer, so a name without a node blocks all others; `bt_navigator` does not become
+active without the servers of its behaviour tree. A namespace on only one of two nodes, or a `name`
+in the launch file, makes the names differ as well.
 
 It is reported where all nodes of the launch file are known, and no other launch file of the package
-starts a node that offers it. Behaviour trees of one's own may need other servers, and are not
-judged.
+starts a node that offers it. Custom behaviour trees may need other servers, and are not checked.
 
 Fix: start the node that is missing, or correct its name or namespace.
 Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design, "Managed nodes".
@@ -30,7 +29,7 @@ def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
             if each.name in there or any(_may_offer(graph, each) for graph in others):
                 continue
             if unknown := _unknown(wiring):
-                yield unchecked(f"whether something offers {each.name} is not known: {unknown}")
+                yield unchecked(f"the nodes that offer {each.name} are not all known: {unknown}")
                 continue
             what = f"node {each.item!r}" if each.item else each.name
             yield finding(

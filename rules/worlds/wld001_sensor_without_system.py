@@ -1,11 +1,10 @@
-"""A sensor in a world that does not load the system which simulates it.
+"""A sensor in a world that does not load the system that simulates it.
 
-Sensors are data until a system of the world works them out: cameras and lidars need
-`gz-sim-sensors-system`, an IMU `gz-sim-imu-system`. Without it the topic of the sensor does not
-exist, and Gazebo says nothing. By itself, Gazebo loads only physics, user commands and the scene
-broadcaster, into worlds that name no plugin; who starts the server with a configuration of their
-own may load more there. So it is a warning there, and where a model is not available or a plugin is
-not Gazebo's own; elsewhere it is an error.
+Sensors are simulated by systems of the world: cameras and lidars need `gz-sim-sensors-system`, an
+IMU `gz-sim-imu-system`. Without it the topic of the sensor does not exist, and Gazebo prints no
+message. Into a world that names no plugin, Gazebo loads only physics, user commands and the scene
+broadcaster, but a custom server configuration may load more. This is a warning for such a world,
+and if a model is not available or a plugin is not Gazebo's own; otherwise it is an error.
 
 Fix: add the plugin to the world.
 Source: gz-sim, server.config and the tutorial "Sensors"; gazebosim/docs issue 433.

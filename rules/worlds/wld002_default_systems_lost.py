@@ -2,7 +2,7 @@
 
 As soon as a world names one plugin, Gazebo does not load physics, user commands and the scene
 broadcaster any more: nothing moves, nothing can be spawned, or the window stays empty. From Ionic
-on, a world can ask for both with `<gz:policies>`.
+on, a world can load both with `<gz:policies>`.
 
 Fix: name the missing plugin as well.
 Source: gz-sim, `SimulationRunner::LoadServerPlugins` and server.config.

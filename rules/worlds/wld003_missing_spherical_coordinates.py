@@ -1,6 +1,7 @@
-"""A satellite receiver in a world that does not say where on Earth it is.
+"""A satellite receiver in a world without a position on Earth.
 
-Without `<spherical_coordinates>` the NavSat system gives no positions, and says so at each step.
+Without `<spherical_coordinates>` the NavSat system gives no positions, and prints a message at each
+step.
 
 Fix: add `<spherical_coordinates>` with latitude, longitude, elevation and heading to the world.
 Source: gz-sim, NavSat system; osrf/mbari_wec_gz issue 148.

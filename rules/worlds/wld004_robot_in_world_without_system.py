@@ -1,14 +1,14 @@
-"""A robot that a launch file spawns into a world which does not load what the robot needs.
+"""A robot that a launch file spawns into a world without a system that the robot needs.
 
-Gazebo's systems belong to the world. `create` asks UserCommands to spawn the robot, Physics moves
-it, and sensors give data only where their system runs: cameras and lidars need
-`gz-sim-sensors-system`, an IMU `gz-sim-imu-system`. A world that names no plugin gets physics, user
-commands and the scene broadcaster, and so does Gazebo's own `empty.sdf`: no sensor works there but
-those for contacts. Nobody says so when it is launched; the topics are merely silent.
+Gazebo's systems belong to the world. UserCommands spawns the robot for `create`, Physics moves it,
+and sensors give data only if their system runs: cameras and lidars need `gz-sim-sensors-system`, an
+IMU `gz-sim-imu-system`. A world that names no plugin gets physics, user commands and the scene
+broadcaster, and so does Gazebo's own `empty.sdf`: no sensor works there but those for contacts. No
+message is printed at the launch; nothing is published on the topics.
 
-It is an error where all that the world and its robots load is known. It is a warning where a model
-is not available or a plugin is not Gazebo's, and where the world leaves the choice to Gazebo, for a
-server configuration of the user's own may load more.
+It is an error if all plugins of the world and its robots are known. It is a warning if a model is
+not available or a plugin is not Gazebo's, and if the world names no plugin, because a custom server
+configuration may load more.
 
 Fix: name the missing plugin in the world, or launch a world that has it.
 Source: gz-sim, server.config, `SimulationRunner::LoadServerPlugins` and worlds/empty.sdf (from

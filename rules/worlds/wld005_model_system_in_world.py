@@ -1,8 +1,8 @@
 """A system for models that is directly in the world.
 
-Drives, controllers of joints, batteries and publishers of poses work on the model that they stand
-in. In a world there is no such model: the system says that it should be attached to a model, and
-does nothing.
+Drives, controllers of joints, batteries and publishers of poses work on the model that contains
+them. In a world there is no such model: the system prints that it should be attached to a model,
+and has no effect.
 
 Fix: move the plugin into the `<model>` or `<include>` that it is for.
 Source: `Configure` of these systems in gz-sim; which they are is listed in `gazebo_plugins.json`.

@@ -1,8 +1,8 @@
 """A detachable joint names a model or link that the world does not have.
 
-The DetachableJoint system holds its model on a link of another model. It looks for that model by
-name at each step, and warns while there is none; where the model has no such link, nothing is
-attached at all. A robot that is spawned later may be the model: a warning.
+The DetachableJoint system attaches its model to a link of another model. It looks for that model by
+name at each step, and prints a warning while there is none; if the model has no such link, nothing
+is attached. A robot that is spawned later may be the model: a warning.
 
 Fix: write the name that the model has in this world; that of an include may differ from its file's.
 Source: gz-sim, DetachableJoint system.

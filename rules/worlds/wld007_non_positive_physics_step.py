@@ -1,8 +1,8 @@
 """A world whose physics step or real-time factor is not above zero.
 
-At each step Gazebo adds `<max_step_size>` to the time of the world: with zero, time stands still
-and nothing moves; a negative one is no time at all. `<real_time_factor>` is how fast time should
-run against the clock on the wall: of zero or less, Gazebo can make no pace.
+At each step Gazebo adds `<max_step_size>` to the time of the world: with zero, time does not
+advance and nothing moves; a negative one is not valid. `<real_time_factor>` is the ratio of
+simulated to real time: with zero or less, Gazebo has no speed to run at.
 
 Fix: state a step above zero, usually 0.001 to 0.004 s, and a factor above zero, usually 1.
 Source: gz-sim, SimulationRunner (from memory).
@@ -15,7 +15,7 @@ from checker.source.xml import Element
 
 _EFFECTS = {
     "max_step_size": "time does not advance, and nothing moves",
-    "real_time_factor": "Gazebo cannot keep any pace",
+    "real_time_factor": "Gazebo has no speed to run at",
 }
 
 

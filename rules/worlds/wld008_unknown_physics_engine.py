@@ -1,7 +1,7 @@
-"""A world that names a physics engine which its Gazebo release does not have.
+"""A world that names a physics engine that its Gazebo release does not have.
 
-Gazebo prints one line, "Failed to find plugin", and goes on without physics: nothing falls, and no
-joint moves. Bullet Featherstone is there from Harmonic on. Libraries are called
+Gazebo prints one line, "Failed to find plugin", and continues without physics: nothing falls, and
+no joint moves. Bullet Featherstone is available from Harmonic on. Libraries are called
 `ignition-physics-…-plugin` in Fortress, and `gz-physics-…-plugin` in all later releases. An engine
 that is not Gazebo's own may be built elsewhere, so it is a warning.
 

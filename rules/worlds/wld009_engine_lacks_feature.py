@@ -1,10 +1,10 @@
 """A model with a part that the world's chosen physics engine cannot simulate.
 
-DART, which Gazebo Sim loads by itself, does what most models need. Who chooses another engine, for
-example Bullet Featherstone for `<mimic>`, loses something: no engine but DART has heightmaps, wheel
-slip or tracks, Bullet has few joint types, and TPE none. Bullet Featherstone moves one tree of
-links of a model alone, and reads `<friction><bullet>`, not `<ode>`, which is what `<mu1>` of a URDF
-becomes. Gazebo says so at most in its debug output.
+DART, which Gazebo Sim loads by itself, does what most models need. Other engines, for example
+Bullet Featherstone for `<mimic>`, lack features: only DART has heightmaps, wheel slip and tracks,
+Bullet has few joint types, and TPE none. Bullet Featherstone moves only one tree of links of a
+model, and reads `<friction><bullet>`, not `<ode>`, to which `<mu1>` of a URDF is converted. Gazebo
+prints this at most in its debug output.
 
 Fix: use DART, or what the message names.
 Source: gz-physics, features of each engine, and gz-sim, Physics.cc (`physics_engines.json`).
@@ -92,7 +92,7 @@ def _systems(model: Robot, lacking: list[str]) -> Iterator[_Loss]:
     for plugin in model.all_plugins:
         systems = frozenset(systems_of(plugin))
         if any(holds(systems, system) for system in lacking):
-            yield _Loss("plugin", plugin, f"lacks what {plugin.called} needs to work: {_DART}")
+            yield _Loss("plugin", plugin, f"lacks a feature that {plugin.called} needs: {_DART}")
 
 
 def _trees(model: Robot) -> Iterator[_Loss]:

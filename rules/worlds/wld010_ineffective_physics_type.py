@@ -1,11 +1,10 @@
 """A world that chooses a physics engine by an attribute that Gazebo Sim does not read.
 
 The attribute chose the engine of Gazebo Classic. In Gazebo Sim the world's physics plugin names it,
-in `<engine>`; without that, DART is loaded. Nothing is said of `ode`, which stands in most worlds
-out of habit.
+in `<engine>`; without that, DART is loaded. `ode` is not reported, because most worlds contain it.
 
 Fix: name the library in `<engine><filename>` of the physics plugin, or write `ode`.
-Source: gz-sim, SdfEntityCreator.cc and Physics.cc, which do not ask for the type.
+Source: gz-sim, SdfEntityCreator.cc and Physics.cc, which do not read the type.
 """
 
 from checker.model.physics_engine import engine_name

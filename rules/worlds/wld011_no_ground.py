@@ -1,8 +1,8 @@
 """A world without ground, in which the robot falls.
 
-No static model of the world has a collision: a floor, a plane, a terrain. A `<visual>` alone holds
-nothing. Worlds without gravity, with buoyancy, or with models that are not available are not
-reported, nor are robots that are fixed to the world.
+No static model of the world has a collision: a floor, a plane, a terrain. A `<visual>` alone does
+not support the robot. Worlds without gravity, with buoyancy, or with models that are not available
+are not reported, nor are robots that are fixed to the world.
 
 Fix: add a static model with a `<plane>` as its collision.
 Source: gravity, and gz-sim, which adds no ground to a world of the user's own.

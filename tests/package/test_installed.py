@@ -66,7 +66,7 @@ setup(data_files=[("share/hoist/urdf", glob("description/urdf/*")), ("share/hois
 """
 
 
-ALONE = "exists in the source alone"
+ALONE = "exists only in the source"
 
 
 @pytest.mark.parametrize(

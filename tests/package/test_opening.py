@@ -81,7 +81,7 @@ def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> Non
 def test_a_folder_that_is_named_is_opened_although_it_is_ignored(write: Write) -> None:
     space = write({"rover/COLCON_IGNORE": "", **ROVER})
     assert names(space / "rover") == ["rover"]
-    assert "COLCON_IGNORE leaves out" in complaint(space).reason
+    assert "COLCON_IGNORE excludes" in complaint(space).reason
 
 
 def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:

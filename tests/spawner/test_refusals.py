@@ -120,7 +120,7 @@ OUTSIDE = {
     "f({a: 1}, 'b' => 2)": "passes 'b' => 2, which is not supported",
     "[[1]] == [[1]]": "compares two values of the class Array",
     "{[1] => 2}": "uses Array as the key of a hash",
-    "a = []; a[3] = 1": "sets an element behind the end of an array",
+    "a = []; a[3] = 1": "sets an element beyond the end of an array",
     "\"#{['a']}\"": "writes out a value of the class String in an array, which is not supported",
     '"#{{a: 1}}"': "writes out a value of the class Hash, which is not supported",
     "format('%x', 1)": "with the directive %x",

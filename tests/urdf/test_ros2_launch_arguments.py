@@ -71,7 +71,7 @@ def test_arguments_of_launch_files_have_their_declared_defaults(tmp_path: Path) 
 def test_a_missing_argument_names_the_launch_file_that_asks_for_it(tmp_path: Path) -> None:
     report = judged(package_with(tmp_path))
     reasons = {skipped.reason for skipped in report.not_checked}
-    told = [reason for reason in reasons if "launch/view.launch.py leaves kind:=…" in reason]
+    told = [reason for reason in reasons if "launch/view.launch.py has no value for kind:=…" in reason]
     assert len(told) == 1
     assert not [f for f in report.findings if f.rule == "URD001"]
 
@@ -103,7 +103,7 @@ def test_a_choice_whose_files_are_not_there_gives_way_to_the_next_one(tmp_path: 
     assert report.facts["assumed"] == "kind:=small"
     reasons = {skipped.reason for skipped in report.not_checked}
     (told,) = (reason for reason in reasons if "huge" in reason)
-    assert told.endswith("kind:=small is taken instead")
+    assert told.endswith("kind:=small is used instead")
 
 
 def test_a_launch_file_of_another_package_gives_arguments(tmp_path: Path) -> None:
@@ -118,7 +118,7 @@ def test_a_launch_file_of_another_package_gives_arguments(tmp_path: Path) -> Non
     assert judged(package).facts["links"] == 2
     (bringup / "launch/bringup.launch.py").write_text(LAUNCH.replace("@", ""))
     reasons = {skipped.reason for skipped in judged(package).not_checked}
-    (told,) = (reason for reason in reasons if "leaves kind:=…" in reason)
+    (told,) = (reason for reason in reasons if "has no value for kind:=…" in reason)
     assert "../acme_bringup/launch/bringup.launch.py" in told
 
 

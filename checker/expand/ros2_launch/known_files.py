@@ -109,7 +109,7 @@ def _unsure(span: Span, *, in_some: bool) -> Iterator[Condition]:
 def _node(known: _KnownNode, given: Mapping[str, str], context: Context, span: Span) -> Node:
     files = [ParameterFile(given[it], False, span) for it in [known.parameters] if it]
     rewritten = [Parameter(_TIME, _UNKNOWN, True, False, span)] if _TIME in given else []
-    differs = Unread("what it is given differs by distribution", span)
+    differs = Unread("its arguments differ by distribution", span)
     return Node(
         kind=NodeKind.INCLUDED,
         package=Located(known.package, span, stated=False),

@@ -168,7 +168,7 @@ class Markup:
         if work is None:
             if tag in _NOTHING:
                 return None
-            return Unknown(f"<{entity.tag}> is not an action that is read", entity.span)
+            return Unknown(f"<{entity.tag}> is not evaluated", entity.span)
         made = work(self, entity)
         values = {name: value for name, value in made.values.items() if value is not None}
         for attribute, name in (("if", "IfCondition"), ("unless", "UnlessCondition")):

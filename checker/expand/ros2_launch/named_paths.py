@@ -131,7 +131,7 @@ def unavailable(package: Package, name: str) -> str:
         return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
-    return f"package {name} is not available; --package-path DIR names the folder that holds it"
+    return f"package {name} is not available; give its parent folder with --package-path DIR"
 
 
 @cache

@@ -116,7 +116,7 @@ def _configuration(made: Made, context: Context) -> Text:
     if context.state.beyond:
         return PlacedText(f"$(var {name})", made.span)
     if is_known(name):
-        message = f"argument {str(name)!r} is used and nothing declares it"
+        message = f"argument {str(name)!r} is used, but not declared"
         context.fault(LaunchFaultKind.UNDECLARED_ARGUMENT, made.span, message, str(name))
     return Unknown(f"argument {str(name)!r} {NOT_DECLARED}", made.span)
 
@@ -132,7 +132,7 @@ def _path(made: Made, context: Context) -> Text:
             return text
         texts.append(text)
     if not texts:
-        return Unknown("a path of no parts", made.span)
+        return Unknown("the path is empty", made.span)
     context.allowance.spend_on_text(sum(map(len, texts)))
     return PlacedText(posixpath.join(*map(str, texts)), span_of(texts[-1], made.span))
 

@@ -70,7 +70,7 @@ def commanded_wheels(robot: Robot) -> CommandedWheels:
         return CommandedWheels(doubt=doubt)
     drive = _drive(robot, plugin, _sided(wheels))
     if drive.steering and drive.wheel_base is None:
-        return CommandedWheels(doubt="its wheels do not steer on one axle beside one that is rigid")
+        return CommandedWheels(doubt="its wheels do not form one steered and one fixed axle")
     return CommandedWheels(drive)
 
 
@@ -114,7 +114,7 @@ def _doubt(wheels: Sequence[Wheel]) -> str:
         opposite = (x, 2 * middle - y, z)
         alone = all(math.dist(opposite, other) > near for other in centres)
         if len(centres) < len(wheels) or alone or abs(y - middle) <= near:
-            return "its wheels do not stand in pairs"
+            return "its wheels are not in pairs"
     return ""
 
 

@@ -100,7 +100,7 @@ def _in_world(world: Element, scopes: _Scopes) -> Iterator[Fault]:
     named = scopes.named(world)
     circles = (*_circles(attached), *_circles(posed))
     for name in dict.fromkeys(circle[0] for circle in circles):
-        yield _fault(named[name], f"{named[name].tag} {name!r} refers to itself for its place")
+        yield _fault(named[name], f"{named[name].tag} {name!r} is placed relative to itself")
 
 
 def _placement(model: Element, scopes: _Scopes) -> Iterator[Fault]:

@@ -128,7 +128,7 @@ class _Collected:
         at = merge or earlier
         elsewhere = parent is not part.parent or earlier is not merge
         if elsewhere and at is not None and name != scope.prefix:
-            message = f"brings {part.tag} {name!r}, but there is another part of this name"
+            message = f"contains {part.tag} {name!r}, but another part has this name"
             scope.values.fault(FaultKind.INCLUDE, at.span, f"the merged model {message}")
 
     def _read_include(self, include: Element, scope: Scope, depth: int) -> None:

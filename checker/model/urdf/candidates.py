@@ -162,7 +162,7 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
         if path not in seen and isinstance(source := package.read(path), NotReadable):
             yield f"{path} {source.reason}"
     for path in unused_parts(package, seen):
-        yield f"{path} is not read: no file that stands for a robot includes it"
+        yield f"{path} is not read: no file of a robot includes it"
 
 
 def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:

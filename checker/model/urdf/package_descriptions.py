@@ -115,7 +115,7 @@ class PackageDescriptions:
                 unread.append((candidate, self._unread(candidate, reason)))
             elif names := needed.get(candidate.path):
                 given = " ".join(f"{name}:=…" for name in names)
-                reason = f"{candidate.path} needs --xacro-arg {given}: without, {outcome.message}"
+                reason = f"{candidate.path} needs --xacro-arg {given} ({outcome.message})"
                 unread.append((candidate, reason))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
@@ -201,7 +201,7 @@ class PackageDescriptions:
         if not missing:
             return reason
         file, given = candidate.missing[missing[0]], " ".join(f"{name}:=…" for name in missing)
-        return f"{reason}; {file} leaves {given} to who starts it, --xacro-arg gives it here"
+        return f"{reason}; {file} has no value for {given}: set it with --xacro-arg"
 
     def _is_alone(self, document: XmlDocument, candidate: Candidate) -> bool:
         """Say whether a file that holds nothing is the one to check, and no xacro of macros."""
@@ -235,7 +235,7 @@ class PackageDescriptions:
                 expanded[candidate.path] = outcome
                 self._taken[candidate.path] = self._wish(candidate, number)
                 taken = _in_words(candidate.assumed(number, self._args))
-                unread.append((candidate, f"{why}; {taken} is taken instead"))
+                unread.append((candidate, f"{why}; {taken} is used instead"))
                 assumed[candidate.path] = taken
         return unread, assumed
 

@@ -32,7 +32,7 @@ def package_descriptions(
 def files(read: PackageDescriptions) -> UrdfFiles | NotAvailable:
     """Return what became of the URDF files."""
     if not read.applicable:
-        return NotAvailable("no URDF file is a robot", applicable=False)
+        return NotAvailable("no URDF file describes a robot", applicable=False)
     return read.files
 
 

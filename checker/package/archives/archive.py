@@ -179,7 +179,7 @@ def _write(path: Path, member: Member, content: _Readable) -> None:
                 break
             file.write(piece)
     if left:
-        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, but it has not")
+        raise DamagedArchive(f"contains '{member.path}', whose stated size is wrong")
 
 
 @contextmanager

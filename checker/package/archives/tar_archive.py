@@ -52,7 +52,7 @@ class GzipStream:
             size -= len(piece)
             self._left -= len(piece)
             if self._left < 0:
-                raise DamagedArchive("unpacks to far more than its entries say")
+                raise DamagedArchive("unpacks to far more than the sizes of its entries")
             pieces.append(piece)
         return b"".join(pieces)
 

@@ -35,7 +35,7 @@ LAUNCHED = Launched(
         LaunchedTransform("base_link", "lidar", "joint 'lidar_joint'"),
         LaunchedTransform("mast", "lidar", "node '/mast'"),
     ),
-    "a command may start anything",
+    "a command may start further nodes",
 )
 
 
@@ -79,7 +79,7 @@ def test_topics_of_one_side_and_what_is_not_known_are_told() -> None:
 
     text = " ".join(section.text_content().split())
     assert "3 topics: /wheel/odom, /cmd_vel, /odometry/filtered." in text
-    assert "There may be more: a command may start anything." in text
+    assert "There may be more: a command may start further nodes." in text
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from checker.source.text import Span
 UNKNOWN = "$(unknown)"
 """Stands for a text that this reader cannot tell."""
 
-MOVEIT = "MoveItConfigsBuilder makes parameters of its files"
+MOVEIT = "MoveItConfigsBuilder computes the parameters"
 """Why some parameters of a node are not here; they concern no other part of the robot."""
 
 Item = Parameter | ParameterFile | Unread

@@ -107,7 +107,7 @@ def bridge(visitor: Visitor, made: Made, context: Context) -> None:
     )
     parameters: list[Value] = [{file: made.values[file]}] if file in made.values else []
     if "bridge_params" in made.values:
-        parameters.append(Unknown("the bridge is given parameters in a text", made.span))
+        parameters.append(Unknown("the bridge gets its parameters from a string", made.span))
     values: dict[str, Value] = {
         "package": package,
         "executable": executable,

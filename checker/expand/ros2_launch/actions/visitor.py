@@ -90,7 +90,7 @@ class Visitor:
     def _visit_made(self, made: Made, context: Context) -> None:
         handler = _HANDLERS.get(made.name)
         if handler is None:
-            self.unread(f"{made.name} is not an action that is read", made.span)
+            self.unread(f"{made.name} is not evaluated", made.span)
             return
         if made.values.get("condition") is not None and made.name != "IfElseSubstitution":
             context = context.under(read_conditions(made, context))

@@ -189,7 +189,7 @@ class _Reader:
             return
         given = include.arguments
         if "bridge_params" in given:
-            self._unread.append("the bridge is given parameters in a text")
+            self._unread.append("the bridge gets its parameters from a string")
         if (file := given.get("config_file")) is not None:
             namespace = given["namespace"].value if "namespace" in given else ""
             self.file(file.value, _At(resolve_name(namespace, "/"), "", (), False, None))
@@ -233,7 +233,7 @@ class _Reader:
         """Say that parameters of a file are not known, if they may name a file of the bridge."""
         source = read_file(self._package, parameter.path)
         if isinstance(source, str) or "config_file" in source.text or "bridge" in source.text:
-            self._unread.append(f"parameters of the bridge stand in {shown(parameter.path)}")
+            self._unread.append(f"parameters of the bridge are in {shown(parameter.path)}")
 
     def file(self, path: str, at: _At) -> None:
         if not path:

@@ -55,7 +55,7 @@ class _Plain:
     def of(self, value: Value, level: int) -> Any:
         self._left -= 1
         if self._left < 0 or level > _LEVELS_LIMIT:
-            raise ExpressionLimit("works on too much, or too deeply nested data")
+            raise ExpressionLimit("has too much or too deeply nested data")
         value = chosen(value)
         if value is None or type(value) in (int, float, bool, range):
             return value
@@ -420,7 +420,7 @@ def _call(run: Interpreter, node: ast.Call, scope: Scope) -> Value:
 
 
 def _starred(run: Interpreter, node: ast.Starred, _: Scope) -> Value:
-    return run.unknown(node, "a star stands where it may not")
+    return run.unknown(node, "a star is not allowed here")
 
 
 def _named(run: Interpreter, node: ast.NamedExpr, scope: Scope) -> Value:

@@ -155,9 +155,9 @@ class Interpreter:
                 if _takes(owner, key):
                     owner[key] = self.guarded([value])[0]
                 elif not isinstance(owner, Symbol):
-                    self.unread(target, "the assignment is passed over")
+                    self.unread(target, "the assignment is not evaluated")
             case _:
-                self.unread(target, "the assignment is passed over")
+                self.unread(target, "the assignment is not evaluated")
 
     def _unpack(self, targets: Sequence[ast.expr], value: Value, scope: Scope) -> None:
         value = chosen(value)
@@ -244,7 +244,7 @@ class Interpreter:
             if isinstance(part, Unknown):
                 return part
             if not isinstance(part, str | FilePath):
-                return self.unknown(node, "a path is made of what is not text")
+                return self.unknown(node, "a part of a path is not a string")
             texts.append(str(part.text if isinstance(part, FilePath) else part))
         self.allowance.spend_on_text(sum(map(len, texts)))
         return FilePath(posixpath.join(*texts) if texts else ".")
@@ -305,7 +305,7 @@ class Interpreter:
                     return methods.call(self, owner, name, positional, named, node)
                 case Symbol():
                     return self._called_symbol(function, positional, named, node, places or {})
-        return self.unknown(node, "what is called is not a function")
+        return self.unknown(node, "the called value is not a function")
 
     def _called_symbol(
         self,

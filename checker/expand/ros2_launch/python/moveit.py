@@ -28,10 +28,10 @@ def builder(
     values |= named
     robot = chosen(values.get("robot_name"))
     if not isinstance(robot, str) or not is_known(robot):
-        return run.unknown(node, "the name that MoveItConfigsBuilder is given is not known")
+        return run.unknown(node, "the robot name of MoveItConfigsBuilder is not known")
     package = chosen(values.get("package_name", f"{robot}_moveit_config"))
     if not isinstance(package, str) or not is_known(package):
-        return run.unknown(node, "the package that MoveItConfigsBuilder is given is not known")
+        return run.unknown(node, "the package of MoveItConfigsBuilder is not known")
     return Made("MoveItConfigs", {"robot": str(robot), "package": str(package)}, run.span(node))
 
 

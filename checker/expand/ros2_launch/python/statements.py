@@ -39,7 +39,7 @@ def run_block(run: Interpreter, body: Sequence[ast.stmt], scope: Scope) -> tuple
             handler = _HANDLERS.get(type(statement))
             if handler is None:
                 run.unread(
-                    statement, f"a statement of type {type(statement).__name__} is passed over"
+                    statement, f"a statement of type {type(statement).__name__} is not evaluated"
                 )
                 continue
             with run.allowance:

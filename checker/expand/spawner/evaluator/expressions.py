@@ -139,7 +139,7 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
             continue
         value = run.run(node.parts)
         if not isinstance(value.data, RubyArray):
-            raise Unreadable(node.span, "takes apart something that is not an array")
+            raise Unreadable(node.span, "unpacks a value that is not an array")
         run.budget.spend_items(len(items) + len(value.data.items))
         items += value.data.items
     return items

@@ -118,7 +118,7 @@ def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
         return
     index = keys[0].data
     if type(index) is not int or not -len(data.items) <= index <= len(data.items):
-        raise Unreadable(target.span, "sets an element behind the end of an array")
+        raise Unreadable(target.span, "sets an element beyond the end of an array")
     data.items[index : index + 1 or None] = [value]
 
 

@@ -140,7 +140,7 @@ def _kinds(run: Interpreter, node: ast.expr, scope: Scope | None) -> tuple[type,
 
 def _lone_lambda(_: Interpreter, __: ast.Lambda, ___: Scope | None) -> Any:
     raise RefusedExpression(
-        "a lambda function that is not handed to map, filter, sorted, min or max"
+        "a lambda function that is not an argument of map, filter, sorted, min or max"
     )
 
 
