@@ -107,7 +107,9 @@ def test_an_undeclared_arg_in_an_expression_is_a_fault(expression):
     assert result.undeclared == "nobody"
 
 
-@pytest.mark.parametrize("expression", ["1 / 0", "int(name)", "name < 3", "name - 1", "1 +", "$(arg n) > 1"])
+@pytest.mark.parametrize(
+    "expression", ["1 / 0", "int(name)", "name < 3", "name - 1", "1 +", "$(arg n) > 1"]
+)
 def test_an_expression_that_python_refuses_is_a_fault(expression):
     result = evaluate(expression, ARGS)
     assert isinstance(result, ExpressionFault)
