@@ -44,7 +44,7 @@ def check(
     plugins = breadcrumbs(robot)
     expected = " or ".join(map(str, counts)) or "0"
     for plugin in plugins:
-        yield from _missing(plugin, expected)
+        yield from _missing_parameters(plugin, expected)
     numbers = [plugin.max_deployments for plugin in plugins if plugin.max_deployments is not None]
     if not numbers or len(numbers) < len(plugins):
         return
@@ -52,7 +52,9 @@ def check(
     if total not in counts:
         yield finding(numbers[0], f"the robot carries {total:g} breadcrumbs, expected {expected}")
     for item in (
-        [] if specification is None else _listed(specification, configuration_number(package.name))
+        []
+        if specification is None
+        else _listed_breadcrumbs(specification, configuration_number(package.name))
     ):
         if item.count != total:
             yield finding(
@@ -63,7 +65,7 @@ def check(
             )
 
 
-def _missing(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
+def _missing_parameters(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
     """Report what a plugin does not state."""
     expected = {
         "topic": (plugin.topic, "the topic that drops a breadcrumb"),
@@ -76,7 +78,7 @@ def _missing(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
             yield finding(plugin, message, key=f"no {tag}")
 
 
-def _listed(sheet: Specification, number: int | None) -> list[ListedSensor]:
+def _listed_breadcrumbs(sheet: Specification, number: int | None) -> list[ListedSensor]:
     """Return what the sheet lists for a configuration, when all of it says one number."""
     items = [
         item

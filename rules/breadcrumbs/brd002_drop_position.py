@@ -88,11 +88,11 @@ def _is_inside(robot: Robot, piece: Placed, point: Vector, depth: float) -> bool
     own = tuple(piece.pose.rotate(axis) for axis in _AXES)
     sides = (*_SIDES, *own, *((-x, -y, -z) for x, y, z in own))
     return all(
-        piece.support(robot, side) - _along(side, point) >= depth - _ROUNDING for side in sides
+        piece.support(robot, side) - _dot(side, point) >= depth - _ROUNDING for side in sides
     )
 
 
-def _along(side: Sequence[float], point: Sequence[float]) -> float:
+def _dot(side: Sequence[float], point: Sequence[float]) -> float:
     return sum(a * b for a, b in zip(side, point, strict=True))
 
 

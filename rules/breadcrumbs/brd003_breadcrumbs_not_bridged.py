@@ -37,9 +37,9 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if unread:
             yield unchecked(unread[0])
         else:
-            yield from _unbridged(plugin, launch)
+            yield from _missing_bridges(plugin, launch)
     carried = bool(robot.unread_plugins or breadcrumbs(robot))
-    yield from _uncounted((*launch.bridges, *launch.dormant_bridges), carried=carried)
+    yield from _missing_counts((*launch.bridges, *launch.dormant_bridges), carried=carried)
 
 
 def _is_included(launch: LaunchGraph) -> bool:
@@ -48,7 +48,7 @@ def _is_included(launch: LaunchGraph) -> bool:
     return any(_WORD in file for file in files)
 
 
-def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
+def _missing_bridges(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
     """Report why no bridge commands a plugin; a bridge that is switched off does not count."""
     off = next((bridge for bridge in launch.dormant_bridges if _drops(bridge)), None)
     if off is None:
@@ -66,7 +66,7 @@ def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
         )
 
 
-def _uncounted(bridges: Iterable[Bridge], *, carried: bool) -> Iterator[Finding]:
+def _missing_counts(bridges: Iterable[Bridge], *, carried: bool) -> Iterator[Finding]:
     """Report launch files that drop breadcrumbs and do not tell how many remain.
 
     Where the robot carries none, only another configuration can miss the number.

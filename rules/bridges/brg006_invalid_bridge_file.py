@@ -34,7 +34,7 @@ _ENTRY = """- ros_topic_name: scan
 """
 
 
-def _changed(*changes: str) -> dict[str, object]:
+def _changed_entry(*changes: str) -> dict[str, object]:
     """Return the entry with texts changed: each followed by what takes its place."""
     text = _ENTRY
     for old, new in zip(changes[::2], changes[1::2], strict=True):
@@ -48,15 +48,15 @@ _PARAMETERS = "bridge:\n  ros__parameters:\n    config_file: ''\n"
 GOOD = [
     {"@bridge": True},
     {"@bridge": _ENTRY},
-    _changed("  direction: GZ_TO_ROS\n", "  lazy: true\n  publisher_queue: 5\n"),
-    _changed("  gz_topic_name: scan\n", ""),
+    _changed_entry("  direction: GZ_TO_ROS\n", "  lazy: true\n  publisher_queue: 5\n"),
+    _changed_entry("  gz_topic_name: scan\n", ""),
     {"@bridge": True, "config/bridge_parameters.yaml": _PARAMETERS},
 ]
 BAD = [
-    _changed("- ", "  ", _FIRST, f"topic_name: scan{_MARK}"),
-    _changed("GZ_TO_ROS\n", f"GZ_to_ROS{_MARK}"),
-    _changed("  gz_type_name: gz.msgs.LaserScan\n", "", _FIRST, f"topic_name: scan{_MARK}"),
-    _changed("  gz_topic_name: scan\n", f"  topic_name: scan{_MARK}"),
-    _changed("  direction", f"  queue_size: 5{_MARK}  direction"),
+    _changed_entry("- ", "  ", _FIRST, f"topic_name: scan{_MARK}"),
+    _changed_entry("GZ_TO_ROS\n", f"GZ_to_ROS{_MARK}"),
+    _changed_entry("  gz_type_name: gz.msgs.LaserScan\n", "", _FIRST, f"topic_name: scan{_MARK}"),
+    _changed_entry("  gz_topic_name: scan\n", f"  topic_name: scan{_MARK}"),
+    _changed_entry("  direction", f"  queue_size: 5{_MARK}  direction"),
     {"@bridge": True, "config/other_bridge.yaml": _ENTRY.replace("GZ_TO_ROS\n", f"NONE{_MARK}")},
 ]

@@ -35,7 +35,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
             for sensor in spawned.robot.sensors:
                 if not _counts(sensor) or not _is_bridged(simulation, sensor):
                     continue
-                stated = _stated(sensor, context.release)
+                stated = _stated_frame(sensor, context.release)
                 if stated is None:
                     model = spawned.name or "<model>"
                     yield finding(
@@ -79,7 +79,7 @@ def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
     )
 
 
-def _stated(sensor: Sensor, release: str) -> Located[str] | None:
+def _stated_frame(sensor: Sensor, release: str) -> Located[str] | None:
     """Return the frame that a sensor states, in the spelling of whichever release."""
     for name in _elements(release):
         child = sensor.element.child(name)

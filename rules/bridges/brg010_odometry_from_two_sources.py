@@ -37,7 +37,7 @@ def check(wiring: Wiring) -> Findings:
     for transform in wiring.transforms:
         controller = transform.source
         if isinstance(controller, Controller) and wiring.simulation is not None:
-            for entry, plugin in _bridged(wiring.simulation, transform.child):
+            for entry, plugin in _odometry_bridges(wiring.simulation, transform.child):
                 yield finding(
                     entry.passed.gz_topic,
                     f"{plugin.class_name} reports the odometry of {transform.child!r}, bridged to "
@@ -47,7 +47,7 @@ def check(wiring: Wiring) -> Findings:
                 )
 
 
-def _bridged(simulation: Simulation, base: str) -> Iterator[tuple[BridgeEntry, Plugin]]:
+def _odometry_bridges(simulation: Simulation, base: str) -> Iterator[tuple[BridgeEntry, Plugin]]:
     """Yield the bridges to /odom from plugins that report odometry of a frame."""
     for entry in simulation.entries:
         if entry.direction is Direction.TO_IGN or entry.ros_topic != _TOPIC:

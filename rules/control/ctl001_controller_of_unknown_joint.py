@@ -28,7 +28,7 @@ def check(control: ControlSystem) -> Findings:
                 sure = names.sure(joint.value)
                 yield finding(
                     joint,
-                    f"{_who(controller)} controls joint {joint.value!r}, "
+                    f"{_label(controller)} controls joint {joint.value!r}, "
                     f"which the robot does not have{names.hint(joint.value)}",
                     severity=_severity(controller),
                     fix=replace_text(joint, sure, Safety.UNSAFE) if sure and _bare(joint) else None,
@@ -36,13 +36,13 @@ def check(control: ControlSystem) -> Findings:
             elif not control.moves(joint.value):
                 yield finding(
                     joint,
-                    f"{_who(controller)} controls joint {joint.value!r}, which is "
+                    f"{_label(controller)} controls joint {joint.value!r}, which is "
                     f"{known.type.value}: expected a joint that a motor can move",
                     severity=_severity(controller),
                 )
 
 
-def _who(controller: Controller) -> str:
+def _label(controller: Controller) -> str:
     return f"controller {controller.name!r}"
 
 

@@ -20,12 +20,12 @@ def check(control: ControlSystem) -> Findings:
     """Report controllers that are only in the YAML files or only in the spawners' args."""
     for fault in control.faults:
         yield finding(fault, fault.message)
-    yield from _unconfigured(control)
+    yield from _unconfigured_controllers(control)
     yield from _without_type(control)
     yield from _never_spawned(control)
 
 
-def _unconfigured(control: ControlSystem) -> Findings:
+def _unconfigured_controllers(control: ControlSystem) -> Findings:
     """Report spawned controllers; another rule reports those configured in another namespace."""
     missing = [spawned for spawned in control.spawned if spawned.name not in control.namesakes]
     if not missing or any(fault.hides for fault in control.faults):

@@ -32,7 +32,7 @@ def check(control: ControlSystem) -> Findings:
             continue
         yield from _incomplete(model)
         yield from _without_parameter(control, model)
-        yield from _misnamed(control, model)
+        yield from _misspelt_names(control, model)
         yield from _elsewhere(control, model)
 
 
@@ -60,7 +60,7 @@ def _without_parameter(control: ControlSystem, model: SpawnedModel) -> Findings:
     )
 
 
-def _misnamed(control: ControlSystem, model: SpawnedModel) -> Findings:
+def _misspelt_names(control: ControlSystem, model: SpawnedModel) -> Findings:
     """Report a name that is close to, but not, the robot's name or its namespace."""
     known = {robot.value for robot in control.robots}
     known |= {namespace.rpartition("/")[2] for namespace in control.namespaces}
@@ -105,7 +105,7 @@ _SPAWN = "launch/spawn.launch"
 _FIND = "$(find acme_arm_description)"
 
 
-def _spawn(args: str, file: str = "arm.urdf") -> str:
+def _example(args: str, file: str = "arm.urdf") -> str:
     mark = "  <!-- ^ CTL008 -->"
     description = f'<param name="robot_description" textfile="{_FIND}/urdf/{file}"/>'
     node = (
@@ -123,22 +123,25 @@ _USUAL = "-urdf -param robot_description -model arm"
 
 GOOD = [
     {"@urdf": True},
-    {"@urdf": True, _SPAWN: _spawn("-z 0.2 -urdf -param /robot_description -model arm_1 -unpause")},
-    {"@urdf": True, _SPAWN: _spawn(f"-urdf -file {_FIND}/urdf/arm.urdf -model left_arm -x -0.5")},
-    {"@urdf": _SILENT, _SPAWN: _spawn(f"{_USUAL} -robot_namespace arm")},
+    {
+        "@urdf": True,
+        _SPAWN: _example("-z 0.2 -urdf -param /robot_description -model arm_1 -unpause"),
+    },
+    {"@urdf": True, _SPAWN: _example(f"-urdf -file {_FIND}/urdf/arm.urdf -model left_arm -x -0.5")},
+    {"@urdf": _SILENT, _SPAWN: _example(f"{_USUAL} -robot_namespace arm")},
 ]
 BAD = [
-    {"@urdf": True, _SPAWN: _spawn("|-urdf -param robot_description", "arm.urdf")},
-    {"@urdf": True, _SPAWN: _spawn("|-param robot_description -model arm")},
-    {"@urdf": True, _SPAWN: _spawn("|-urdf -model arm")},
-    {"@urdf": True, _SPAWN: _spawn("|-urdf -param robot_descripton -model arm")},
-    {"@urdf": True, _SPAWN: _spawn(f"|-urdf -file {_FIND}/urdf/none.urdf -model arm")},
-    {"@urdf": True, _SPAWN: _spawn(_USUAL, "none.urdf")},
-    {"@urdf": True, _SPAWN: _spawn("|-urdf -param robot_description -model arrm")},
-    {"@urdf": _SILENT, _SPAWN: _spawn(f"|{_USUAL} -robot_namespace robot")},
+    {"@urdf": True, _SPAWN: _example("|-urdf -param robot_description", "arm.urdf")},
+    {"@urdf": True, _SPAWN: _example("|-param robot_description -model arm")},
+    {"@urdf": True, _SPAWN: _example("|-urdf -model arm")},
+    {"@urdf": True, _SPAWN: _example("|-urdf -param robot_descripton -model arm")},
+    {"@urdf": True, _SPAWN: _example(f"|-urdf -file {_FIND}/urdf/none.urdf -model arm")},
+    {"@urdf": True, _SPAWN: _example(_USUAL, "none.urdf")},
+    {"@urdf": True, _SPAWN: _example("|-urdf -param robot_description -model arrm")},
+    {"@urdf": _SILENT, _SPAWN: _example(f"|{_USUAL} -robot_namespace robot")},
     {
         "@urdf": _SILENT,
-        _SPAWN: _spawn(_USUAL),
+        _SPAWN: _example(_USUAL),
         "@reported": ["launch/spawn.launch:3"],
     },
 ]

@@ -65,7 +65,7 @@ def check(
             continue
         text = "\n".join(_lines(source, reference, around)).casefold()
         tags = _tags(reference)
-        where = f"{path}, {_written(reference)}"
+        where = f"{path}, {_lines_phrase(reference)}"
         if not text:
             yield finding(
                 reference,
@@ -74,10 +74,10 @@ def check(
         elif tags and not any(tag in text for tag in tags):
             yield finding(
                 reference,
-                f"specifications.md refers to {where} for {_expected(reference)}, but the "
+                f"specifications.md refers to {where} for {_expected_subject(reference)}, but the "
                 "lines do not contain that",
             )
-        elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
+        elif wrong := _other_number(_claimed_limit(specification, reference), text, tolerance):
             yield finding(
                 reference,
                 f"specifications.md refers to {where} for a limit of {wrong}, but the lines "
@@ -125,7 +125,7 @@ def _tags(reference: LineReference) -> Sequence[str]:
     return [tag for words, tags in TAGS if re.search(words, claim) for tag in tags]
 
 
-def _expected(reference: LineReference) -> str:
+def _expected_subject(reference: LineReference) -> str:
     claim = _claim(reference)
     matches = (re.search(words, claim) for words, _ in TAGS)
     words = dict.fromkeys(_whole_word(claim, text) for text in matches if text)
@@ -137,7 +137,7 @@ def _whole_word(text: str, match: re.Match[str]) -> str:
     return match.group() + (rest.group() if rest else "")
 
 
-def _claimed(sheet: Specification, reference: LineReference) -> Limit | None:
+def _claimed_limit(sheet: Specification, reference: LineReference) -> Limit | None:
     """Return the last limit that the sheet states on the same line in front of a reference."""
     start = reference.span.start
     text = sheet.source.text
@@ -159,7 +159,7 @@ def _other_number(limit: Limit | None, text: str, tolerance: float) -> str:
     return "" if near else f"{limit.maximum:g}"
 
 
-def _written(reference: LineReference) -> str:
+def _lines_phrase(reference: LineReference) -> str:
     ranges = [str(a) if a == b else f"{a}-{b}" for a, b in reference.ranges]
     return f"{'line' if len(ranges) == 1 and '-' not in ranges[0] else 'lines'} {', '.join(ranges)}"
 

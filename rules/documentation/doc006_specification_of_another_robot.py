@@ -49,7 +49,7 @@ _VARIABLE = re.compile(r"\bvariable\s+name\s+`{0,2}(\w{1,200})", re.IGNORECASE)
 def check(package: Package, paperwork: Paperwork, specification: Specification | None) -> Findings:
     """Compare the title, the commands and statements about the robot with the package's name."""
     if paperwork.config is not None and configuration_number(package.name) is not None:
-        yield from _described(paperwork.config.description, package.name)
+        yield from _description_findings(paperwork.config.description, package.name)
     if specification is None:
         return
     source = specification.source
@@ -59,7 +59,7 @@ def check(package: Package, paperwork: Paperwork, specification: Specification |
     if number is None:
         return
     yield from _title(specification, owner, number)
-    yield from _introduced(specification, owner)
+    yield from _introduction_findings(specification, owner)
     yield from _commands(specification, owner)
     yield from _of_itself(specification, owner, number)
 
@@ -73,7 +73,7 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
         yield finding(title, message)
 
 
-def _introduced(sheet: Specification, owner: str) -> Iterator[Finding]:
+def _introduction_findings(sheet: Specification, owner: str) -> Iterator[Finding]:
     """Report another team where the sheet says what it is about."""
     is_reported = title_of_another(sheet.source.text, owner) is not None
     for passage in _introduction(sheet):
@@ -94,7 +94,7 @@ def _introduction(sheet: Specification) -> Iterator[Passage]:
         yield from section.passages[:1]
 
 
-def _described(description: Located[str], package: str) -> Iterator[Finding]:
+def _description_findings(description: Located[str], package: str) -> Iterator[Finding]:
     """Report another team in the text of model.config."""
     span = description.span
     text = blank_xml_comments(span.text) if description.stated else ""
@@ -115,7 +115,9 @@ def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
     text = sheet.source.text[: len(sheet.markdown.text)]
     stretches = [match.span() for match in _COMMAND.finditer(text)]
     stretches += [match.span(1) for match in _VARIABLE.finditer(sheet.markdown.text)]
-    commands = [(start, list(NAME.finditer(_apart(text[start:end])))) for start, end in stretches]
+    commands = [
+        (start, list(NAME.finditer(_split_paths(text[start:end])))) for start, end in stretches
+    ]
     own = [any(_is(name, owner) for name in names) for _, names in commands]
     reported: set[int] = set()
     for (start, names), names_itself in zip(commands, own, strict=True):
@@ -137,7 +139,7 @@ def _is(name: re.Match[str], owner: str) -> bool:
     return name.group().casefold() == owner.casefold()
 
 
-def _apart(command: str) -> str:
+def _split_paths(command: str) -> str:
     """Return a command with its paths split, so that names in them are found as well."""
     return command.replace("/", " ")
 

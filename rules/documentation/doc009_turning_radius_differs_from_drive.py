@@ -62,10 +62,10 @@ def check(
                     related=[(drives[0].plugin, "the drive")],
                 )
     elif moved.kind is DriveKind.ACKERMANN:
-        yield from _steered(moved.wheel_drives[0], specification, radii, tolerance)
+        yield from _steered_findings(moved.wheel_drives[0], specification, radii, tolerance)
 
 
-def _steered(
+def _steered_findings(
     drive: WheelDrive, sheet: Specification, radii: list[Quantity], tolerance: float
 ) -> Iterator[Finding]:
     """Report statements that a steered robot cannot meet."""

@@ -24,7 +24,7 @@ def check(package: Package, robot: Robot, context: Context) -> Findings:
     moved = robot.locomotion
     if package.kind is PackageKind.BASE_MODEL or moved.kind is not DriveKind.NONE:
         if moved.rotors and not moved.copters and context.of_submissions:
-            yield from _uncommanded(robot)
+            yield from _uncommanded_rotors(robot)
         return
     reason = robot.unread_plugins or robot.missing_parts
     if reason:
@@ -37,7 +37,7 @@ def check(package: Package, robot: Robot, context: Context) -> Findings:
     )
 
 
-def _uncommanded(robot: Robot) -> Findings:
+def _uncommanded_rotors(robot: Robot) -> Findings:
     reason = robot.unread_plugins or robot.missing_parts
     if reason:
         yield unchecked(reason)

@@ -44,13 +44,13 @@ def check(robot: Robot) -> Findings:
         linear = motion.kind == "linear"
         if not linear and (motion.plugin.class_name in _LINEAR_ONLY or motion.plugin in unbounded):
             continue
-        for fault in _unbounded(motion):
+        for fault in _unbounded_motions(motion):
             if linear:
                 unbounded.add(motion.plugin)
             yield fault
 
 
-def _unbounded(motion: BoundedMotion) -> Iterator[Finding]:
+def _unbounded_motions(motion: BoundedMotion) -> Iterator[Finding]:
     milder = motion.kind == "angular" and not motion.flies
     severity = Severity.WARNING if milder else Severity.ERROR
     missing = []

@@ -47,7 +47,7 @@ def check(
             if claim is None or claim.maximum <= 0:
                 continue
             allowed = about if claim.approximate else tolerance
-            yield from _compared(motion, f"{quantity}, {unit}", ends, claim, allowed)
+            yield from _differing_limits(motion, f"{quantity}, {unit}", ends, claim, allowed)
 
 
 def _claim(sheet: Specification, motion: BoundedMotion, quantity: str) -> Limit | None:
@@ -59,7 +59,7 @@ def _claim(sheet: Specification, motion: BoundedMotion, quantity: str) -> Limit 
     return claim
 
 
-def _compared(
+def _differing_limits(
     motion: BoundedMotion, what: str, ends: Ends, claim: Limit, tolerance: float
 ) -> Iterator[Finding]:
     low, high = ends

@@ -37,10 +37,10 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report stated frames that nothing publishes, unless other programs may publish them."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
-    stated = list(_stated(robot))
+    stated = list(_stated_frames(robot))
     if not stated:
         return
-    reason = robot.missing_parts or next(iter(launch.unread), "") or _unresolved(launch)
+    reason = robot.missing_parts or next(iter(launch.unread), "") or _unknown_cause(launch)
     if reason:
         yield unchecked(reason)
         return
@@ -51,18 +51,18 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if frame.value.strip("/") not in known and "$(" not in frame.value:
             yield finding(
                 frame,
-                f"{parameter} is {_shown(frame.value)!r}, which is not in the TF tree of the robot",
+                f"{parameter} is {_label(frame.value)!r}, which is not in the TF tree of the robot",
             )
 
 
-def _stated(robot: Robot) -> Iterator[tuple[str, Located[str]]]:
+def _stated_frames(robot: Robot) -> Iterator[tuple[str, Located[str]]]:
     for plugin in robot.plugins:
         for parameter in _FRAMES.get(plugin.class_name, ()):
             for frame in plugin.at(parameter):
                 yield f"{parameter} of {plugin.class_name}", frame
 
 
-def _unresolved(launch: LaunchGraph) -> str:
+def _unknown_cause(launch: LaunchGraph) -> str:
     missing = launch.unresolved_includes
     return f"{missing[0].package} {missing[0].file} {missing[0].reason}" if missing else ""
 
@@ -94,7 +94,7 @@ def _static_frames(nodes: Iterable[Node]) -> Iterator[str]:
             yield from (word.strip("/") for word in node.args.split()[6:])
 
 
-def _shown(frame: str) -> str:
+def _label(frame: str) -> str:
     return frame.replace(SAMPLE_NAME, "<name>")
 
 

@@ -56,7 +56,7 @@ def check(
     decimals = min(digits, _MOST_DIGITS)
     wheels = {link.scoped_name for link in robot.wheels}
     for pose, link in robot.poses():
-        for angle, quarters, off in _near(pose, tolerance, typos):
+        for angle, quarters, off in _quarter_turns(pose, tolerance, typos):
             if off <= harmless and context.of_gazebo_sim:
                 continue
             of_wheel = link in wheels and off > harmless
@@ -78,7 +78,7 @@ def check(
             )
 
 
-def _near(
+def _quarter_turns(
     pose: Pose, tolerance: float, typos: tuple[str, ...]
 ) -> Iterator[tuple[Located[float], int, float]]:
     """Yield angles that mean quarter turns: how many of them, and the difference."""

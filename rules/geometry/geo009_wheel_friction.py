@@ -31,7 +31,7 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
             reach below this height count as feet.
     """
     reader = FrictionReader(robot)
-    across = _across(robot)
+    across = _mu2_meanings(robot)
     touching = [
         (link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)
     ]
@@ -53,7 +53,7 @@ class _Across(enum.Enum):
 _ON_ROLLERS = ("MecanumDrive", "MecanumDriveController", "OmniWheelDriveController")
 
 
-def _across(robot: Robot) -> dict[str, _Across]:
+def _mu2_meanings(robot: Robot) -> dict[str, _Across]:
     """Return the special meaning of `mu2` for the link, judged by its name."""
     known = {track.link.scoped_name: _Across.HELD for track in robot.locomotion.tracks}
     for drive in robot.locomotion.wheel_drives:

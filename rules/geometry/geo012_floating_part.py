@@ -38,7 +38,7 @@ def check(
         return
     shapes, unknown = _shapes(robot)
     try:
-        boxes = _reaching(robot, shapes, max(gap_of_wheels - gap, 0.0))
+        boxes = _boxes_with_axles(robot, shapes, max(gap_of_wheels - gap, 0.0))
         groups = clusters(boxes, gap + _EQUAL)
     except TooManyPairs:
         yield unchecked("too many shapes are close together to look for a floating one")
@@ -56,7 +56,7 @@ def check(
         if group is not body and _diagonal(group) > marker:
             own = {*group}
             others = (piece for piece in shapes if piece not in own)
-            yield _floating(group, _distance(group, [piece.box for piece in others]), gap)
+            yield _floating_part(group, _distance(group, [piece.box for piece in others]), gap)
 
 
 def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
@@ -69,7 +69,7 @@ def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
     return known, [shape for shape in shapes if shape not in placed_shapes]
 
 
-def _reaching(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:
+def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:
     """Return the boxes of shapes, those of wheels longer by the axle that is not modelled."""
     wheels = {link.scoped_name for link in robot.wheels}
     return [
@@ -97,7 +97,7 @@ def _distance(group: Sequence[Placed], others: Sequence[Box]) -> float:
     )
 
 
-def _floating(group: Sequence[Placed], distance: float, gap: float) -> Finding:
+def _floating_part(group: Sequence[Placed], distance: float, gap: float) -> Finding:
     first = group[0]
     more = f" and {len(group) - 1} more" if len(group) > 1 else ""
     x, y, z = first.box.centre

@@ -50,15 +50,15 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield unchecked(robot.unread_plugins)
     for drive in robot.locomotion.wheel_drives:
         left = _left_of(drive, least_cosine)
-        yield from _reversed(drive, left, least_cosine)
-        yield from _swapped(drive, left, least_share)
+        yield from _reversed_axes(drive, left, least_cosine)
+        yield from _swapped_sides(drive, left, least_share)
         yield from _on_both_sides(drive)
-        yield from _steering(robot, drive, least_cosine)
+        yield from _steering_findings(robot, drive, least_cosine)
     yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
-    yield from _misnamed(robot.locomotion.undriven)
+    yield from _misnamed_wheels(robot.locomotion.undriven)
 
 
-def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
+def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
     places = {joint: robot.pose_of_joint(joint) for joint, _ in drive.steering}
     across = {joint: pose.translation[1] for joint, pose in places.items() if pose is not None}
     middle = (min(across.values()) + max(across.values())) / 2 if across else 0.0
@@ -71,7 +71,7 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
             lies = "does not point up, so it tilts its wheel: expected 0 0 1"
             yield finding(
                 joint.axes[0].xyz[0],
-                f"axis {_written(joint)} of steering joint {name!r} "
+                f"axis {_axis_text(joint)} of steering joint {name!r} "
                 f"{down if upwards <= -least_cosine else lies}",
                 key=f"steering {upwards <= -least_cosine}",
             )
@@ -96,7 +96,7 @@ def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
     return first if backwards * 2 <= len(axes) else (-first[0], -first[1], -first[2])
 
 
-def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[Finding]:
+def _reversed_axes(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[Finding]:
     known = [wheel for wheel in drive.wheels if wheel.axis is not None]
     wrong = [w for w in known if w.axis and _dot(w.axis, left) <= -least_cosine]
     every = len(wrong) == len(known) > 1
@@ -109,7 +109,7 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
         )
         yield finding(
             joint.axes[0].xyz[0],
-            f"axis {_written(joint)} of wheel joint {joint.name.value!r} points to the right, "
+            f"axis {_axis_text(joint)} of wheel joint {joint.name.value!r} points to the right, "
             f"{what}",
             key="all" if every else "",
         )
@@ -137,7 +137,7 @@ def _against_its_side(
         for wheel in fewer:
             yield finding(
                 wheel.joint.axes[0].xyz[0],
-                f"axis {_written(wheel.joint)} of wheel joint {wheel.joint.name.value!r} points "
+                f"axis {_axis_text(wheel.joint)} of wheel joint {wheel.joint.name.value!r} points "
                 f"against that of {more[0].joint.name.value!r} on the same side: expected one "
                 "direction for all",
                 severity=Severity.WARNING,
@@ -145,7 +145,7 @@ def _against_its_side(
             )
 
 
-def _misnamed(wheels: Sequence[Wheel]) -> Iterator[Finding]:
+def _misnamed_wheels(wheels: Sequence[Wheel]) -> Iterator[Finding]:
     """Report wheels called left and right that are on the other sides.
 
     Where those called front are behind those called rear, the robot faces the other way.
@@ -172,7 +172,7 @@ def _misnamed(wheels: Sequence[Wheel]) -> Iterator[Finding]:
             )
 
 
-def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Finding]:
+def _swapped_sides(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Finding]:
     placed = [(_dot(w.centre, left), w) for w in drive.wheels if w.centre is not None]
     if len({wheel.side for _, wheel in placed}) < 2:
         return
@@ -205,7 +205,7 @@ def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
             )
 
 
-def _written(joint: Joint) -> str:
+def _axis_text(joint: Joint) -> str:
     xyz = joint.axes[0].xyz
     default = "" if xyz[0].stated else " (the default, as none is stated)"
     return " ".join(f"{number.value:g}" for number in xyz) + default

@@ -58,7 +58,7 @@ def check(
         return
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
-    large, carried = _large(masses, volume_share), _carried(masses)
+    large, carried = _large(masses, volume_share), _links_on_heavier_ones(masses)
     others = _Others(masses)
     for name, inertia in masses.weighed.items():
         link = inertia.link
@@ -124,7 +124,7 @@ def _most(masses: MassProperties, link: Link) -> float | None:
     return max(known) if known and max(known) > 0.0 else None
 
 
-def _carried(masses: MassProperties) -> set[str]:
+def _links_on_heavier_ones(masses: MassProperties) -> set[str]:
     """Return the links that are fixed to a heavier one: it may hold the mass of both."""
     bodies = masses.robot.tree.rigid_bodies
     heaviest = {

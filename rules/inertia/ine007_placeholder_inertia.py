@@ -36,17 +36,17 @@ def check(
         return
     by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
     for name, inertia in masses.weighed.items():
-        tensor = _stated(inertia)
+        tensor = _stated_moments(inertia)
         if tensor == _UNIT:
             yield from _unit(inertia)
         elif any(tensor) and masses.share(name) > share:
             by_tensor.setdefault(tensor, []).append(inertia)
     for tensor, group in by_tensor.items():
         if len(group) >= links and not _alike(masses, group, alike):
-            yield from _repeated(group, tensor)
+            yield from _repeated_tensors(group, tensor)
 
 
-def _stated(inertia: LinkInertia) -> tuple[float, ...]:
+def _stated_moments(inertia: LinkInertia) -> tuple[float, ...]:
     """Return the moments that the file states, without those that it leaves out."""
     inertial = inertia.link.inertial
     if inertial is None or not any(moment.stated for moment in inertial.moments):
@@ -70,17 +70,17 @@ def _alike(masses: MassProperties, group: Sequence[LinkInertia], tolerance: floa
     weights = [inertia.mass for inertia in group]
     if all(inertia.link in masses.robot.wheels for inertia in group):
         # Wheels of another size are a fault of their own.
-        return _near(weights, tolerance)
+        return _are_near(weights, tolerance)
     boxes = [masses.robot.own_box_of(inertia.link) for inertia in group]
     sizes = [box.diagonal for box in boxes if box is not None]
-    return _near(weights, tolerance) and _near(sizes, tolerance)
+    return _are_near(weights, tolerance) and _are_near(sizes, tolerance)
 
 
-def _near(values: Sequence[float], tolerance: float) -> bool:
+def _are_near(values: Sequence[float], tolerance: float) -> bool:
     return not values or max(values) - min(values) <= tolerance * max(values)
 
 
-def _repeated(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator[Finding]:
+def _repeated_tensors(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator[Finding]:
     moments = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
     first = group[0].link.name.value
     for inertia in group:

@@ -37,7 +37,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
     if unknown:
         yield unchecked(unknown)
         return
-    for joint, torque, limit in _held(masses):
+    for joint, torque, limit in _limited_joints(masses):
         driven = robot.format == "urdf" or joint.scoped_name in robot.driven_joints
         if driven and abs(torque) > max(factor * limit, _NOISE):
             unit = "N" if joint.type.value == "prismatic" else "N·m"
@@ -48,7 +48,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
             )
 
 
-def _held(masses: MassProperties) -> Iterator[tuple[Joint, float, float]]:
+def _limited_joints(masses: MassProperties) -> Iterator[tuple[Joint, float, float]]:
     """Yield joints with an effort limit: the joint, what it holds, and the limit."""
     for joint, torque in masses.gravity_torques.items():
         limit = joint.axes[0].effort.value if joint.axes else math.inf

@@ -33,16 +33,16 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
     weight = dict.fromkeys(body.values(), 0.0)
     for name, inertia in masses.links.items():
         weight[body[name]] += max(inertia.mass, 0.0)
-    below = _below(masses, spanning_tree)
+    below = _carried_masses(masses, spanning_tree)
     total = sum(weight.values())
     for name, tie in spanning_tree.by.items():
         if tie.parent == WORLD or body[tie.parent] == body[name]:
             continue
         if min(below[name], total - below[name]) > share * total:
-            yield from _across(tie, weight[body[name]], weight[body[tie.parent]], ratio)
+            yield from _ratio_findings(tie, weight[body[name]], weight[body[tie.parent]], ratio)
 
 
-def _below(masses: MassProperties, spanning_tree: SpanningTree) -> dict[str, float]:
+def _carried_masses(masses: MassProperties, spanning_tree: SpanningTree) -> dict[str, float]:
     """Return the mass of each link with all parts that it carries, kg."""
     below = {name: max(masses.links[name].mass, 0.0) for name in spanning_tree.order}
     for name in reversed(spanning_tree.order):
@@ -52,7 +52,7 @@ def _below(masses: MassProperties, spanning_tree: SpanningTree) -> dict[str, flo
     return below
 
 
-def _across(tie: Tie, child: float, parent: float, ratio: float) -> Iterator[Finding]:
+def _ratio_findings(tie: Tie, child: float, parent: float, ratio: float) -> Iterator[Finding]:
     light, heavy = sorted((child, parent))
     if light > 0.0 and heavy > ratio * light:
         yield finding(

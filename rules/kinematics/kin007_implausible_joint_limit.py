@@ -54,7 +54,7 @@ def check(
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     highest = {"effort": highest_effort, "velocity": highest_velocity}
-    commanded = _commanded(robot)
+    commanded = _commanded_joints(robot)
     limited = is_from(distribution_of(context), "kilted")
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
@@ -65,7 +65,7 @@ def check(
                 yield from _zero(joint, axis, driver)
             elif (hardware := commanded.get(joint.scoped_name)) is not None:
                 yield from _missing(joint, axis)
-                yield from _held(joint, axis, hardware, limited=limited)
+                yield from _zero_limits(joint, axis, hardware, limited=limited)
             elif driver is None and robot.format == "urdf" and not joint.immovable:
                 held = context.of_gazebo_sim and robot.is_for_gazebo
                 yield from _still(joint, axis, held=held)
@@ -94,7 +94,7 @@ def _zero(joint: Joint, axis: Axis, driver: Plugin) -> Iterator[Finding]:
             )
 
 
-def _commanded(robot: Robot) -> dict[str, Hardware]:
+def _commanded_joints(robot: Robot) -> dict[str, Hardware]:
     """Return the joints that ros2_control commands, each with its hardware."""
     return {
         joint.name.value: hardware
@@ -104,7 +104,9 @@ def _commanded(robot: Robot) -> dict[str, Hardware]:
     }
 
 
-def _held(joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool) -> Iterator[Finding]:
+def _zero_limits(
+    joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool
+) -> Iterator[Finding]:
     simulated = is_of_gazebo(hardware.plugin.value)
     certain = simulated or limited
     commands = hardware.joints_by_name[joint.name.value].commands

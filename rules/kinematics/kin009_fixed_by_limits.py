@@ -47,7 +47,7 @@ def check(robot: Robot, *, range_of_a_wheel: float = 1000.0) -> Findings:
             related=[(plugin, "drives it")],
             key="driven",
         )
-    yield from _stopped(robot, range_of_a_wheel)
+    yield from _stopped_wheels(robot, range_of_a_wheel)
 
 
 def _undriven(robot: Robot, joint: Joint, message: str) -> Finding:
@@ -68,7 +68,7 @@ def _undriven(robot: Robot, joint: Joint, message: str) -> Finding:
     )
 
 
-def _stopped(robot: Robot, least: float) -> Iterator[Finding]:
+def _stopped_wheels(robot: Robot, least: float) -> Iterator[Finding]:
     """Report wheels that a plugin drives, and that limits stop."""
     for wheel in robot.locomotion.wheels:
         axis = wheel.joint.axes[0] if wheel.joint.axes else None

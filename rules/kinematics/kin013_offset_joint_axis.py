@@ -51,10 +51,10 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0, marker: float =
                 f"their diagonals together, expected at most {gap:g}",
             )
         elif tie.joint.type.value in _HINGES:
-            yield from _beside(robot, tie, sizes)
+            yield from _offset_axis(robot, tie, sizes)
 
 
-def _beside(robot: Robot, tie: Tie, sizes: float) -> Iterator[Finding]:
+def _offset_axis(robot: Robot, tie: Tie, sizes: float) -> Iterator[Finding]:
     part = robot.box_of(robot.tree.links[tie.child], visuals_too=False)
     pose = robot.pose_of_joint(tie.joint)
     axis = robot.axis_in_model(tie.joint, tie.joint.axes[0]) if tie.joint.axes else None

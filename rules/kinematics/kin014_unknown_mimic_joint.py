@@ -31,11 +31,11 @@ def check(robot: Robot) -> Findings:
                 yield finding(leader, f"joint {joint.name.value!r} {phrase}")
             else:
                 leaders.setdefault(joint.scoped_name, (joint, leader))
-        yield from _held(joint)
+        yield from _zero_multiplier(joint)
     yield from _circles(leaders)
 
 
-def _held(joint: Joint) -> Iterator[Finding]:
+def _zero_multiplier(joint: Joint) -> Iterator[Finding]:
     """Report a multiplier of zero: an attribute in URDF, an element in SDF."""
     holders = (joint.element, *joint.element.all("axis"), *joint.element.all("axis2"))
     for mimic in (mimic for holder in holders for mimic in holder.all("mimic")):

@@ -23,7 +23,7 @@ def check(robot: Robot, context: Context) -> Findings:
 
     Of a link that is neither of the base nor a wheel, nor between them, it is information.
     """
-    carrying = _carrying(robot)
+    carrying = _carrying_links(robot)
     for link in robot.links:
         if not link.gravity.value:
             stated = link.gravity.span.text
@@ -42,7 +42,7 @@ def check(robot: Robot, context: Context) -> Findings:
             yield finding(link.kinematic, message, key="kinematic")
 
 
-def _carrying(robot: Robot) -> set[str]:
+def _carrying_links(robot: Robot) -> set[str]:
     """Return the links of the base, the wheels, and those between them."""
     found = {*robot.tree.base}
     waiting = [link.scoped_name for link in robot.wheels]

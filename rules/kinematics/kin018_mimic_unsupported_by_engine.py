@@ -116,24 +116,26 @@ _DRIVEN = (
 )
 
 
-def _spawned(mark: str = "", engine: str = "", control: str = "<gazebo/>") -> dict[str, object]:
+def _spawned_example(
+    mark: str = "", engine: str = "", control: str = "<gazebo/>"
+) -> dict[str, object]:
     robot = _ROBOT.replace("@", mark).replace("<gazebo/>", control)
     gazebo = {"-r empty.sdf": f"-r empty.sdf{engine}"}
     changed = {"@launch": gazebo, "urdf/rover.urdf": robot}
     return {"@bridge": True, "@profile": "ros2", **changed}
 
 
-def _standing(mark: str = "", physics: str = "", profile: str = "gazebo-harmonic") -> object:
+def _fixed_example(mark: str = "", physics: str = "", profile: str = "gazebo-harmonic") -> object:
     return {"@fragment": _world(physics, mark), "@profile": profile}
 
 
 _MARK = "  <!-- ^ KIN018 -->"
 GOOD = [
-    _spawned(engine=" --physics-engine gz-physics-bullet-featherstone-plugin"),
-    _spawned(engine=" --physics-engine acme-physics"),
-    _spawned(control=_CONTROL),
-    _spawned(control=_DRIVEN),
-    _standing(physics=_ENGINE),
-    _standing(profile="gazebo-fortress"),
+    _spawned_example(engine=" --physics-engine gz-physics-bullet-featherstone-plugin"),
+    _spawned_example(engine=" --physics-engine acme-physics"),
+    _spawned_example(control=_CONTROL),
+    _spawned_example(control=_DRIVEN),
+    _fixed_example(physics=_ENGINE),
+    _fixed_example(profile="gazebo-fortress"),
 ]
-BAD = [_spawned(_MARK), _standing(_MARK)]
+BAD = [_spawned_example(_MARK), _fixed_example(_MARK)]

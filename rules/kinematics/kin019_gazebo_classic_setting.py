@@ -24,7 +24,7 @@ def check(robot: Robot, context: Context) -> Findings:
     if not context.of_gazebo_sim or not robot.is_for_gazebo:
         return
     for kind, settings in table("physics_engines")["not_read"].items():
-        found = list(_found(robot, settings[robot.format]))
+        found = list(_elements_at(robot, settings[robot.format]))
         if found:
             names = ", ".join(dict.fromkeys(f"<{element.tag}>" for element in found))
             yield finding(
@@ -35,7 +35,7 @@ def check(robot: Robot, context: Context) -> Findings:
             )
 
 
-def _found(robot: Robot, paths: list[str]) -> Iterator[Element]:
+def _elements_at(robot: Robot, paths: list[str]) -> Iterator[Element]:
     """Yield the elements at the paths, which start at `<model>` or `<robot>`."""
     for path in paths:
         for element in robot.element.at(path):
@@ -56,11 +56,11 @@ def _arm(contact: str = "", joint: str = "", link: str = "") -> str:
 <axis><xyz>0 0 1</xyz></axis>{joint}</joint>"""
 
 
-def _of(profile: str, fragment: str) -> dict[str, str]:
+def _example(profile: str, fragment: str) -> dict[str, str]:
     return {"@fragment": fragment, "@profile": profile}
 
 
-def _spawned(inside: str) -> dict[str, object]:
+def _spawned_example(inside: str) -> dict[str, object]:
     robot = f"""<robot name="rover">
   <link name="base_link"/>
   <gazebo reference="base_link">
@@ -75,16 +75,16 @@ _MARK = "  <!-- ^ KIN019 -->"
 _CONTACT = "<contact><ode>\n<kp>1e5</kp>@\n<kd>1</kd></ode></contact>"
 _JOINT = "\n<physics><ode>\n<erp>0.2</erp>@\n</ode></physics>"
 GOOD = [
-    _of("gazebo-harmonic", _arm(link="<self_collide>false</self_collide>")),
-    _of("gazebo-harmonic", "<self_collide>true</self_collide>" + _arm()),
-    _of("gazebo-classic", _arm(_CONTACT.replace("@", ""))),
-    _spawned("<mu1>0.5</mu1><selfCollide>0</selfCollide>"),
+    _example("gazebo-harmonic", _arm(link="<self_collide>false</self_collide>")),
+    _example("gazebo-harmonic", "<self_collide>true</self_collide>" + _arm()),
+    _example("gazebo-classic", _arm(_CONTACT.replace("@", ""))),
+    _spawned_example("<mu1>0.5</mu1><selfCollide>0</selfCollide>"),
 ]
 BAD = [
-    _of("gazebo-harmonic", _arm(_CONTACT.replace("@", _MARK))),
-    _of("gazebo-harmonic", _arm(joint=_JOINT.replace("@", _MARK))),
-    _of("gazebo-fortress", _arm(link=f"<self_collide>true</self_collide>{_MARK}")),
-    _spawned(f"<kp>1e6</kp>{_MARK}\n<minDepth>0.001</minDepth>"),
-    _spawned(f"<selfCollide>true</selfCollide>{_MARK}"),
-    _spawned(f"<implicitSpringDamper>1</implicitSpringDamper>{_MARK}"),
+    _example("gazebo-harmonic", _arm(_CONTACT.replace("@", _MARK))),
+    _example("gazebo-harmonic", _arm(joint=_JOINT.replace("@", _MARK))),
+    _example("gazebo-fortress", _arm(link=f"<self_collide>true</self_collide>{_MARK}")),
+    _spawned_example(f"<kp>1e6</kp>{_MARK}\n<minDepth>0.001</minDepth>"),
+    _spawned_example(f"<selfCollide>true</selfCollide>{_MARK}"),
+    _spawned_example(f"<implicitSpringDamper>1</implicitSpringDamper>{_MARK}"),
 ]

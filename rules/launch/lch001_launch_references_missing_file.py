@@ -44,10 +44,10 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     f"{what} {named.path} does not exist{hint}",
                     severity=None if named.needed else Severity.WARNING,
                 )
-        yield from _unnamed(graph)
+        yield from _empty_paths(graph)
 
 
-def _unnamed(graph: LaunchGraph) -> Iterator[Finding]:
+def _empty_paths(graph: LaunchGraph) -> Iterator[Finding]:
     """Report parameter files whose path is empty."""
     for node in graph.nodes:
         empty = [file for file in node.parameter_files if not file.path.strip()]

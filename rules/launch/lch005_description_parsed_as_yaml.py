@@ -30,7 +30,7 @@ def check(launch: Ros2Launch, package: Package, description: UrdfDescription) ->
     text = _DECLARATION + description.document.source.text
     if len(text) > MAX_LENGTH or is_yaml(text):
         return
-    for loaded in _loaded(launch, package):
+    for loaded in _unquoted_descriptions(launch, package):
         if local_path(package, loaded.load.path) == description.document.source.file:
             yield finding(
                 loaded,
@@ -40,7 +40,7 @@ def check(launch: Ros2Launch, package: Package, description: UrdfDescription) ->
             )
 
 
-def _loaded(launch: Ros2Launch, package: Package) -> Iterator[LoadedDescription]:
+def _unquoted_descriptions(launch: Ros2Launch, package: Package) -> Iterator[LoadedDescription]:
     for graph in launch.entries:
         for loaded in loaded_descriptions(package, graph):
             parameter = loaded.parameter

@@ -81,10 +81,10 @@ def _fix(package: Package, name: str) -> Fix | None:
 
 def _packages(package: Package, robot: Robot) -> dict[str, str]:
     """Return the first mesh that is named by its package, of each available package."""
-    return dict(reversed([*_named(package, robot)]))
+    return dict(reversed([*_mesh_packages(package, robot)]))
 
 
-def _named(package: Package, robot: Robot) -> Iterator[tuple[str, str]]:
+def _mesh_packages(package: Package, robot: Robot) -> Iterator[tuple[str, str]]:
     for shape in robot.shapes():
         uri = shape.geometry.uri
         named = _NAMED.match(uri.value) if uri is not None else None
@@ -126,7 +126,7 @@ ament_package()
 """
 
 
-def _launched(action: str) -> dict[str, object]:
+def _launch_example(action: str) -> dict[str, object]:
     begin = "return LaunchDescription([\n"
     imported = "from launch.actions import IncludeLaunchDescription"
     return {
@@ -138,12 +138,12 @@ def _launched(action: str) -> dict[str, object]:
     }
 
 
-def _exported(path: str, mark: str = "") -> dict[str, object]:
+def _export_example(path: str, mark: str = "") -> dict[str, object]:
     line = f'    <gazebo_ros gazebo_model_path="{path}"/>{mark}\n'
     return {**_FILES, "package.xml": _MANIFEST.replace("  </export>", f"{line}  </export>")}
 
 
-def _hooked(line: str) -> dict[str, object]:
+def _hook_example(line: str) -> dict[str, object]:
     return {**_FILES, "CMakeLists.txt": _BUILD, "hooks/gazebo.dsv.in": f"{line}\n"}
 
 
@@ -160,23 +160,23 @@ def _classic(path: str, mark: str = "") -> dict[str, object]:
         ),
         '"-name", "rover"': '"-entity", "rover"',
     }
-    return {**_exported(path, mark), "@launch": launch, "@profile": "ros2-classic"}
+    return {**_export_example(path, mark), "@launch": launch, "@profile": "ros2-classic"}
 
 
 GOOD = [
     {"@bridge": True},
     _classic("${prefix}/.."),
-    _exported("${prefix}/.."),
-    _hooked(_PREPEND),
-    _launched(_APPEND),
+    _export_example("${prefix}/.."),
+    _hook_example(_PREPEND),
+    _launch_example(_APPEND),
     {**_FILES, "urdf/rover.urdf": _URDF.replace("package://acme_rover", "package://acme_arm")},
     {**_FILES, "README.md": "Set GZ_SIM_RESOURCE_PATH before you launch it.\n"},
     {**_FILES, "@launch": {"IncludeLaunchDescription(gazebo": "IncludeLaunchDescription(URDF"}},
 ]
 BAD = [
     {**_FILES, "@launch": _MARKED},
-    _exported("${prefix}", "  <!-- ^ LCH012 -->"),
-    {**_hooked(f"{_PREPEND}/@PROJECT_NAME@/models"), "@launch": _MARKED},
-    _launched(_APPEND.replace("os.path.join(HERE, '..'))", "HERE)  # ^ LCH012\n        ")),
+    _export_example("${prefix}", "  <!-- ^ LCH012 -->"),
+    {**_hook_example(f"{_PREPEND}/@PROJECT_NAME@/models"), "@launch": _MARKED},
+    _launch_example(_APPEND.replace("os.path.join(HERE, '..'))", "HERE)  # ^ LCH012\n        ")),
     _classic("${prefix}", "  <!-- ^ LCH012 -->"),
 ]

@@ -30,8 +30,8 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
             if not gathered.sources or gathered.beyond or gathered.faults:
                 continue
             words = {w for it in gathered.sources.values() for w in _WORD.findall(it.text)}
-            declared = Suggestions(_declared(gathered))
-            for name in _given(described):
+            declared = Suggestions(_declared_arguments(gathered))
+            for name in _given_arguments(described):
                 if not words.issuperset(_WORD.findall(name)):
                     file = described.load.path.rpartition("/")[2]
                     yield finding(
@@ -42,11 +42,11 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     )
 
 
-def _given(described: LoadedDescription) -> list[str]:
+def _given_arguments(described: LoadedDescription) -> list[str]:
     return sorted({*described.load.args, *described.unknown})
 
 
-def _declared(gathered: Gathered) -> list[str]:
+def _declared_arguments(gathered: Gathered) -> list[str]:
     return [
         element.get("name") or ""
         for document in gathered.documents.values()

@@ -26,13 +26,13 @@ def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
     """Report names that are known to be missing in the distribution."""
     released = ReleasedNames(context.distro)
     for graph in launch.entries:
-        for name, program in _started(graph):
+        for name, program in _started_packages(graph):
             if package.workspace.package(name.value) is None and is_known(name.value):
-                for key, message in _missing(name.value, program, context.distro, released):
+                for key, message in _missing_names(name.value, program, context.distro, released):
                     yield finding(name, message, key=key, covered_by=("LCH008",))
 
 
-def _missing(
+def _missing_names(
     name: str, program: str, distro: str, released: ReleasedNames
 ) -> Iterator[tuple[str, str]]:
     """Yield what a distribution does not have, the package or its program, and what to write."""
@@ -47,7 +47,7 @@ def _missing(
         yield name, f"there is no package {name!r}; did you mean {meant!r}?"
 
 
-def _started(graph: LaunchGraph) -> Iterator[tuple[Located[str], str]]:
+def _started_packages(graph: LaunchGraph) -> Iterator[tuple[Located[str], str]]:
     """Yield packages that are needed by default, each with its program."""
     for node in graph.nodes:
         if node.starts is True:

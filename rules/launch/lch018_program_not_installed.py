@@ -40,7 +40,7 @@ _NOT_PLAIN = {
 def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report programs of available packages that their build files do not name."""
     for graph in launch.entries:
-        for node in _own(graph):
+        for node in _known_nodes(graph):
             holder = package.workspace.package(node.package.value)
             build = _build_file(holder) if holder is not None else None
             missing = _missing(node.executable.value, build) if build is not None else ""
@@ -53,7 +53,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                 )
 
 
-def _own(graph: LaunchGraph) -> Iterator[Node]:
+def _known_nodes(graph: LaunchGraph) -> Iterator[Node]:
     """Yield nodes whose package and program are known."""
     for node in graph.nodes:
         named = is_known(node.package.value) and is_known(node.executable.value)

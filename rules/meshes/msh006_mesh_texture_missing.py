@@ -63,7 +63,7 @@ def _visual(mark: str = "", material: str = "") -> str:
 """
 
 
-def _textured(picture: str) -> dict[str, str]:
+def _example(picture: str) -> dict[str, str]:
     return {
         "meshes/part.obj": "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
         "meshes/part.mtl": f"newmtl paint\nmap_Kd {picture}\n",
@@ -74,16 +74,16 @@ _MARK = "  <!-- ^ MSH006 -->"
 _PBR = "<material><pbr><metal><albedo_map>b.png</albedo_map></metal></pbr></material>"
 
 GOOD = [
-    {"@fragment": _visual(), **_textured("a.png"), "meshes/a.png": ""},
-    {"@fragment": _visual(), **_textured("-s 1 1 a b.png"), "materials/textures/a b.png": ""},
-    {"@fragment": _visual(material=_PBR), **_textured("a.png")},
+    {"@fragment": _visual(), **_example("a.png"), "meshes/a.png": ""},
+    {"@fragment": _visual(), **_example("-s 1 1 a b.png"), "materials/textures/a b.png": ""},
+    {"@fragment": _visual(material=_PBR), **_example("a.png")},
 ]
 BAD = [
-    {"@fragment": _visual(_MARK), **_textured("a.png")},
-    {"@fragment": _visual(_MARK), **_textured("C:\\pictures\\a.png"), "meshes/a.png": ""},
+    {"@fragment": _visual(_MARK), **_example("a.png")},
+    {"@fragment": _visual(_MARK), **_example("C:\\pictures\\a.png"), "meshes/a.png": ""},
     {
         "@fragment": _visual(_MARK),
-        **_textured("a.png"),
+        **_example("a.png"),
         "meshes/a.png": "",
         "meshes/part.mtl": None,
     },

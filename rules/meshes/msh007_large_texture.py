@@ -47,17 +47,17 @@ def _textures(package: Package, robot: Robot) -> Iterator[tuple[Located[str], st
     for shape in robot.shapes():
         if isinstance(shape, Visual) and shape.material is not None:
             for uri in shape.material.textures:
-                yield from _existing(package, uri, robot.folder_of(uri), uri.value)
+                yield from _existing_textures(package, uri, robot.folder_of(uri), uri.value)
     for use in robot.mesh_uses:
         if not isinstance(use.file, Mesh):
             continue
         folder = posixpath.dirname(use.file.path)
         for name in use.file.textures:
-            yield from _existing(package, use.uri, folder, name)
-            yield from _existing(package, use.uri, f"{folder}/../materials/textures", name)
+            yield from _existing_textures(package, use.uri, folder, name)
+            yield from _existing_textures(package, use.uri, f"{folder}/../materials/textures", name)
 
 
-def _existing(
+def _existing_textures(
     package: Package, uri: Located[str], folder: str, name: str
 ) -> Iterator[tuple[Located[str], str]]:
     path = posixpath.normpath(posixpath.join(folder, name))

@@ -53,29 +53,31 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             "model.config names no model file: <sdf> is missing",
             severity=None if own_model(package) or package.index.with_suffix(".sdf") else _NOTHING,
             key="sdf",
-            fix=_named(package, context.sdf_version),
+            fix=_model_file_fix(package, context.sdf_version),
         )
-    yield from _lost(package, config, _chosen(config, context.reads))
+    yield from _missing_files(package, config, _target_entry(config, context.reads))
     for author in config.authors:
         for text in (author.name, author.email):
             if _TO_DO.match(text.value):
                 message = f"model.config has the author {text.value[:60]!r}, left from a template"
                 yield finding(text, message, key="template")
-    if missing := list(_missing(config)):
+    if missing := list(_missing_parts(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
         yield finding(
             config, f"model.config has no {words}", severity=Severity.WARNING, key="missing"
         )
 
 
-def _chosen(config: ModelConfig, reads: str) -> SdfEntry | None:
+def _target_entry(config: ModelConfig, reads: str) -> SdfEntry | None:
     """Return the file that the target opens: of the versions that it reads, the newest."""
     newest = parse_version(reads) or (0, 0)
     read = [it for it in config.sdf if (parse_version(it.version.value) or (0, 0)) <= newest]
     return max(read, key=lambda it: parse_version(it.version.value) or (0, 0), default=None)
 
 
-def _lost(package: Package, config: ModelConfig, chosen: SdfEntry | None) -> Iterator[Finding]:
+def _missing_files(
+    package: Package, config: ModelConfig, chosen: SdfEntry | None
+) -> Iterator[Finding]:
     for entry in config.sdf:
         path = posixpath.normpath(entry.file.value)
         written = entry.file.value
@@ -94,7 +96,7 @@ def _lost(package: Package, config: ModelConfig, chosen: SdfEntry | None) -> Ite
         )
 
 
-def _named(package: Package, version: str) -> Fix | None:
+def _model_file_fix(package: Package, version: str) -> Fix | None:
     """Return the fix that writes the package's model file."""
     document, model = package.xml("model.config"), own_model(package)
     if len(package.index.with_suffix(".sdf")) != 1:
@@ -105,7 +107,7 @@ def _named(package: Package, version: str) -> Fix | None:
     return Fix(Safety.UNSAFE, (append_to(document.root, [line]),))
 
 
-def _missing(config: ModelConfig) -> Iterator[str]:
+def _missing_parts(config: ModelConfig) -> Iterator[str]:
     people = config.authors
     stated = {
         "name": config.name.value,

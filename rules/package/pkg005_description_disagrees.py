@@ -62,7 +62,7 @@ _OF_DEVICES = {
 def check(robot: Robot, paperwork: Paperwork, devices: KnownDevices) -> Findings:
     """Compare kinds and numbers of sensors."""
     told = [
-        list(_told(paper.description, devices))
+        list(_described_sensors(paper.description, devices))
         for paper in (paperwork.config, paperwork.manifest)
         if paper is not None and paper.description.stated
     ]
@@ -99,7 +99,7 @@ def _compare(mentions: Sequence[_Told], present: Counter[str]) -> Iterator[Findi
             )
 
 
-def _told(description: Located[str], devices: KnownDevices) -> Iterator[_Told]:
+def _described_sensors(description: Located[str], devices: KnownDevices) -> Iterator[_Told]:
     """Yield the sensors that the clauses of a description name, the first of each clause."""
     text = description.span.text
     further = 0

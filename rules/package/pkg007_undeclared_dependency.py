@@ -87,7 +87,9 @@ def check(
             continue
         if name in former:
             if not manifest.depends_on(name):
-                yield finding(use.place, _renamed(package, use), severity=Severity.INFO, key=name)
+                yield finding(
+                    use.place, _renaming_message(package, use), severity=Severity.INFO, key=name
+                )
             continue
         beside = name not in PROVIDED and package.workspace.package(name) is not None
         if SUBMISSION_NAME.search(name) or beside:
@@ -98,14 +100,14 @@ def check(
     # What the target calls otherwise is to be renamed first: ROS011.
     renamed = table("renamed_packages")["releases"].get(context.release, {})
     lacking = [name for name in sorted(others) if name not in renamed]
-    fix = _declared(package, manifest, *lacking) if lacking else None
+    fix = _declaration_fix(package, manifest, *lacking) if lacking else None
     place = manifest if ament else package.folder_place()
     yield from _distribution(place, others, fix, None if ament else Severity.INFO)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
 
 
-def _renamed(package: Package, use: Use) -> str:
+def _renaming_message(package: Package, use: Use) -> str:
     return (
         f"{use.how}: {use.package_name} is not available, and {package.name} has all files that it "
         f"uses of it: expected {package.name}, if it was renamed"
@@ -128,7 +130,7 @@ def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
     if others is not None and others.depends_on(manifest.name.value):
         message = f"{message}, and depends on {manifest.name.value} itself"
         return finding(use.place, message, severity=Severity.INFO, key=name)
-    return finding(use.place, message, key=name, fix=_declared(package, manifest, name))
+    return finding(use.place, message, key=name, fix=_declaration_fix(package, manifest, name))
 
 
 def _brought(manifest: PackageManifest, name: str) -> bool:
@@ -190,7 +192,7 @@ def _is_own(package: Package, name: str, other: str) -> bool:
     return is_near and other.startswith(f"{robot}_") and not name.startswith(f"{robot}_")
 
 
-def _declared(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
+def _declaration_fix(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
     """Return the fix that adds dependencies after those that package.xml has."""
     document = package.xml("package.xml")
     if not isinstance(document, XmlDocument):

@@ -60,20 +60,22 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if build.faults:
         yield unchecked(f"CMakeLists.txt cannot be read completely: {build.faults[0].message}")
         return
-    installed = _installed(build)
+    installed = _installed_paths(build)
     whole = "" in installed
     for folder in _filled_folders(package):
         if whole or _covers(installed, folder):
             continue
         message = f"folder {folder}/ is not installed"
-        yield _finding(build, message, _LESS.get(folder), _added(build, "DIRECTORY", [folder]))
+        yield _finding(
+            build, message, _LESS.get(folder), _install_fix(build, "DIRECTORY", [folder])
+        )
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
         message = f"neither of {' and '.join(model_files)} is installed"
-        yield _finding(build, message, None, _added(build, "FILES", model_files))
+        yield _finding(build, message, None, _install_fix(build, "FILES", model_files))
     elif MODEL_FILES[0] in model_files and not whole and not _covers(installed, MODEL_FILES[0]):
         message = f"{MODEL_FILES[0]} is not installed"
-        yield _finding(build, message, None, _added(build, "FILES", [MODEL_FILES[0]]))
+        yield _finding(build, message, None, _install_fix(build, "FILES", [MODEL_FILES[0]]))
 
 
 def _filled_folders(package: Package) -> Iterator[str]:
@@ -104,7 +106,7 @@ def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix
     return finding(where, message, severity=severity, key=message, fix=fix)
 
 
-def _added(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
+def _install_fix(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
     """Return the fix that installs more; None if nothing goes to the package's share folder."""
     fitting = [install for install in build.installs if _goes_to_share(install, build)]
     for install in fitting:
@@ -135,7 +137,7 @@ def _destination(install: Install) -> str:
     return _CATKIN if install.destination == _CATKIN else "share/${PROJECT_NAME}"
 
 
-def _installed(build: CMakeFile) -> set[str]:
+def _installed_paths(build: CMakeFile) -> set[str]:
     """Return the paths that are installed, without slashes at the end; empty for all."""
     return set(_paths(build))
 

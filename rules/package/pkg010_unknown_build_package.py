@@ -34,7 +34,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         return
     available = {*table("build_packages")["any_release"], *known["packages"]}
     lower = {name.casefold() for name in available}
-    for needed in _needed(paperwork.build):
+    for needed in _required_packages(paperwork.build):
         if needed.value.casefold() in lower or _brought(package, paperwork, needed.value):
             continue
         stem = _VERSION.sub("", needed.value)
@@ -53,7 +53,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             )
 
 
-def _needed(build: CMakeFile) -> Iterator[Located[str]]:
+def _required_packages(build: CMakeFile) -> Iterator[Located[str]]:
     for call in build.find_packages:
         values = [word.value for word in call.arguments]
         if not call.conditional and "$" not in values[0] and _REQUIRED.intersection(values):

@@ -43,10 +43,10 @@ def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TE
     if SUBMISSION_NAME.search(package.name) is None:
         return
     if paperwork.manifest is not None:
-        yield from _named(package, paperwork.manifest.description)
+        yield from _copied_names(package, paperwork.manifest.description)
     if paperwork.config is not None:
         for text in (paperwork.config.name, paperwork.config.description):
-            yield from _named(package, text)
+            yield from _copied_names(package, text)
         yield from _other_team(package, paperwork.config.description, teams)
     yield from _commands(package, paperwork)
     for use in taken_in_vain(package):
@@ -58,10 +58,10 @@ def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TE
     sheet = package.read(own_sheet(package) or SHEET)
     if isinstance(sheet, SourceText):
         yield from _title(package, sheet)
-        yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))))
+        yield from _copied_names(package, Located("", Span(sheet, 0, len(sheet.text))))
 
 
-def _named(package: Package, text: Located[str]) -> Iterator[Finding]:
+def _copied_names(package: Package, text: Located[str]) -> Iterator[Finding]:
     """Report names of other robots in the text of a span, comments left out."""
     if not text.stated:
         return
@@ -110,7 +110,7 @@ def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
         yield finding(where, message)
 
 
-def _described(text: str) -> dict[str, str]:
+def _example(text: str) -> dict[str, str]:
     return {
         "package.xml": f"""<package format="2">
   <name>acme_rover_sensor_config_1</name>
@@ -128,7 +128,7 @@ _TOPICS = "launch/vehicle_topics.launch"
 _XML_MARK = "  <!-- ^ PKG012 -->"
 
 GOOD = [
-    _described(
+    _example(
         "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
     ),
     {"specifications.md": "# Acme Rover Sensor Config 1\nAs fast as x1_sensor_config_4.\n"},
@@ -146,7 +146,7 @@ GOOD = [
     {_TOPICS: _launch("marble_husky_sensor_config_1", "launch")},
 ]
 BAD = [
-    _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
+    _example("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
     {"specifications.md": "# MARBLE HD2 Sensor Config 1 <!-- ^ PKG012 -->\n"},
     {"specifications.md": "# Rover\nX1_SENSOR_CONFIG_4 has a lidar. <!-- ^ PKG012 -->\n"},
     {

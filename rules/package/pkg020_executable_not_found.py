@@ -36,7 +36,7 @@ def check(package: Package) -> Findings:
         if message := _fault(package, executable):
             yield finding(executable, f"executable {executable.name!r} cannot start: {message}")
     if setup.executables:
-        yield from _misplaced(package, setup)
+        yield from _misplaced_executables(package, setup)
 
 
 def _fault(package: Package, executable: Executable) -> str:
@@ -78,16 +78,16 @@ def _names(source: object) -> set[str] | None:
                 names.add(node.asname or node.name.partition(".")[0])
             case ast.Name(ctx=ast.Store()):
                 names.add(node.id)
-    return None if {"__getattr__", "globals", "setattr"} & _used(tree) else names
+    return None if {"__getattr__", "globals", "setattr"} & _possible_modules(tree) else names
 
 
-def _used(tree: ast.Module) -> set[str]:
+def _possible_modules(tree: ast.Module) -> set[str]:
     """Return what may give a module names that are not written: functions that it calls or has."""
     called = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     return called | {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 
-def _misplaced(package: Package, setup: SetupFile) -> Iterator[Finding]:
+def _misplaced_executables(package: Package, setup: SetupFile) -> Iterator[Finding]:
     """Report executables that setup.cfg installs into another folder than `lib/<package>`."""
     name = package.declared_name
     source = package.read("setup.cfg")

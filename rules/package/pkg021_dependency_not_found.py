@@ -61,7 +61,7 @@ def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
 def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]:
     if dependencies:
         first, *others = dependencies
-        names = ", ".join(map(_shown, dependencies))
+        names = ", ".join(map(_package_phrase, dependencies))
         yield finding(
             first.package,
             f"{distro.capitalize()} and rosdep have no {names}: expected in the workspace",
@@ -70,7 +70,7 @@ def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]
         )
 
 
-def _shown(dependency: Dependency) -> str:
+def _package_phrase(dependency: Dependency) -> str:
     """Return a name and what is known of it: what took its place, or which distribution has it."""
     name = dependency.package.value
     removed = table("removed_packages")["names"].get(name)

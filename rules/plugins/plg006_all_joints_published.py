@@ -23,7 +23,7 @@ def check(robot: Robot) -> Findings:
         yield unchecked(robot.unread_plugins)
     rotors = {rotor.joint for rotor in robot.locomotion.rotors if rotor.joint is not None}
     wheels = [joint for joint in _wheel_joints(robot) if joint not in rotors]
-    turning = " and ".join(_counted(wheels, "wheels") + _counted(rotors, "rotors"))
+    turning = " and ".join(_count_phrase(wheels, "wheels") + _count_phrase(rotors, "rotors"))
     for plugin in robot.all_plugins:
         if plugin.class_name != "JointStatePublisher" or not turning:
             continue
@@ -35,7 +35,7 @@ def check(robot: Robot) -> Findings:
             )
 
 
-def _counted(joints: Collection[Joint], name: str) -> list[str]:
+def _count_phrase(joints: Collection[Joint], name: str) -> list[str]:
     return [f"{len(joints)} of them {name}"] if joints else []
 
 

@@ -81,7 +81,7 @@ def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Fin
         if element.tag not in names:
             continue
         instead = names[element.tag]
-        advice = f"ROS 2 reads {_shown(instead)}" if instead else "ROS 2 does not read it"
+        advice = f"ROS 2 reads {_replacement(instead)}" if instead else "ROS 2 does not read it"
         yield finding(
             element,
             f"<{element.tag}> is a parameter of ROS 1 that {library} ignores: {advice}",
@@ -90,7 +90,7 @@ def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Fin
         )
 
 
-def _shown(instead: str) -> str:
+def _replacement(instead: str) -> str:
     return f"<{instead}>" if _WORD.fullmatch(instead) else instead
 
 

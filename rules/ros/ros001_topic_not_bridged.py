@@ -56,7 +56,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         bridged |= set(by_topic(launch.dormant_bridges))
         if not bridged or launch.dormant_includes:
             return
-    missing = list(_missing(robot, bridged, context.release))
+    missing = list(_unbridged_channels(robot, bridged, context.release))
     standard = _missing_standard(robot, context, bridged)
     if (missing or standard) and launch.unseen_bridges:
         yield unchecked(launch.unseen_bridges[0])
@@ -66,7 +66,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         owners = dict.fromkeys(channel.owner_name for channel in missing)
         yield finding(place, f"no topic of the robot is bridged, for example {next(iter(owners))}")
         return
-    assuming = _assuming(launch)
+    assuming = _assumption_phrase(launch)
     yield from _findings(missing, place, assuming)
     for topic in standard:
         shown = topic.replace("*", "<name>")
@@ -74,7 +74,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         yield finding(place, message + assuming)
 
 
-def _missing(robot: Robot, bridged: Collection[str], release: str) -> Iterator[Channel]:
+def _unbridged_channels(robot: Robot, bridged: Collection[str], release: str) -> Iterator[Channel]:
     """Yield the first channel of each group in which none is bridged."""
     groups: dict[tuple[Sensor | Plugin, str], list[Channel]] = defaultdict(list)
     for channel in channels(robot, release):
@@ -105,7 +105,7 @@ def _missing_standard(robot: Robot, context: Context, bridged: Collection[str]) 
     return [topic for topic in standard_topics() if topic not in bridged]
 
 
-def _assuming(launch: LaunchGraph) -> str:
+def _assumption_phrase(launch: LaunchGraph) -> str:
     """Return the end of a message that depends on assumptions about templates of subt_ros."""
     files = dict.fromkeys(bridge.node.assumed_from for bridge in launch.bridges)
     named = ", ".join(file for file in files if file)

@@ -77,16 +77,18 @@ class _Published:
         self._robot, self._release = robot, release
         self._of_links: dict[str, set[str]] = {}
 
-    def by(self, sensor: Sensor) -> list[str]:
+    def topics_of_sensor(self, sensor: Sensor) -> list[str]:
         """Return the topics of a sensor."""
         channels = sensor_channels(sensor, self._release)
         return [topic for channel in channels for topic in channel.topics]
 
-    def on(self, link: Link) -> set[str]:
+    def topics_of_link(self, link: Link) -> set[str]:
         """Return the topics of all sensors of a link."""
         name = link.name.value
         if name not in self._of_links:
-            self._of_links[name] = {topic for sensor in link.sensors for topic in self.by(sensor)}
+            self._of_links[name] = {
+                topic for sensor in link.sensors for topic in self.topics_of_sensor(sensor)
+            }
         return self._of_links[name]
 
 
@@ -98,14 +100,14 @@ def _fault(robot: Robot, bridge: Bridge, names: Suggestions, published: _Publish
     link = robot.links_by_name.get(topic.link)
     if link is None:
         return f"link {topic.link!r}, which the model does not have{names.hint(topic.link)}"
-    if comparable(bridge.ign_topic) in published.on(link):
+    if comparable(bridge.ign_topic) in published.topics_of_link(link):
         return None
     sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
     if sensor is None:
         return (
             f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
         )
-    topics = published.by(sensor)
+    topics = published.topics_of_sensor(sensor)
     if not topics or sensor.topic.stated:
         return None
     expected = ", ".join(sorted(_below(sensor, each) for each in topics))

@@ -37,10 +37,10 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         here = ends.get(topic, ())
         for bridge in bridges:
             for fault in (*_faults(bridge, here), *_of_later_release(bridge, context.release)):
-                yield finding(bridge, f"{_named(bridge)} {fault}")
+                yield finding(bridge, f"{_bridge_label(bridge)} {fault}")
         fault = _one_row_of_many(here)
         if fault and f"{topic}/points" not in bridged:
-            yield finding(bridges[0], f"{_named(bridges[0])} {fault}", key="one row of many")
+            yield finding(bridges[0], f"{_bridge_label(bridges[0])} {fault}", key="one row of many")
 
 
 def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
@@ -52,7 +52,7 @@ def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
     return ends
 
 
-def _named(bridge: Bridge) -> str:
+def _bridge_label(bridge: Bridge) -> str:
     assumed = bridge.node.assumed_from
     return f"{assumed} (content assumed)" if assumed else f"bridge {bridge.node.name!r}"
 

@@ -34,8 +34,8 @@ def check(launch: LaunchGraph) -> Findings:
         whose = f" of sensor {again.sensor.sensor!r}" if again.sensor else ""
         yield finding(
             again,
-            f"{name}{whose} is bridged twice: by {again.node.name!r} to {_shown(again)}, and by "
-            f"{first.node.name!r} to {_shown(first)}",
+            f"{name}{whose} is bridged twice: by {again.node.name!r} to {_label(again)}, and by "
+            f"{first.node.name!r} to {_label(first)}",
             severity=Severity.INFO if shared else None,
             key=_SHARED if shared else "",
             related=[(first, "the first bridge")],
@@ -45,7 +45,7 @@ def check(launch: LaunchGraph) -> Findings:
         if comparable(again.ign_topic) != comparable(first.ign_topic):
             yield finding(
                 again,
-                f"{_shown(again)} gets messages from {again.node.name!r} and from "
+                f"{_label(again)} gets messages from {again.node.name!r} and from "
                 f"{first.node.name!r}, expected one Gazebo topic for each name",
                 related=[(first, "the other bridge")],
             )
@@ -60,7 +60,7 @@ def _pairs(bridges: Iterable[Bridge], *, ros: bool) -> list[tuple[Bridge, Bridge
     return [(again, first) for first, *others in by_name.values() for again in others]
 
 
-def _shown(bridge: Bridge) -> str:
+def _label(bridge: Bridge) -> str:
     """Return the ROS topic as the launch file names it, without the robot's namespace."""
     namespace = bridge.node.namespace.rstrip("/")
     return bridge.ros_topic.removeprefix(f"{namespace}/")

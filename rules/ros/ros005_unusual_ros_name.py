@@ -78,7 +78,7 @@ def check(robot: Robot, launch: LaunchGraph, devices: KnownDevices, context: Con
         if channel.owner.kind is SensorType.DEPTH_CAMERA:
             of_depth.setdefault(channel.owner, []).append(bridge)
     for sensor, bridges in of_depth.items():
-        yield from _apart(sensor, bridges)
+        yield from _differing_prefixes(sensor, bridges)
 
 
 def _faults(bridge: Bridge, channel: Channel | None) -> Iterator[str]:
@@ -142,7 +142,7 @@ def _words_in_front(bridge: Bridge) -> Findings:
         )
 
 
-def _apart(sensor: Sensor, bridges: Sequence[Bridge]) -> Findings:
+def _differing_prefixes(sensor: Sensor, bridges: Sequence[Bridge]) -> Findings:
     """Report topics of a depth camera whose words in front differ from those of the others."""
     named = {bridge: _DATA.search(_name(bridge)) for bridge in bridges}
     fronts = {

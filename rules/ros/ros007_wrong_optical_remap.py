@@ -39,7 +39,7 @@ def check(launch: LaunchGraph) -> Findings:
     renamed = any(node.package == _RENAMES for node in launch.nodes)
     for frame in frames:
         for fault in _faults(frame, by_topic, sure=complete and not renamed):
-            yield finding(frame.node, f"{_shown(frame.node.full_name)} {fault}")
+            yield finding(frame.node, f"{_label(frame.node.full_name)} {fault}")
     yield from _copies(frames)
     if launch.unseen_bridges and any(_takes_unknown(frame, by_topic) for frame in frames):
         yield unchecked(launch.unseen_bridges[0])
@@ -67,18 +67,18 @@ def _faults(frame: OpticalFrame, by_topic: _Given, *, sure: bool) -> Iterator[st
             continue
         output = frame.remapped.get(name.replace("input", "output"), "")
         if output == topic:
-            yield f"publishes {name} on the topic that it reads, {_shown(topic)}"
+            yield f"publishes {name} on the topic that it reads, {_label(topic)}"
         elif topic not in by_topic and output in by_topic:
             yield f"has {name} and {name.replace('input', 'output')} swapped"
         elif topic not in by_topic and sure:
-            yield f"reads {name} from {_shown(topic)}, which no bridge publishes"
+            yield f"reads {name} from {_label(topic)}, which no bridge publishes"
         elif topic in by_topic and not any(_is(bridge, message) for bridge in by_topic[topic]):
-            yield f"reads {name} from {_shown(topic)}, which is not a {message}"
+            yield f"reads {name} from {_label(topic)}, which is not a {message}"
     if _of_two_cameras(frame, by_topic):
         yield "reads image and camera_info of different sensors"
 
 
-def _shown(name: str) -> str:
+def _label(name: str) -> str:
     return name.replace(SAMPLE_NAME, "<name>")
 
 
@@ -108,8 +108,8 @@ def _copies(frames: Sequence[OpticalFrame]) -> Findings:
             if earlier is not frame:
                 yield finding(
                     frame.node,
-                    f"{_shown(frame.node.full_name)} {does} {_shown(topic)}, as "
-                    f"{_shown(earlier.node.full_name)} does: remove one of them",
+                    f"{_label(frame.node.full_name)} {does} {_label(topic)}, as "
+                    f"{_label(earlier.node.full_name)} does: remove one of them",
                     related=[(earlier.node, "the first of them")],
                 )
                 break

@@ -96,7 +96,7 @@ def _relays(name: str = "mapping_server_relays", mark: str = "") -> str:
     return f'<include file="{_FOLDER}/{name}.launch">{mark}{_GIVEN}</include>'
 
 
-def _included(content: str) -> str:
+def _included_example(content: str) -> str:
     return f'<launch>\n<arg name="name"/>\n{content}\n</launch>\n'
 
 
@@ -107,7 +107,7 @@ GOOD = [
     _launch(_node("image"), f'<group ns="rear">{_node("image")}</group>'),
     _launch(_node("$(anon image)"), _node("$(anon image)")),
     _launch(f'<group if="0">{_node("image")}</group>', _node("image")),
-    {**_launch(_relays(), _INCLUDE), _MORE: _included(_node("image"))},
+    {**_launch(_relays(), _INCLUDE), _MORE: _included_example(_node("image"))},
     _launch(_relays(), f'<group ns="payload">{_relays()}</group>'),
     _launch(_relays(), _relays("set_rate_relay")),
 ]
@@ -121,7 +121,7 @@ BAD = [
         _node("image"),
         f'<node>{_MARK}\n  pkg="subt_ros" type="optical_frame_publisher" name="image">\n</node>',
     ),
-    {**_launch(_relays(mark=_MARK), _INCLUDE), _MORE: _included(_relays(mark=_MARK))},
-    {**_launch(_node("image"), _INCLUDE), _MORE: _included(_node("image", _MARK))},
+    {**_launch(_relays(mark=_MARK), _INCLUDE), _MORE: _included_example(_relays(mark=_MARK))},
+    {**_launch(_node("image"), _INCLUDE), _MORE: _included_example(_node("image", _MARK))},
     _launch(_relays(mark=_MARK), _relays(mark=_MARK)),
 ]

@@ -93,7 +93,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
         )
     if missing:
         yield finding(
-            element, f"<{element.tag}> lacks {_listed(missing)}, which roslaunch requires"
+            element, f"<{element.tag}> lacks {_name_list(missing)}, which roslaunch requires"
         )
 
 
@@ -104,14 +104,14 @@ def _closed_early(element: Element, outside: list[str]) -> Finding:
     closed_again = bracket.text == ">" and behind is not None
     return finding(
         element,
-        f"<{element.tag}> is closed before its attributes: move {_listed(outside)} in front of "
+        f"<{element.tag}> is closed before its attributes: move {_name_list(outside)} in front of "
         "its '>'",
         key=f"{element.tag} closed",
         fix=replace_text(bracket, "", Safety.UNSAFE) if closed_again else None,
     )
 
 
-def _listed(names: list[str]) -> str:
+def _name_list(names: list[str]) -> str:
     return ", ".join(repr(name) for name in names[:8])
 
 

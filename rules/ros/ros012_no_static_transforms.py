@@ -64,14 +64,14 @@ def check(
     known = {*robot.links_by_name, *(part.name.value for part in parts)}
     frames = {
         name: joint
-        for name, joint in _described(package, launch, urdf)
+        for name, joint in _fixed_frames(package, launch, urdf)
         if name not in known and not (published_elsewhere and published_elsewhere in name)
     }
     if frames:
         number = f"{len(frames)} fixed frames" if len(frames) > 1 else "a fixed frame"
         yield finding(
             where,
-            f"the description has {number} that the model lacks ({_listed(list(frames))}), but no "
+            f"the description has {number} that the model lacks ({_listing(list(frames))}), but no "
             "robot_state_publisher is started",
             key="description",
             related=[(joint, "fixed here") for joint in list(frames.values())[:shown]],
@@ -98,7 +98,7 @@ def _static_poses(robot: Robot, where: Place) -> Findings:
         yield unchecked(robot.unread_plugins)
 
 
-def _described(
+def _fixed_frames(
     package: Package, launch: LaunchGraph, urdf: UrdfFiles | None
 ) -> Iterator[tuple[str, HasSpan]]:
     """Yield the fixed frames of the robot's description."""
@@ -113,7 +113,7 @@ def _described(
                 yield from fixed_frames(document).items()
 
 
-def _listed(names: list[str]) -> str:
+def _listing(names: list[str]) -> str:
     return ", ".join(names[:3]) + (", …" if len(names) > 3 else "")
 
 

@@ -98,7 +98,8 @@ def _argument(package: Package, description: RobotDescription, robot: str) -> It
         source = holder.read(path) if holder is not None else None
         if isinstance(source, SourceText) and _NEEDED in source.text:
             yield finding(
-                description, f"{path} needs the robot's name, but {_given(description, script)}"
+                description,
+                f"{path} needs the robot's name, but {_argument_phrase(description, script)}",
             )
 
 
@@ -122,7 +123,7 @@ def _is_given(description: RobotDescription, robot: str, script: DescriptionScri
     return name == robot or (name is not None and not is_known(name))
 
 
-def _given(description: RobotDescription, script: DescriptionScript | None) -> str:
+def _argument_phrase(description: RobotDescription, script: DescriptionScript | None) -> str:
     """Return what xacro gets instead of the robot's name, and what is expected."""
     if script is not None and "name" in script.arguments:
         given = f"name:={script.arguments['name']}"

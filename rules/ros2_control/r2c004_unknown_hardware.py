@@ -119,13 +119,13 @@ def _foreign(
                 severity=Severity.INFO,
             )
         return
-    exported = set(_exported(holder))
+    exported = set(_exported_plugins(holder))
     if exported and plugin.value not in exported:
         hint = Suggestions(exported).hint(plugin.value)
         yield finding(plugin, f"package {owner!r} exports no hardware {plugin.value!r}{hint}")
 
 
-def _exported(package: Package) -> Iterator[str]:
+def _exported_plugins(package: Package) -> Iterator[str]:
     """Yield the names of the plugins that a package describes for pluginlib."""
     for file in package.index.with_suffix(".xml"):
         document = package.xml(file.path)

@@ -39,13 +39,15 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
             if file.path is None and file.package:
                 yield from _elsewhere(file, package, papers)
             elif file.path is not None and not file.exists:
-                yield finding(file.text, f"{_shown(file)} does not exist (looked for {file.path})")
+                yield finding(
+                    file.text, f"{_path_in_package(file)} does not exist (looked for {file.path})"
+                )
             elif file.path is not None and file.package:
                 holder, path = listed(package, file.path)
                 # Under another path than in the source it was found because it is installed there.
-                left = left_out(package, holder, path) if path == _inside(file) else None
+                left = left_out(package, holder, path) if path == _path_below_share(file) else None
                 if left is not None:
-                    message = f"{_shown(file)} is not installed: {left.instead}"
+                    message = f"{_path_in_package(file)} is not installed: {left.instead}"
                     yield finding(file.text, message, key=left.around)
 
 
@@ -55,22 +57,22 @@ def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Fin
     if manifest is None or manifest.depends_on(file.package):
         yield unchecked(f"package {file.package} is not available")
         return
-    path = _inside(file)
+    path = _path_below_share(file)
     here = bool(path) and package.exists(path)
     yield finding(
         file.text,
-        f"{_shown(file)} is in package {file.package!r}, which is not available and which "
+        f"{_path_in_package(file)} is in package {file.package!r}, which is not available and which "
         f"package.xml does not depend on{f'; {path} is in this package' if here else ''}",
         severity=None if here else Severity.WARNING,
     )
 
 
-def _inside(file: ParametersFile) -> str:
+def _path_below_share(file: ParametersFile) -> str:
     """Return the path below the folder of the installed package."""
     return file.text.value.partition(file.package)[2].lstrip(")/")
 
 
-def _shown(file: ParametersFile) -> str:
+def _path_in_package(file: ParametersFile) -> str:
     return file.text.value.removeprefix(f"{ROOT}/")
 
 

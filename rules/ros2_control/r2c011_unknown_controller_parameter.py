@@ -34,7 +34,7 @@ def check(control: RobotControl, context: Context) -> Findings:
     distribution = distribution_of(context)
     for controller in control.controllers:
         known = controller_types().get(controller.type.value)
-        names = _known(known, distribution) if known is not None else ()
+        names = _known_parameters(known, distribution) if known is not None else ()
         suggestions = Suggestions(names)
         for name in sorted(controller.own) if known is not None and names else ():
             if name in COMMON_PARAMETERS or name.startswith(_READ_OTHERWISE):
@@ -56,7 +56,7 @@ def check(control: RobotControl, context: Context) -> Findings:
             )
 
 
-def _known(kind: ControllerType, distribution: str) -> tuple[str, ...]:
+def _known_parameters(kind: ControllerType, distribution: str) -> tuple[str, ...]:
     return tuple(name for name in kind.params if kind.known_in(name, distribution))
 
 

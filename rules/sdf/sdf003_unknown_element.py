@@ -54,7 +54,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             f"{sdf.version or '1.6'}{hint}",
             severity=Severity.ERROR if grave else None,
             key=f"{parent.tag}/{element.tag}",
-            fix=_renamed(element, sure) if sure and sure not in there[parent] else None,
+            fix=_renaming_fix(element, sure) if sure and sure not in there[parent] else None,
         )
 
 
@@ -72,7 +72,7 @@ def _with_known_siblings(
         yield element, known.get(element.parent, Suggestions(()))
 
 
-def _renamed(element: Element, tag: str) -> Fix:
+def _renaming_fix(element: Element, tag: str) -> Fix:
     names = (element.name_span, element.end_name_span)
     return Fix(Safety.SAFE, tuple(name.replaced_by(tag) for name in names if name is not None))
 

@@ -62,13 +62,13 @@ def _children(element: Element, kind: ElementType, without: Severity) -> Iterato
         elif not stated and _has_to_be_stated(child):
             yield finding(
                 element,
-                f"{_named(element)} lacks <{name}>",
+                f"{_element_label(element)} lacks <{name}>",
                 severity=without if name in CHOICES else None,
                 key=f"{element.tag}/{name}",
             )
         for part in stated:
             if child.value_type and not part.text.stated:
-                message = f"<{name}> of {_named(element)} is empty"
+                message = f"<{name}> of {_element_label(element)} is empty"
                 yield finding(part, message, key=f"{element.tag}/{name} empty")
 
 
@@ -76,7 +76,7 @@ def _has_to_be_stated(child: ElementType) -> bool:
     return child.default is None if child.value_type else child.name in CHOICES
 
 
-def _named(element: Element) -> str:
+def _element_label(element: Element) -> str:
     name = element.get("name")
     return f"{element.tag} {name!r}" if name else f"<{element.tag}>"
 

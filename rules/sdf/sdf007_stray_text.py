@@ -24,7 +24,7 @@ def check(sdf: SdfDocument) -> Findings:
     for element, kind in sdf.typed_elements:
         if kind is None or kind.free or kind.value_type:
             continue
-        for span in element.stray_texts if element.children else _alone(element):
+        for span in element.stray_texts if element.children else _own_text_span(element):
             words = " ".join(span.text.split())
             shown = words if len(words) <= _SHOWN else words[:_SHOWN] + "…"
             yield finding(
@@ -35,7 +35,7 @@ def check(sdf: SdfDocument) -> Findings:
             )
 
 
-def _alone(element: Element) -> Iterator[Span]:
+def _own_text_span(element: Element) -> Iterator[Span]:
     if element.text.stated:
         yield element.text_span
 

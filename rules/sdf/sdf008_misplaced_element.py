@@ -70,7 +70,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             belonging[path] = _places(*path, parents_of(sdf.version))
         places = belonging[path] if HARMLESS.get(path[1:], True) else ()
         listed = [place for place in places if _fits(parent, kinds[parent], place)]
-        named = (_named(sdf.version, tag, *path) for tag in listed)
+        named = (_place_label(sdf.version, tag, *path) for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         is_set = len(listed) == 1 and _is_set(element, listed[0])
         usual = len(listed) == 1 and not is_set and _is_usual(element, listed[0], kinds)
@@ -88,7 +88,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         )
 
 
-def _named(version: str, place: str, around: str, parent: str, tag: str) -> str:
+def _place_label(version: str, place: str, around: str, parent: str, tag: str) -> str:
     """Name a place; of another element of the same tag, say which one: `contact/ode`."""
     if place != parent:
         return f"<{place}>"
@@ -157,13 +157,13 @@ def _moved(element: Element, place: str, kinds: _Kinds) -> Fix | None:
     holder = around if around is not None and around.tag == place else next(iter(beside), None)
     if holder is None:
         kind = kinds.get(parent)
-        return _wrapped(element, kind.children.get(place) if kind is not None else None)
+        return _wrapping_fix(element, kind.children.get(place) if kind is not None else None)
     if len(beside) > 1 or holder.child(element.tag) is not None or holder.text.stated:
         return None
     return Fix(Safety.SAFE, (removal(element), append_to(holder, [text])))
 
 
-def _wrapped(element: Element, kind: ElementType | None) -> Fix | None:
+def _wrapping_fix(element: Element, kind: ElementType | None) -> Fix | None:
     """Return the fix that puts an element around another one, if it needs nothing but that."""
     if kind is None or any(needed == "1" for _, _, needed in kind.attributes.values()):
         return None

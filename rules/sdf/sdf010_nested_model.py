@@ -28,7 +28,7 @@ from checker.source.xml import Element
 @rule("SDF010", "nested-model", Severity.ERROR, Concern.PORTABILITY)
 def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
     """Report `<model>` and `<include>` below a model."""
-    nested = list(_nested(sdf, robot))
+    nested = list(_nested_elements(sdf, robot))
     if not nested:
         return
     reason = obstacle(robot)
@@ -49,7 +49,7 @@ def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
         )
 
 
-def _nested(sdf: SdfDocument, robot: Robot) -> Iterator[tuple[Element, str]]:
+def _nested_elements(sdf: SdfDocument, robot: Robot) -> Iterator[tuple[Element, str]]:
     """Yield the nested elements of the robot, each with its message."""
     whole = robot.element.position
     for child in sdf.elements():

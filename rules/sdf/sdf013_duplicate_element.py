@@ -27,7 +27,7 @@ def check(sdf: SdfDocument) -> Findings:
         contents: dict[str, list[tuple[object, ...]]] = {}
         for child in element.children:
             earlier = first.setdefault(child.tag, child)
-            if earlier is child or not _once(element, kind, child.tag):
+            if earlier is child or not _is_single(element, kind, child.tag):
                 continue
             content = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
             same = _content(child) == content
@@ -40,7 +40,7 @@ def check(sdf: SdfDocument) -> Findings:
             )
 
 
-def _once(parent: Element, kind: ElementType, tag: str) -> bool:
+def _is_single(parent: Element, kind: ElementType, tag: str) -> bool:
     if (parent.tag, tag) in SEVERAL | ELSEWHERE:
         return False
     if (parent.tag, tag) == ("sensor", "camera") and parent.get("type") == "multicamera":

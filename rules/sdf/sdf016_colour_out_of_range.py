@@ -39,20 +39,20 @@ def check(sdf: SdfDocument, context: Context, *, eight_bit_from: float = 16.0) -
             yield finding(
                 element.text,
                 f"<{element.tag}> is {element.text.value[:60]}, expected numbers from 0 to 1"
-                + (f"; it is read as {_read(colour)}" if lenient else ""),
+                + (f"; it is read as {_converted_colour(colour)}" if lenient else ""),
                 severity=Severity.WARNING if lenient else None,
                 key="colour",
-                fix=_divided(element, colour, eight_bit_from),
+                fix=_division_fix(element, colour, eight_bit_from),
             )
 
 
-def _read(colour: tuple[Located[float], ...]) -> str:
+def _converted_colour(colour: tuple[Located[float], ...]) -> str:
     """Return what a lenient parser makes of a colour."""
     values = (max(0.0, number.value) for number in colour)
     return " ".join(f"{value / EIGHT_BIT if value > 1 else value:.2g}" for value in values)
 
 
-def _divided(element: Element, colour: tuple[Located[float], ...], least: float) -> Fix | None:
+def _division_fix(element: Element, colour: tuple[Located[float], ...], least: float) -> Fix | None:
     """Return the fix that divides by 255; none for colours that are only slightly too bright."""
     values = [number.value for number in colour]
     whole = all(0.0 <= value <= EIGHT_BIT and value.is_integer() for value in values)

@@ -32,7 +32,7 @@ _EMPTY = """<sdf version="1.9">
 """
 
 
-def _including(file: str, merge: str = "", mark: str = "") -> dict[str, str]:
+def _example(file: str, merge: str = "", mark: str = "") -> dict[str, str]:
     fragment = f"""
 <include{merge}>{mark if merge else ""}
   <uri>models/arm</uri>{mark if not merge else ""}
@@ -44,10 +44,10 @@ def _including(file: str, merge: str = "", mark: str = "") -> dict[str, str]:
 
 _MARK = "  <!-- ^ SDF018 -->"
 GOOD = [
-    _including(_ARM),
-    _including(_ARM.replace("upper", "lower"), ' merge="true"'),
+    _example(_ARM),
+    _example(_ARM.replace("upper", "lower"), ' merge="true"'),
 ]
 BAD = [
-    _including(_EMPTY, mark=_MARK),
-    _including(_ARM, ' merge="true"', _MARK),
+    _example(_EMPTY, mark=_MARK),
+    _example(_ARM, ' merge="true"', _MARK),
 ]

@@ -45,7 +45,7 @@ def check(robot: Robot, context: Context, package: Package) -> Findings:
                 f"sensor {sensor.name.value!r} has the type {type!r}, which "
                 f"Gazebo {context.release.capitalize()} does not simulate: expected 'gpu_lidar'",
                 key=f"lost {type}",
-                fix=_renamed(sensor, "gpu_lidar", Safety.UNSAFE),
+                fix=_type_fix(sensor, "gpu_lidar", Safety.UNSAFE),
             )
         elif type in _OLD:
             yield finding(
@@ -54,11 +54,11 @@ def check(robot: Robot, context: Context, package: Package) -> Findings:
                 f"the older name of {_OLD[type]!r}",
                 severity=Severity.INFO,
                 key=f"old {type}",
-                fix=_renamed(sensor, _OLD[type], Safety.SAFE),
+                fix=_type_fix(sensor, _OLD[type], Safety.SAFE),
             )
 
 
-def _renamed(sensor: Sensor, type: str, safety: Safety) -> Fix:
+def _type_fix(sensor: Sensor, type: str, safety: Safety) -> Fix:
     """Return the fix that writes another type, and `<lidar>` for `<ray>`."""
     edits = [sensor.type.span.replaced_by(type)]
     edits += [name.replaced_by("lidar") for name in _old_names(sensor)]

@@ -58,7 +58,7 @@ def _one_way(
         ends, words = ((0.0, _TURN), "0 to 2π") if abs(lower) < near else (_AROUND, "-π to π")
         over = f"{phrase}, {scan.angle - _TURN:.2g} rad more than a full turn"
         expected = f": expected {words}" if full_turn else ""
-        fix = _written(scan, *ends) if full_turn else None
+        fix = _angles_fix(scan, *ends) if full_turn else None
         yield finding(scan.lower, over + expected, key=f"over {scan.angle:.6g}", fix=fix)
     elif abs(lower) < near and abs(upper - _TURN) < near:
         yield finding(
@@ -67,10 +67,10 @@ def _one_way(
             severity=None if context.of_submissions else Severity.INFO,
             key="from 0",
             # It would turn ray 0 to the back, which only SubT asks for.
-            fix=_written(scan, *_AROUND) if context.profile == "subt" else None,
+            fix=_angles_fix(scan, *_AROUND) if context.profile == "subt" else None,
         )
     elif scan.angle <= 0 and scan.samples.value > 1:
-        swapped = _written(scan, upper, lower) if scan.angle < 0 else None
+        swapped = _angles_fix(scan, upper, lower) if scan.angle < 0 else None
         yield finding(
             scan.upper,
             f"{phrase} with {scan.samples.value:g} samples: expected the first angle below "
@@ -80,7 +80,7 @@ def _one_way(
         )
 
 
-def _written(scan: Scan, lower: float, upper: float) -> Fix | None:
+def _angles_fix(scan: Scan, lower: float, upper: float) -> Fix | None:
     """Return the fix that writes other angles; None if the file states none."""
     if not scan.lower.stated or not scan.upper.stated:
         return None

@@ -42,7 +42,7 @@ def check(
         if known is not None and "rays" in known.device.values:
             yield from _rays(sensor, lidar, known.device)
             continue
-        expected = _expected(sensor, lidar, known.device) if known is not None else []
+        expected = _expected_samples(sensor, lidar, known.device) if known is not None else []
         samples = lidar.horizontal.samples
         too_many = samples.value >= copied
         if too_many or (expected and not _fits(samples.value, expected, tolerance)):
@@ -62,7 +62,7 @@ def _rays(sensor: Sensor, lidar: Lidar, device: Device) -> Iterator[Finding]:
         )
 
 
-def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
+def _expected_samples(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
     """Return the device's samples at the sensor's rate; at any rate if it has no such rate."""
     by_rate = {
         float(rate): samples for rate, samples in device.values.get("samples_by_rate", {}).items()

@@ -59,16 +59,16 @@ def check(
                 f"lidar {sensor.name.value!r} has "
                 + (f"no noise in its <{lidar.element.tag}>" if noise is None else "noise 'none'")
                 + ", expected a standard deviation of "
-                f"{either(_expected(device, 'noise_stddev'))} m",
+                f"{either(_expected_figures(device, 'noise_stddev'))} m",
                 key="no noise",
             )
         for figure, value in figures.items():
-            expected = _expected(device, figure)
+            expected = _expected_figures(device, figure)
             if value.stated and not any(abs(value.value - e) <= tolerance * e for e in expected):
                 yield _finding(sensor, device, figure, value, expected, grave)
 
 
-def _expected(device: Device | None, figure: str) -> list[float]:
+def _expected_figures(device: Device | None, figure: str) -> list[float]:
     """Return the accepted figures of a device, else the standard."""
     values = device.values if device is not None else {}
     expected = [float(values.get(figure, table("subt_standards")["lidar"][figure]))]

@@ -118,7 +118,7 @@ def _vertical(lidar: Lidar, device: Device, tolerance: float) -> Iterator[_Diffe
 def _farthest(lidar: Lidar, named: SensorDevice, tolerance: float) -> Iterator[_Difference]:
     farthest = _known_values(named, "range_max")
     value = lidar.range_max
-    if value.stated and not _near(value.value, farthest, tolerance):
+    if value.stated and not _is_near(value.value, farthest, tolerance):
         yield _Difference(
             value, "range_max", f"has a maximum range of {value.value:g} m", f"{either(farthest)} m"
         )
@@ -154,11 +154,11 @@ def _known_values(named: SensorDevice, figure: str) -> list[float]:
 def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Difference]:
     rates = [float(rate) for rate in device.values.get("rates", ())]
     rate = sensor.update_rate
-    if rate.stated and rate.value > 0 and not _near(rate.value, rates, tolerance):
+    if rate.stated and rate.value > 0 and not _is_near(rate.value, rates, tolerance):
         yield _Difference(rate, "rates", f"measures at {rate.value:g} Hz", f"{either(rates)} Hz")
 
 
-def _near(value: float, expected: Sequence[float], tolerance: float) -> bool:
+def _is_near(value: float, expected: Sequence[float], tolerance: float) -> bool:
     """Whether a value is close to an expected one; always, if none is known."""
     return not expected or any(abs(value - number) <= tolerance * number for number in expected)
 
@@ -184,7 +184,7 @@ def _by_shape(
     ]
     ranges = sorted({float(device.values["range_max"]) for device in alike})
     reach = lidar.range_max
-    if reach.stated and not _near(reach.value, ranges, tolerance):
+    if reach.stated and not _is_near(reach.value, ranges, tolerance):
         yield finding(
             reach,
             f"lidar {sensor.name.value!r} has the rows of a {alike[0].name} and a maximum range "

@@ -177,7 +177,7 @@ def _model(width: int, height: int, rate: float = 25, fov: float = 1.658, mark: 
 """
 
 
-def _named(model: str, device: str = "Arducam B0203 with LN008 lens", links: str = "") -> object:
+def _example(model: str, device: str = "Arducam B0203 with LN008 lens", links: str = "") -> object:
     sheet = f"# Rover\n## Sensors\n* Color camera - {device}, modeled by camera plugin\n{links}"
     return {"@fragment": model, "specifications.md": sheet}
 
@@ -204,39 +204,39 @@ _OF_FAMILY = "\n## Links\n* [FLIR BFS-U3-88S6C](https://www.flir.com/products/bl
 _COSTS = "## Cost\n$900 - Basler acA1300-60gm\n"
 
 GOOD = [
-    _named(_model(1920, 1200), _BLACKFLY),
-    _named(_model(4096, 2160), _FAMILY, _OF_FAMILY),
-    _named(_model(1282, 1026), "Basler acA1300-60gm"),
-    _named(_model(1280, 1024), "IDS uEye UI-3240CP"),
-    _named(_model(1292, 964), "Allied Vision Mako G-125C"),
-    _named(_model(1280, 1024), "XIMEA MQ013CG-E2"),
+    _example(_model(1920, 1200), _BLACKFLY),
+    _example(_model(4096, 2160), _FAMILY, _OF_FAMILY),
+    _example(_model(1282, 1026), "Basler acA1300-60gm"),
+    _example(_model(1280, 1024), "IDS uEye UI-3240CP"),
+    _example(_model(1292, 964), "Allied Vision Mako G-125C"),
+    _example(_model(1280, 1024), "XIMEA MQ013CG-E2"),
     {"@fragment": _model(1282, 1026), "specifications.md": _PLAIN + _COSTS},
     {"@fragment": _model(640, 480), "specifications.md": _PLAIN},
-    _named(_model(720, 1080)),
-    _named(_model(1080, 720, 20)),
-    _named(_model(4096, 2160), _FAMILY),
-    _named(_model(1440, 1080), _FAMILY, _MODEL_LINK),
-    _named(_model(848, 800, 30, 2.8), "Intel RealSense T265"),
+    _example(_model(720, 1080)),
+    _example(_model(1080, 720, 20)),
+    _example(_model(4096, 2160), _FAMILY),
+    _example(_model(1440, 1080), _FAMILY, _MODEL_LINK),
+    _example(_model(848, 800, 30, 2.8), "Intel RealSense T265"),
     _model(1280, 960),
     _rgbd(640, 360),
 ]
 BAD = [
-    _named(_model(1280, 960, mark=1), _BLACKFLY),
-    _named(_model(1280, 960, mark=1), _FAMILY, _OF_FAMILY),
-    _named(_model(1920, 1080, mark=1), "Basler acA1300-60gm"),
-    _named(_model(1920, 1080, mark=1), "IDS uEye UI-3240CP"),
-    _named(_model(640, 480, mark=1), "Allied Vision Mako G-125C"),
-    _named(_model(1920, 1080, mark=1), "XIMEA MQ013CG-E2"),
+    _example(_model(1280, 960, mark=1), _BLACKFLY),
+    _example(_model(1280, 960, mark=1), _FAMILY, _OF_FAMILY),
+    _example(_model(1920, 1080, mark=1), "Basler acA1300-60gm"),
+    _example(_model(1920, 1080, mark=1), "IDS uEye UI-3240CP"),
+    _example(_model(640, 480, mark=1), "Allied Vision Mako G-125C"),
+    _example(_model(1920, 1080, mark=1), "XIMEA MQ013CG-E2"),
     {"@fragment": _model(640, 480, mark=1), "specifications.md": _PLAIN + _COSTS},
-    _named(_model(480, 640, mark=1)),
-    _named(_model(720, 1080, 30, mark=2)),
-    _named(_model(720, 1080, 25, 1.2, mark=3)),
-    _named(_model(1280, 960, mark=1), _FAMILY, _MODEL_LINK),
-    _named(
+    _example(_model(480, 640, mark=1)),
+    _example(_model(720, 1080, 30, mark=2)),
+    _example(_model(720, 1080, 25, 1.2, mark=3)),
+    _example(_model(1280, 960, mark=1), _FAMILY, _MODEL_LINK),
+    _example(
         _model(480, 640, mark=1),
         links="\n## Diversions from Physical Hardware\n* The B0203 runs at half its resolution.\n",
     ),
-    _named(
+    _example(
         _model(720, 1080)
         .replace("<horizontal_fov>1.658", "<horizondal_fov>1.658")
         .replace("1.658</horizontal_fov>", "1.658</horizondal_fov>")

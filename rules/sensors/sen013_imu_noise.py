@@ -54,7 +54,7 @@ def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
             )
             continue
         for quantity in QUANTITIES:
-            yield from _differing(sensor, imu, quantity, standards[quantity], tolerance)
+            yield from _axis_differences(sensor, imu, quantity, standards[quantity], tolerance)
 
 
 def _standard(quantity: str) -> _Figures:
@@ -62,7 +62,7 @@ def _standard(quantity: str) -> _Figures:
     return {tag: float(value) for tag, value in entry.items() if tag != "type"}
 
 
-def _differing(
+def _axis_differences(
     sensor: Sensor, imu: Imu, quantity: str, standard: _Figures, tolerance: float
 ) -> Iterator[Finding]:
     """Yield the differences; axes with the same difference are one finding."""

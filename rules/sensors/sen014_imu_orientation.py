@@ -30,14 +30,14 @@ def check(robot: Robot, context: Context) -> Findings:
             continue
         yield finding(
             imu.enable_orientation if imu is not None else sensor,
-            f"IMU {sensor.name.value!r} publishes its true orientation{_why(sensor)}; expected "
+            f"IMU {sensor.name.value!r} publishes its true orientation{_cause(sensor)}; expected "
             "<enable_orientation>0 in <imu>",
             key="orientation",
             fix=_fix(sensor) if context.profile == "subt" else None,
         )
 
 
-def _why(sensor: Sensor) -> str:
+def _cause(sensor: Sensor) -> str:
     if sensor.element.child("enable_orientation") is not None:
         return ": <enable_orientation> is not read below <sensor>"
     stated = sensor.imu is not None and sensor.imu.enable_orientation.stated

@@ -78,11 +78,11 @@ def check(
         limit = deepest_with_shadows if light.casts_shadows else deepest
         deep = [visual for visual in visuals if _is_inside(robot, visual, place, limit)]
         if deep:
-            yield _inside(light, deep[0], limit)
+            yield _light_in_visual(light, deep[0], limit)
         elif light in enclosed:
-            yield _enclosed(enclosed[light])
+            yield _covered_light(enclosed[light])
         else:
-            yield from _alone(robot, light, place, visuals, nearest)
+            yield from _light_without_lamp(robot, light, place, visuals, nearest)
 
 
 def _without_range(lights: Iterator[Light]) -> Iterator[Finding]:
@@ -114,7 +114,7 @@ def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> boo
     return overlap_depth(reach, point, start, limit) > limit
 
 
-def _inside(light: Light, visual: Placed, limit: float) -> Finding:
+def _light_in_visual(light: Light, visual: Placed, limit: float) -> Finding:
     position = (
         "which blocks its light, because it casts shadows"
         if light.casts_shadows
@@ -128,7 +128,7 @@ def _inside(light: Light, visual: Placed, limit: float) -> Finding:
     )
 
 
-def _enclosed(at: CoveredLight) -> Finding:
+def _covered_light(at: CoveredLight) -> Finding:
     return finding(
         at.light,
         f"light {at.light.name.value!r} is inside visual {at.visual.name.value!r}, which blocks "
@@ -138,7 +138,7 @@ def _enclosed(at: CoveredLight) -> Finding:
     )
 
 
-def _alone(
+def _light_without_lamp(
     robot: Robot, light: Light, place: Vector, visuals: list[Placed], nearest: float
 ) -> Iterator[Finding | Unchecked]:
     here = Box(place, place)

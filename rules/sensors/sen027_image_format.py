@@ -36,14 +36,14 @@ def check(robot: Robot, context: Context) -> Findings:
             fault = f", which SDFormat does not know{suggestions.hint(format_name)}"
         elif sensor.kind is SensorType.CAMERA and names[format_name] not in rendered:
             release = f"Gazebo {context.release.capitalize()}"
-            fault = f"; cameras of {release} support {_listed(rendered, names)}"
+            fault = f"; cameras of {release} support {_format_list(rendered, names)}"
         else:
             continue
         message = f"camera {sensor.name.value!r} has format {format_name[:_SHOWN]!r}{fault}"
         yield finding(camera.format, message, severity=severity, key=format_name)
 
 
-def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:
+def _format_list(formats: Sequence[str], names: Mapping[str, str]) -> str:
     """Return the formats by the names that people write: `R8G8B8` for `RGB_INT8`."""
     usual = {meant: name for name, meant in reversed(list(names.items()))}
     return ", ".join(usual[key] for key in formats)

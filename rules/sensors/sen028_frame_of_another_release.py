@@ -31,13 +31,13 @@ def check(robot: Robot, context: Context) -> Findings:
         return
     release = context.release.capitalize()
     for sensor in robot.sensors:
-        stated = {element.tag: element for element in _stated(sensor, frames)}
-        yield from _lost(sensor, stated, frames, release)
+        stated = {element.tag: element for element in _frame_elements(sensor, frames)}
+        yield from _frames_not_read(sensor, stated, frames, release)
         if robot.format != "urdf":
-            yield from _copied(stated, frames, release)
+            yield from _unknown_elements(stated, frames, release)
 
 
-def _stated(sensor: Sensor, frames: FrameIds) -> Iterator[Element]:
+def _frame_elements(sensor: Sensor, frames: FrameIds) -> Iterator[Element]:
     camera = sensor.element.child("camera")
     for holder in (sensor.element, *((camera,) if camera is not None else ())):
         for child in holder.children:
@@ -45,7 +45,7 @@ def _stated(sensor: Sensor, frames: FrameIds) -> Iterator[Element]:
                 yield child
 
 
-def _lost(
+def _frames_not_read(
     sensor: Sensor, stated: dict[str, Element], frames: FrameIds, release: str
 ) -> Iterator[Finding]:
     """Report a name that is not read, where no other names the frame."""
@@ -61,7 +61,9 @@ def _lost(
             )
 
 
-def _copied(stated: dict[str, Element], frames: FrameIds, release: str) -> Iterator[Finding]:
+def _unknown_elements(
+    stated: dict[str, Element], frames: FrameIds, release: str
+) -> Iterator[Finding]:
     """Report a name that is read, and of which libsdformat warns."""
     for tag, element in stated.items():
         if tag in frames.deprecated and "frame_id" not in stated:

@@ -52,7 +52,7 @@ def check(
                 pose.text,
                 f"the robot starts {-clearance:.3g} m in the ground, expected it above the ground",
             )
-        elif (unknown := _unknown(robot)) is not None:
+        elif (unknown := _unknown_shape(robot)) is not None:
             yield unchecked(f"the spawn height depends on {unknown}")
         elif depths and clearance > highest:
             yield finding(
@@ -85,7 +85,7 @@ def _depth(robot: Robot, link: Link, collision: Collision) -> float | None:
     return robot.support_of(collision.geometry, pose, DOWN) if pose is not None else None
 
 
-def _unknown(robot: Robot) -> str | None:
+def _unknown_shape(robot: Robot) -> str | None:
     """Return which shape of unknown size may reach lowest, and why it is unknown.
 
     If the robot has wheels, only theirs count, because they reach lowest.

@@ -52,7 +52,7 @@ def _judge(method: RubyNode) -> Iterator[Finding]:
         if node.type in ("identifier", "hash_key_symbol") and node.start not in written
     }
     if not read.intersection(_READING_ALL):
-        yield from _unused(method, assigned, read)
+        yield from _unused_variables(method, assigned, read)
     constants = _constants(assigned)
     for node in nodes:
         condition = node.fields.get("condition") if node.type in _BRANCHES else None
@@ -66,7 +66,9 @@ def _target(assignment: RubyNode) -> str:
     return left.text if left is not None and left.type == "identifier" else ""
 
 
-def _unused(method: RubyNode, assigned: list[RubyNode], read: set[str]) -> Iterator[Finding]:
+def _unused_variables(
+    method: RubyNode, assigned: list[RubyNode], read: set[str]
+) -> Iterator[Finding]:
     # The value of the last statement is what the method returns.
     last = method.fields["body"].parts[-1:] if "body" in method.fields else []
     for node in assigned:

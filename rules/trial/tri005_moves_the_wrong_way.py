@@ -41,12 +41,12 @@ def check(driven: SettledTrial) -> Findings:
 
 def _cause(driven: SettledTrial) -> str:
     backwards = driven.drives_backwards
-    if not backwards and any(_points_down(driven, joint) for joint in _steering(driven)):
+    if not backwards and any(_points_down(driven, joint) for joint in _steering_joints(driven)):
         return ": the axes of the steering joints point down"
     return _CAUSES[backwards, driven.turns_backwards]
 
 
-def _steering(driven: SettledTrial) -> Iterator[Joint]:
+def _steering_joints(driven: SettledTrial) -> Iterator[Joint]:
     for drive in driven.robot.locomotion.wheel_drives:
         yield from (joint for joint, _ in drive.steering)
 
@@ -65,7 +65,7 @@ _CAUSES = {
 
 def _suspects(driven: SettledTrial) -> Iterator[tuple[Joint, str]]:
     """Yield joints whose axis points the wrong way, and wheels whose stated side is wrong."""
-    for joint in _steering(driven):
+    for joint in _steering_joints(driven):
         if _points_down(driven, joint):
             yield joint, f"the axis of {joint.name.value!r} points down"
     for wheel in driven.robot.locomotion.wheels:

@@ -62,12 +62,12 @@ def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
                 key=f"<{child.tag}>",
             )
         elif child.tag not in _FOREIGN:
-            yield from _unexpanded(child)
+            yield from _leftover_expressions(child)
             for element in child.descendants():
-                yield from _unexpanded(element)
+                yield from _leftover_expressions(element)
 
 
-def _unexpanded(element: Element) -> Iterator[Finding]:
+def _leftover_expressions(element: Element) -> Iterator[Finding]:
     for name, value in element.attributes.items():
         if match := _EXPRESSION.search(value):
             yield finding(
@@ -96,7 +96,7 @@ _LOADING = """<launch>
 _HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
 
 
-def _loaded(body: str, head: str = _HEAD) -> dict[str, str]:
+def _example(body: str, head: str = _HEAD) -> dict[str, str]:
     return {_LAUNCH: _LOADING, _DESCRIPTION: f"{head}{body}\n</robot>\n"}
 
 
@@ -111,7 +111,7 @@ _STATE = """        Node(package='robot_state_publisher', executable='robot_stat
                  ['xacro ', in_package('urdf', 'arm.urdf.xacro'), ' model:=', @])}]),"""
 
 
-def _chosen(value: str, mark: str = "") -> dict[str, str]:
+def _choice_example(value: str, mark: str = "") -> dict[str, str]:
     xacro = f'<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">\n{_MODEL}{mark}\n</robot>'
     links = '<robot name="arm"><link name="base_link"/></robot>'
     return {
@@ -122,21 +122,21 @@ def _chosen(value: str, mark: str = "") -> dict[str, str]:
 
 
 GOOD = [
-    _chosen("'large'"),
+    _choice_example("'large'"),
     {"urdf/arm.urdf.xacro": f'{_HEAD}{_MODEL}<link name="base_link"/></robot>'},
-    _loaded(f'<xacro:arg name="name" default="x"/>{_MACROS}<xacro:wheel side="left"/>'),
-    _loaded('<link name="$(arg name)/base_link"/>'),
+    _example(f'<xacro:arg name="name" default="x"/>{_MACROS}<xacro:wheel side="left"/>'),
+    _example('<link name="$(arg name)/base_link"/>'),
     {"urdf/wheel.xacro": f"{_HEAD}{_MACROS}</robot>"},
     {"urdf/arm.urdf.xacro": f'{_HEAD}<link name="$(arg arm)"/></robot>'},
-    _loaded('<link name="a"/><gazebo><plugin name="p" filename="f"><t>{x}</t></plugin></gazebo>'),
+    _example('<link name="a"/><gazebo><plugin name="p" filename="f"><t>{x}</t></plugin></gazebo>'),
 ]
 BAD = [
-    _loaded(f'<xacro:wheel side="left"/>{_MARK}'),
-    _loaded(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),
-    _loaded(f'<link name="${{nmae}}/base_link"/>{_MARK}'),
-    _loaded(f'<link name="{{name}}/base_link"/>{_MARK}'),
-    _loaded(f'<xacro:include filename="wheel.xacro"/>{_MARK}'),
-    _loaded(f"{_MACROS}<xacro:wheel/>{_MARK}"),
+    _example(f'<xacro:wheel side="left"/>{_MARK}'),
+    _example(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),
+    _example(f'<link name="${{nmae}}/base_link"/>{_MARK}'),
+    _example(f'<link name="{{name}}/base_link"/>{_MARK}'),
+    _example(f'<xacro:include filename="wheel.xacro"/>{_MARK}'),
+    _example(f"{_MACROS}<xacro:wheel/>{_MARK}"),
     {
         _LAUNCH: _LOADING.replace('command="$(find xacro)/xacro', 'textfile="').replace(
             "name:=$(arg name)", ""
@@ -145,9 +145,9 @@ BAD = [
     },
     {_LAUNCH: _LOADING, _DESCRIPTION: "", "@reported": [f"{_DESCRIPTION}:1"]},
     {"@urdf": f'<link name="$(arg name)/hand"/>{_MARK}'},
-    _chosen("'lagre'", _MARK),
-    _loaded(f'<xacro:arg name="prefix" default=""/><xacro:wheel side="left"/>{_MARK}'),
-    _loaded(f"{_MODEL}{_MARK}"),
+    _choice_example("'lagre'", _MARK),
+    _example(f'<xacro:arg name="prefix" default=""/><xacro:wheel side="left"/>{_MARK}'),
+    _example(f"{_MODEL}{_MARK}"),
     {
         "urdf/arm.urdf.xacro": f"{_HEAD}{_LARGE}</robot>",
         "urdf/large.xacro": f'{_HEAD}<link name="base_link"/></robot>',

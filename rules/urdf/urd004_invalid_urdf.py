@@ -37,7 +37,7 @@ def check(description: UrdfDescription) -> Findings:
     for joint in robot.joints:
         yield from _type_and_limit(joint, optional=optional)
     for part in (robot.links, robot.joints):
-        yield from _repeated(part)
+        yield from _repeated_names(part)
     # The robot that other rules see is the SDF model here, so nobody else looks at these.
     if description.for_rviz:
         yield from _ends(robot)
@@ -61,7 +61,7 @@ def _type_and_limit(joint: Joint, *, optional: bool) -> Iterator[Finding]:
         yield finding(limit.span, f"<limit> of joint {name!r} has no {' and no '.join(missing)}")
 
 
-def _repeated(parts: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[Finding]:
+def _repeated_names(parts: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[Finding]:
     counts = Counter(part.name.value for part in parts)
     seen: dict[str, Link | Joint] = {}
     for part in parts:

@@ -33,7 +33,7 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
         return
     simulated = _Bodies(robot)
     shown = _Bodies(description.robot)
-    yield from _lacking(simulated, shown, description)
+    yield from _missing_links(simulated, shown, description)
     common = [name for name in simulated.links if name in shown.links]
     # Without a single name in common, the names are what differs.
     if common:
@@ -86,7 +86,9 @@ def _plain(name: str) -> str:
     return name.rpartition("/")[2].translate(_SCOPES)
 
 
-def _lacking(simulated: _Bodies, shown: _Bodies, description: UrdfDescription) -> Iterator[Finding]:
+def _missing_links(
+    simulated: _Bodies, shown: _Bodies, description: UrdfDescription
+) -> Iterator[Finding]:
     lacking = [name for name in simulated.links if name not in shown.links]
     if lacking:
         message = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
@@ -118,7 +120,7 @@ _MODEL = '<link name="wheel"><inertial><mass>2</mass></inertial></link>'
 _BASE = '<link name="robot_name/base_link"/>\n'
 
 
-def _shown(*links: str) -> dict[str, str]:
+def _example(*links: str) -> dict[str, str]:
     body = "\n".join(links)
     return {"@fragment": _MODEL, _FILE: f'<robot name="rover">\n{_BASE}{body}\n</robot>\n'}
 
@@ -132,18 +134,18 @@ _HUB = """<joint name="robot_name/hub_joint" type="fixed">
 <parent link="robot_name/wheel"/><child link="robot_name/hub"/></joint>"""
 _MARK = "  <!-- ^ URD005 -->"
 GOOD = [
-    _shown(_link("wheel", "2.01") + _END),
-    _shown(_link("wheel", "2") + _END, '<link name="robot_name/camera_frame"/>'),
-    _shown(_link("wheel", "1.5") + _END, _link("hub", "0.5") + _END, _HUB),
+    _example(_link("wheel", "2.01") + _END),
+    _example(_link("wheel", "2") + _END, '<link name="robot_name/camera_frame"/>'),
+    _example(_link("wheel", "1.5") + _END, _link("hub", "0.5") + _END, _HUB),
     {"@urdf": True},
 ]
 BAD = [
-    _shown(_link("wheel", "3") + _MARK + _END),
+    _example(_link("wheel", "3") + _MARK + _END),
     {
         "@fragment": _MODEL,
         _FILE: f'<robot name="rover">{_MARK}\n{_BASE}</robot>\n',
     },
-    _shown(
+    _example(
         _link("wheel", "2") + _END,
         f'<link name="robot_name/mast">{_MARK}<inertial>\n<mass value="1"/>{_END}',
     ),

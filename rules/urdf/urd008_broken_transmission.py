@@ -42,7 +42,7 @@ def _faults(description: UrdfDescription) -> Iterator[Finding]:
     names = Suggestions(robot.joints_by_name)
     for transmission in description.transmissions:
         if _is_of_ros_control(transmission):
-            yield from _broken(transmission)
+            yield from _broken_transmissions(transmission)
         for end in transmission.joints:
             yield from _joint(transmission, end, robot, names)
     yield from _twice(description)
@@ -55,7 +55,7 @@ def _is_of_ros_control(transmission: Transmission) -> bool:
     return not kind or kind.startswith(_OF_ROS_CONTROL)
 
 
-def _broken(transmission: Transmission) -> Iterator[Finding]:
+def _broken_transmissions(transmission: Transmission) -> Iterator[Finding]:
     missing = [
         word
         for word, there in (

@@ -29,7 +29,10 @@ def check(description: UrdfDescription, *, tolerance: float = 1e-6) -> Findings:
         soft = joint.element.child("safety_controller")
         if soft is None:
             continue
-        lower, upper = _stated(soft, "soft_lower_limit"), _stated(soft, "soft_upper_limit")
+        lower, upper = (
+            _stated_limit(soft, "soft_lower_limit"),
+            _stated_limit(soft, "soft_upper_limit"),
+        )
         for axis in joint.axes[:1]:
             yield from _outside(joint, axis, lower, upper, tolerance)
         if lower is not None and upper is not None and lower.value > upper.value:
@@ -64,7 +67,7 @@ def _outside(
         )
 
 
-def _stated(soft: Element, name: str) -> Located[float] | None:
+def _stated_limit(soft: Element, name: str) -> Located[float] | None:
     number = ValueReader().attribute_numbers(soft, name, (0.0,))[0]
     return number if number.stated else None
 

@@ -35,11 +35,11 @@ def check(description: UrdfDescription) -> Findings:
             f"fixed joint {name!r} becomes a revolute joint with both limits at 0 in Gazebo: "
             "write <preserveFixedJoint>",
             key="hinge",
-            fix=_renamed(hinge),
+            fix=_renaming_fix(hinge),
         )
 
 
-def _renamed(hinge: Element | None) -> Fix | None:
+def _renaming_fix(hinge: Element | None) -> Fix | None:
     if hinge is None:
         return None
     names = (hinge.name_span, hinge.end_name_span)

@@ -36,25 +36,25 @@ def check(package: Package) -> Findings:
         name.value
         for document in documents
         for element in document.elements
-        for name in _defined(element)
+        for name in _own_name(element)
     }
     for document in documents:
         scopes: dict[Element | None, list[Element]] = {}
         for element in document.elements:
             scopes.setdefault(macro_around(element), []).append(element)
         for elements in scopes.values():
-            yield from _lacking(elements, plain)
+            yield from _unprefixed_names(elements, plain)
 
 
-def _lacking(elements: list[Element], plain: set[str]) -> Iterator[Finding]:
+def _unprefixed_names(elements: list[Element], plain: set[str]) -> Iterator[Finding]:
     prefixed = {
         match[2]: match.group()
         for element in elements
-        for name in _defined(element)
+        for name in _own_name(element)
         if (match := _PREFIXED.fullmatch(name.value))
     }
     for element in elements if prefixed else ():
-        for name in _named(element):
+        for name in _referred_names(element):
             whole = prefixed.get(name.value.strip())
             if whole is not None and name.value.strip() not in plain:
                 yield finding(
@@ -64,7 +64,7 @@ def _lacking(elements: list[Element], plain: set[str]) -> Iterator[Finding]:
                 )
 
 
-def _defined(element: Element) -> Iterator[Located[str]]:
+def _own_name(element: Element) -> Iterator[Located[str]]:
     """Yield the name of a link or joint of the robot."""
     name = element.attribute("name")
     if name is not None and (element.tag == "link" or _is_joint(element)):
@@ -75,7 +75,7 @@ def _is_joint(element: Element) -> bool:
     return element.tag == "joint" and element.get("type") is not None
 
 
-def _named(element: Element) -> Iterator[Located[str]]:
+def _referred_names(element: Element) -> Iterator[Located[str]]:
     """Yield the names of links and joints that an element refers to."""
     for tag, attribute in _ATTRIBUTES:
         name = element.attribute(attribute) if element.tag == tag else None

@@ -41,15 +41,15 @@ def check(package: Package) -> Findings:
                 yield unchecked(f"{path} includes {element.get('filename')}, which is not read")
                 return
     at_hand = list(_at_hand(package))
-    defined = {name for each in at_hand for name in _defined(each)}
+    defined = {name for each in at_hand for name in _defined_names(each)}
     if any("$" in name for name in defined):
         yield unchecked("names of properties are computed")
         return
-    called = _called(at_hand)
+    called = _called_macros(at_hand)
     for document in documents.values():
         for macro in document.root.descendants(_MACRO):
             if _name(macro) not in called:
-                yield from _undefined(macro, defined)
+                yield from _undefined_names(macro, defined)
 
 
 def _is_at_hand(package: Package, path: str, name: str) -> bool:
@@ -68,7 +68,7 @@ def _at_hand(package: Package) -> Iterator[XmlDocument]:
                 yield document
 
 
-def _called(documents: Iterable[XmlDocument]) -> set[str]:
+def _called_macros(documents: Iterable[XmlDocument]) -> set[str]:
     """Return the names of macros that a robot calls, or a macro that one calls."""
     calls: dict[str, set[str]] = {}
     for document in documents:
@@ -89,7 +89,7 @@ def _name(macro: Element) -> str:
     return (macro.get("name") or "").removeprefix(_XACRO)
 
 
-def _defined(document: XmlDocument) -> Iterator[str]:
+def _defined_names(document: XmlDocument) -> Iterator[str]:
     for element in document.elements:
         if element.tag == _PROPERTY:
             yield element.get("name") or ""
@@ -99,7 +99,7 @@ def _defined(document: XmlDocument) -> Iterator[str]:
             yield element.get("ns") or ""
 
 
-def _undefined(macro: Element, defined: set[str]) -> Iterator[Finding]:
+def _undefined_names(macro: Element, defined: set[str]) -> Iterator[Finding]:
     suggestions = Suggestions(sorted(defined))
     for element in macro.descendants():
         for attribute, value in element.attributes.items():

@@ -37,7 +37,7 @@ def check(description: UrdfDescription) -> Findings:
         if link is None or not stated:
             continue
         (first, mu), is_merged = stated[0], link.name.value in merged
-        for name in _lost(link, merged=is_merged):
+        for name in _names_without_friction(link, merged=is_merged):
             yield finding(
                 mu,
                 f"Gazebo drops <{first}> {mu.value:g} of link {link.name.value!r}, because its "
@@ -47,7 +47,7 @@ def check(description: UrdfDescription) -> Findings:
             )
 
 
-def _lost(link: Link, *, merged: bool) -> Iterator[Located[str]]:
+def _names_without_friction(link: Link, *, merged: bool) -> Iterator[Located[str]]:
     """Yield the names of collisions that the friction of a link does not reach."""
     for collision in link.collisions:
         name = collision.element.attribute("name")

@@ -47,7 +47,7 @@ def _unread(tag: GazeboTag, robot: Robot, version: str) -> Iterator[Finding]:
     if not name or is_link == (name in robot.joints_by_name):
         return
     kind = "link" if is_link else "joint"
-    known = _known(kind, version)
+    known = _known_elements(kind, version)
     told_elsewhere = OF_LINKS | OF_JOINTS | {"plugin"}
     for child in tag.element.children:
         if child.tag in known or child.tag in told_elsewhere or ":" in child.tag:
@@ -62,7 +62,7 @@ def _unread(tag: GazeboTag, robot: Robot, version: str) -> Iterator[Finding]:
 
 
 @cache
-def _known(kind: str, version: str) -> frozenset[str]:
+def _known_elements(kind: str, version: str) -> frozenset[str]:
     """Return the elements that a tag for a link or joint may hold."""
     of_sdf = sdf_root(version).children["model"].children[kind].children
     return frozenset(of_sdf) | (OF_LINKS if kind == "link" else OF_JOINTS)

@@ -116,7 +116,7 @@ _SPAWNER = """LaunchDescription([
 """
 
 
-def _controlled(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, object]:
+def _controlled_example(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, object]:
     return {
         "@bridge": _TRANSFORMS.format(mark),
         "@launch": {_LAUNCHED: _SPAWNER},
@@ -231,7 +231,7 @@ _INCLUDED = """<launch>
 """
 
 
-def _included(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
+def _included_example(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
     """Return a filter for the map beside the navigation of another package."""
     return {
         "@bridge": True,
@@ -242,8 +242,8 @@ def _included(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
 
 GOOD = [
     {"@bridge": True},
-    _included("True", "amcl: {ros__parameters: {}}"),
-    _included("False", "amcl: {ros__parameters: {tf_broadcast: false}}"),
+    _included_example("True", "amcl: {ros__parameters: {}}"),
+    _included_example("False", "amcl: {ros__parameters: {tf_broadcast: false}}"),
     _component("false"),
     _static('"--frame-id", "lidar_link", "--child-frame-id", "lidar_optical"'),
     _static('"0", "0", "0", "0", "0", "0", "map", "base_link"'),
@@ -263,14 +263,14 @@ GOOD = [
         "@bridge": _TRANSFORMS.format("").replace("ros_topic_name: /tf", "ros_topic_name: /gz/tf"),
     },
     _filter("publish_tf: false", name=' name="ekf_filter_node",'),
-    _controlled("false"),
+    _controlled_example("false"),
     _on_hardware("publish_tf: false"),
     _on_hardware("publish_tf: true", manager=' namespace="r1",'),
     _classic('filename="libgazebo_ros_diff_drive.so">'),
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
-    _included("False", "amcl: {ros__parameters: {}}", _XML_MARK),
+    _included_example("False", "amcl: {ros__parameters: {}}", _XML_MARK),
     _component("true", _XML_MARK),
     _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
@@ -279,12 +279,12 @@ BAD = [
     _filter("publish_tf: true", _MARK),
     _filter("odom_frame: map, world_frame: map", _MARK),
     _filter("publish_tf: false", _MARK, name=' name="ekf",'),
-    _controlled("true", _MARK),
+    _controlled_example("true", _MARK),
     _on_hardware("publish_tf: true", _MARK),
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("true")}{_XML_MARK}'),
     _classic(f'filename="libgazebo_ros_planar_move.so">{_XML_MARK}'),
     {
-        **_controlled("true", yaml=_MARK),
+        **_controlled_example("true", yaml=_MARK),
         "@bridge": True,
         "@launch": {_LAUNCHED: _SPAWNER + _EKF.format("", "").partition("\n")[2]},
         "config/ekf.yaml": "/**:\n  ros__parameters: {publish_tf: true}\n",

@@ -86,7 +86,7 @@ _HEAD = "LaunchDescription([\n"
 _MARK = "  # ^ WIR003"
 
 
-def _given(
+def _example(
     key: str, name: str, package: str = "nav2_controller", program: str = "controller_server"
 ) -> dict[str, object]:
     return {
@@ -111,23 +111,23 @@ from launch_ros.descriptions import ComposableNode
 def _component(name: str) -> dict[str, object]:
     """Return a container with a component, and parameters for `amcl`."""
     launch = {_HEAD: _CONTAINER.format(name), _IMPORTS: _MORE}
-    return {**_given("amcl", ""), "@launch": launch}
+    return {**_example("amcl", ""), "@launch": launch}
 
 
 _LIDAR = ("acme_lidar", "lidar_node")
 GOOD = [
     _component(' name="amcl",'),
     _component(""),
-    _given("controller_server", ""),
-    _given("follower", ' name="follower",'),
-    _given("/**", ' name="follower",'),
-    _given("/**/controller_server", ' namespace="rover",'),
-    _given("rover/controller_server", ' namespace="rover",'),
-    _given("lidar", "", *_LIDAR),
-    _given("lidar", ' name="lidar",', *_LIDAR),
-    _given("wheel_controller", ' name="manager",', "controller_manager", "ros2_control_node"),
+    _example("controller_server", ""),
+    _example("follower", ' name="follower",'),
+    _example("/**", ' name="follower",'),
+    _example("/**/controller_server", ' namespace="rover",'),
+    _example("rover/controller_server", ' namespace="rover",'),
+    _example("lidar", "", *_LIDAR),
+    _example("lidar", ' name="lidar",', *_LIDAR),
+    _example("wheel_controller", ' name="manager",', "controller_manager", "ros2_control_node"),
     {
-        **_given("lidar", ' name="follower",'),
+        **_example("lidar", ' name="follower",'),
         "@launch": {
             _HEAD: _NODE.format(*_LIDAR, "")
             + _NODE.format("nav2_controller", "controller_server", "").partition("\n")[2]
@@ -136,11 +136,11 @@ GOOD = [
 ]
 BAD = [
     _component(f' name="localizer",{_MARK}'),
-    _given("controller_server", f' name="follower",{_MARK}'),
+    _example("controller_server", f' name="follower",{_MARK}'),
     {
-        **_given("controller_server", ""),
+        **_example("controller_server", ""),
         "@launch": {_HEAD: _IN_NAMESPACE.replace('"a.yaml")]', f'"a.yaml")]{_MARK}\n')},
     },
-    _given("laser", f' name="lidar",{_MARK}', *_LIDAR),
-    _given("rover/lidar", f' name="lidar",{_MARK}', *_LIDAR),
+    _example("laser", f' name="lidar",{_MARK}', *_LIDAR),
+    _example("rover/lidar", f' name="lidar",{_MARK}', *_LIDAR),
 ]

@@ -82,13 +82,13 @@ _ROBOT = """<robot name="rover">
 """
 
 
-def _bridged(message: str, more: str = "", mark: str = "") -> dict[str, object]:
+def _bridged_example(message: str, more: str = "", mark: str = "") -> dict[str, object]:
     """Return a rover to which a bridge passes velocities."""
     launch = _TELEOP.format(mark, more)
     return {"@bridge": _TO_GAZEBO.format(message), "@launch": {_HEAD: launch}}
 
 
-def _controlled(more: str = "", mark: str = "") -> dict[str, object]:
+def _controlled_example(more: str = "", mark: str = "") -> dict[str, object]:
     """Return a rover with a drive controller."""
     return {
         "@bridge": "[]\n",
@@ -119,15 +119,15 @@ def _component(stamped: str, mark: str = "") -> dict[str, object]:
 
 GOOD = [
     _component("False"),
-    _bridged("Twist"),
-    _bridged("TwistStamped", _STAMPED),
-    _bridged("TwistStamped", _ELSEWHERE),
-    _controlled(_STAMPED),
-    _controlled(_ELSEWHERE),
+    _bridged_example("Twist"),
+    _bridged_example("TwistStamped", _STAMPED),
+    _bridged_example("TwistStamped", _ELSEWHERE),
+    _controlled_example(_STAMPED),
+    _controlled_example(_ELSEWHERE),
 ]
 BAD = [
     _component("True", _MARK),
-    _bridged("TwistStamped", mark=_MARK),
-    _bridged("Twist", f"{_STAMPED},{_MARK}\n"),
-    _controlled(mark=_MARK),
+    _bridged_example("TwistStamped", mark=_MARK),
+    _bridged_example("Twist", f"{_STAMPED},{_MARK}\n"),
+    _controlled_example(mark=_MARK),
 ]

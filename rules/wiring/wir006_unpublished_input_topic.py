@@ -88,7 +88,7 @@ _UNKNOWN = 'LaunchDescription([Node(package="acme_rover", executable="relay"),\n
 _MARK = "  # ^ WIR006"
 
 
-def _told(
+def _example(
     program: str, yaml: str, bridge: object = _ODOMETRY, more: str = "", launch: str = _HEAD
 ) -> dict[str, object]:
     """Return a rover with a node that a parameter file tells what to read."""
@@ -104,7 +104,7 @@ def _filter(
     key: str = "ekf_filter_node",
 ) -> dict[str, object]:
     yaml = f"{key}:\n  ros__parameters:\n    odom0: {topic}\n"
-    return _told("robot_localization/ekf_node", yaml, bridge, more, launch)
+    return _example("robot_localization/ekf_node", yaml, bridge, more, launch)
 
 
 _COSTMAP = """local_costmap:
@@ -138,7 +138,7 @@ _SPAWNER = 'LaunchDescription([Node(package="controller_manager", executable="sp
 _SPAWNER += '             arguments=["base"]),\n'
 
 
-def _controlled(topic: str, remap: str = "") -> object:
+def _controlled_example(topic: str, remap: str = "") -> object:
     ros = f"<ros><remapping>{remap}</remapping></ros>" if remap else ""
     return {
         **_filter(topic, "[]\n", launch=_SPAWNER),
@@ -208,32 +208,34 @@ _INCLUDED = """<launch>
 """
 
 
-def _included(topic: str) -> dict[str, object]:
+def _included_example(topic: str) -> dict[str, object]:
     """Return a lidar beside the mapping of another package."""
     yaml = f"slam_toolbox:\n  ros__parameters:\n    scan_topic: {topic}\n"
     return {"@bridge": True, "launch/slam.launch.xml": _INCLUDED, "config/slam.yaml": yaml}
 
 
 GOOD = [
-    _included("/scan"),
+    _included_example("/scan"),
     _component("/scan"),
     _filter("odom"),
     _filter("/odom"),
     _filter("wheel/odometry", "[]\n"),
     _filter("wheel/odometry", more=' remappings=[("wheel/odometry", "odom")],'),
     _filter("wheel/odometry\n    odom1: odom"),
-    _controlled("base/odom"),
-    _controlled("odom", "~/odom:=/odom"),
+    _controlled_example("base/odom"),
+    _controlled_example("odom", "~/odom:=/odom"),
     _classic("<remapping>~/out:=scan</remapping>"),
-    _told("nav2_controller/controller_server", _COSTMAP.replace("@", "/scan"), True),
+    _example("nav2_controller/controller_server", _COSTMAP.replace("@", "/scan"), True),
 ]
 BAD = [
-    _included(f"/lidar/scan{_MARK}"),
+    _included_example(f"/lidar/scan{_MARK}"),
     _component("scan", "  <!-- ^ WIR006 -->"),
     _filter(f"wheel/odometry{_MARK}"),
     _filter(f"odom{_MARK}", more=' namespace="rover",', key="/**"),
-    _controlled(f"base/odometry{_MARK}"),
+    _controlled_example(f"base/odometry{_MARK}"),
     _classic("<remapping>out:=scan</remapping>", "  <!-- ^ WIR006 -->"),
-    _told("nav2_controller/controller_server", _COSTMAP.replace("@", f"/lidar/scan{_MARK}"), True),
+    _example(
+        "nav2_controller/controller_server", _COSTMAP.replace("@", f"/lidar/scan{_MARK}"), True
+    ),
     _filter(f"/o_dom{_MARK}", launch=_UNKNOWN),
 ]

@@ -42,7 +42,7 @@ _NODE = """LaunchDescription([
 """
 
 
-def _given(yaml: str, before: str = "", after: str = "") -> dict[str, object]:
+def _example(yaml: str, before: str = "", after: str = "") -> dict[str, object]:
     return {
         "@bridge": True,
         "@launch": {"LaunchDescription([\n": _NODE.format(before, after)},
@@ -65,17 +65,17 @@ GOOD = [
         "launch/lidar.launch.xml": _COMPONENT,
         "config/a.yaml": "rate: 10\n",
     },
-    _given("lidar:\n  ros__parameters:\n    rate: 10\n    frames: [a, b]\n"),
-    _given(
+    _example("lidar:\n  ros__parameters:\n    rate: 10\n    frames: [a, b]\n"),
+    _example(
         "r1:\n  lidar:\n    ros__parameters: {rate: 10}\n/**:\n  ros__parameters: {a: {b: 1}}\n"
     ),
-    _given("lidar: {}\n"),
-    _given("rate: 10\n", '{"config": ', "}"),
+    _example("lidar: {}\n"),
+    _example("rate: 10\n", '{"config": ', "}"),
 ]
 BAD = [
-    _given("rate: 10  # ^ WIR007\n"),
-    _given("lidar:\n  rate: 10  # ^ WIR007\n"),
-    _given("lidar:\n  ros__parameters: {rate: 10}\nframes: [a, b]  # ^ WIR007\n"),
-    _given("lidar:\n  ros__parameters: {rate: 10}\n  names:  # ^ WIR007\n"),
-    _given("ros__parameters:  # ^ WIR007\n  rate: 10\n"),
+    _example("rate: 10  # ^ WIR007\n"),
+    _example("lidar:\n  rate: 10  # ^ WIR007\n"),
+    _example("lidar:\n  ros__parameters: {rate: 10}\nframes: [a, b]  # ^ WIR007\n"),
+    _example("lidar:\n  ros__parameters: {rate: 10}\n  names:  # ^ WIR007\n"),
+    _example("ros__parameters:  # ^ WIR007\n  rate: 10\n"),
 ]

@@ -28,7 +28,7 @@ def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
         for each in wanted(node):
             if each.name in there or any(_may_offer(graph, each) for graph in others):
                 continue
-            if unknown := _unknown(wiring):
+            if unknown := _unknown_cause(wiring):
                 yield unchecked(f"the nodes that offer {each.name} are not all known: {unknown}")
                 continue
             what = f"node {each.item!r}" if each.item else each.name
@@ -52,7 +52,7 @@ def _names(node: Node) -> tuple[str, ...]:
     return (name, node.executable.value, *facts.offers)
 
 
-def _unknown(wiring: Wiring) -> str:
+def _unknown_cause(wiring: Wiring) -> str:
     """Say why there may be more nodes and services than those known; else nothing."""
     strange = (node for node in wiring.every_node if node.facts is None or not node.full_name)
     reasons = (f"what {node.program} offers is not known" for node in strange)
@@ -79,7 +79,7 @@ _MARK = "  # ^ WIR008"
 _ELSEWHERE = '<launch><node pkg="nav2_controller" exec="controller_server"/></launch>'
 
 
-def _managed(names: str, more: str = "") -> dict[str, object]:
+def _manager_example(names: str, more: str = "") -> dict[str, object]:
     """Return a lifecycle manager of two nodes."""
     return {
         "@bridge": True,
@@ -96,13 +96,13 @@ def _tree(controller: str, mark: str = "") -> dict[str, object]:
 
 _WITHOUT = ' if="false"'
 GOOD = [
-    _managed("[map_server, amcl]"),
-    _managed("[map_server]", ' namespace="r1"'),
+    _manager_example("[map_server, amcl]"),
+    _manager_example("[map_server]", ' namespace="r1"'),
     _tree(""),
     {**_tree(_WITHOUT), "launch/control.launch.xml": _ELSEWHERE},
 ]
 BAD = [
-    _managed(f"[map_server, amcl, planner_server]{_MARK}"),
-    _managed(f"[map_server, amcl]{_MARK}", ' namespace="r1"'),
+    _manager_example(f"[map_server, amcl, planner_server]{_MARK}"),
+    _manager_example(f"[map_server, amcl]{_MARK}", ' namespace="r1"'),
     _tree(' namespace="r1"', "  <!-- ^ WIR008 -->"),
 ]

@@ -31,10 +31,10 @@ def check(world: World, context: Context) -> Findings:
         library = f"{_prefix(context.release)}-{system}-system"
         yield finding(
             world,
-            f"{_named(sensors)} no data: no plugin in world {world.name!r} loads {library}",
+            f"{_sensors_phrase(sensors)} no data: no plugin in world {world.name!r} loads {library}",
             severity=None if settled else Severity.WARNING,
             key=f"{world.name} {system}",
-            related=_here(world, sensors),
+            related=_own_sensors(world, sensors),
         )
 
 
@@ -42,7 +42,7 @@ def _prefix(release: str) -> str:
     return "ignition-gazebo" if release == "fortress" else "gz-sim"
 
 
-def _named(sensors: list[tuple[Robot, Sensor]]) -> str:
+def _sensors_phrase(sensors: list[tuple[Robot, Sensor]]) -> str:
     model, sensor = sensors[0]
     first = f"sensor {sensor.name.value!r} of {model.name.value!r}"
     if len(sensors) == 1:
@@ -51,7 +51,7 @@ def _named(sensors: list[tuple[Robot, Sensor]]) -> str:
     return f"{first} and {others} give"
 
 
-def _here(world: World, sensors: list[tuple[Robot, Sensor]]) -> Iterator[tuple[Sensor, str]]:
+def _own_sensors(world: World, sensors: list[tuple[Robot, Sensor]]) -> Iterator[tuple[Sensor, str]]:
     """Yield the sensors that stand in the world's own file."""
     file = world.span.source.file
     for _, sensor in sensors:

@@ -48,7 +48,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
     for simulation in simulations.launched:
         for loaded in _loaded(simulation, context.release):
             for spawned in simulation.robots:
-                yield from _missing(simulation, loaded, spawned, context.release)
+                yield from _missing_systems(simulation, loaded, spawned, context.release)
 
 
 def _loaded(simulation: Simulation, release: str) -> Iterator[_Loaded]:
@@ -65,7 +65,7 @@ def _loaded(simulation: Simulation, release: str) -> Iterator[_Loaded]:
             yield _Loaded(server, world, systems)
 
 
-def _missing(
+def _missing_systems(
     simulation: Simulation, loaded: _Loaded, spawned: SpawnedRobot, release: str
 ) -> Findings:
     severity = Severity.ERROR if _is_certain(simulation, loaded, spawned) else Severity.WARNING
@@ -76,7 +76,7 @@ def _missing(
             f"{effect}: {loaded.called} does not load {library}",
             severity=severity,
             key=f"{loaded.called} {system}",
-            related=_related(loaded, spawned, sensors),
+            related=_related_places(loaded, spawned, sensors),
         )
 
 
@@ -97,10 +97,10 @@ def _effects(
             silent.setdefault(system, []).append(sensor)
     for system, sensors in silent.items():
         gives = "give" if len(sensors) > 1 else "gives"
-        yield system, f"{_named(sensors)} of {name!r} {gives} no data", sensors
+        yield system, f"{_sensors_phrase(sensors)} of {name!r} {gives} no data", sensors
 
 
-def _related(
+def _related_places(
     loaded: _Loaded, spawned: SpawnedRobot, sensors: list[Sensor]
 ) -> Iterator[tuple[Where, str]]:
     if loaded.world is not None:
@@ -110,7 +110,7 @@ def _related(
         yield sensor, "this sensor"
 
 
-def _named(sensors: list[Sensor]) -> str:
+def _sensors_phrase(sensors: list[Sensor]) -> str:
     first = f"sensor {sensors[0].name.value!r}"
     others = len(sensors) - 1
     return f"{first} and {others} other{'s' if others > 1 else ''}" if others else first
@@ -140,13 +140,13 @@ def _hall(*systems: str) -> str:
     return f'<sdf version="1.9">\n  <world name="hall">\n    {plugins}\n  </world>\n</sdf>\n'
 
 
-def _launched(world: str, mark: str = "", gazebo: str = _WORLD) -> dict[str, object]:
+def _example(world: str, mark: str = "", gazebo: str = _WORLD) -> dict[str, object]:
     old = f"launch_arguments=[{_EMPTY_WORLD}]),"
     new = f"launch_arguments=[{gazebo}]),{mark}"
     return {"@bridge": True, "@launch": {old: new}, "worlds/hall.sdf": world}
 
 
-def _configured(example: dict[str, object]) -> dict[str, object]:
+def _with_configuration(example: dict[str, object]) -> dict[str, object]:
     """Return the example with systems of the user's own for worlds that name none."""
     start, imported = "LaunchDescription([\n", "from launch.actions import "
     variable = f'SetEnvironmentVariable("{_CONFIGURATIONS[0]}", HERE),\n'
@@ -158,15 +158,15 @@ def _configured(example: dict[str, object]) -> dict[str, object]:
 _MARK = "  # ^ WLD004"
 _ALL = ("physics", "user-commands", "sensors")
 GOOD = [
-    _launched(_hall(*_ALL)),
-    _launched(_hall(), gazebo='("gz_args", "-g")'),
-    _launched(_hall("physics"), gazebo='("gz_args", "-r somewhere.sdf")'),
-    _configured(_launched(_hall())),
+    _example(_hall(*_ALL)),
+    _example(_hall(), gazebo='("gz_args", "-g")'),
+    _example(_hall("physics"), gazebo='("gz_args", "-r somewhere.sdf")'),
+    _with_configuration(_example(_hall())),
 ]
 BAD = [
-    _launched(_hall("physics", "user-commands"), _MARK),
-    _launched(_hall("physics", "sensors"), _MARK),
-    _launched(_hall("user-commands", "sensors"), _MARK),
-    _launched('<sdf version="1.9"><world name="hall"/></sdf>', _MARK),
-    _launched(_hall(), _MARK, gazebo=_EMPTY_WORLD),
+    _example(_hall("physics", "user-commands"), _MARK),
+    _example(_hall("physics", "sensors"), _MARK),
+    _example(_hall("user-commands", "sensors"), _MARK),
+    _example('<sdf version="1.9"><world name="hall"/></sdf>', _MARK),
+    _example(_hall(), _MARK, gazebo=_EMPTY_WORLD),
 ]

@@ -172,7 +172,7 @@ _SPAWNED = """<robot name="rover">
 """
 
 
-def _spawned(mark: str = "", engine: str = "") -> dict[str, object]:
+def _example(mark: str = "", engine: str = "") -> dict[str, object]:
     gazebo = {"-r empty.sdf": f"-r empty.sdf{engine}"}
     robot = _SPAWNED.replace("@", mark)
     return {"@bridge": True, "@profile": "ros2", "@launch": gazebo, "urdf/rover.urdf": robot}
@@ -186,7 +186,7 @@ GOOD = [
     _world(_FEATHERSTONE, _slide("bullet")),
     _world(_FEATHERSTONE, _two("prismatic")),
     _world("gz-physics-dartsim-plugin", _slip()),
-    _spawned(),
+    _example(),
 ]
 BAD = [
     _world(_FEATHERSTONE, _ground(_MARK)),
@@ -195,5 +195,5 @@ BAD = [
     _world(_FEATHERSTONE, _slip(_MARK)),
     _world("ignition-physics-bullet-plugin", _two("prismatic", "", _MARK), "gazebo-fortress"),
     _world("gz-physics-tpe-plugin", _two("revolute", "", _MARK)),
-    _spawned(_MARK, f" --physics-engine {_FEATHERSTONE}"),
+    _example(_MARK, f" --physics-engine {_FEATHERSTONE}"),
 ]

@@ -36,7 +36,7 @@ class _Falling(Record, eq=False):
 def check(simulations: Simulations | None, world: World | None, context: Context) -> Findings:
     """Report worlds without anything to stand on, each with the first robot that falls."""
     seen: set[World] = set()
-    for each in _put(simulations, world):
+    for each in _placed_robots(simulations, world):
         if each.world not in seen and _falls(each, context.release):
             seen.add(each.world)
             yield finding(
@@ -48,7 +48,7 @@ def check(simulations: Simulations | None, world: World | None, context: Context
             )
 
 
-def _put(simulations: Simulations | None, world: World | None) -> Iterator[_Falling]:
+def _placed_robots(simulations: Simulations | None, world: World | None) -> Iterator[_Falling]:
     if world is not None:
         yield from (_Falling(world, model, ()) for model in world.models)
     for simulation in simulations.launched if simulations is not None else ():
@@ -109,7 +109,7 @@ _FLOOR = f"""<static>true</static><link name="l"><collision name="c">{_PLANE}</c
 _PICTURE = f"""<static>true</static><link name="l"><visual name="v">{_PLANE}</visual></link>"""
 
 
-def _launched(floor: str, mark: str = "") -> dict[str, object]:
+def _example(floor: str, mark: str = "") -> dict[str, object]:
     world = f"""<sdf version="1.9">
   <world name="hall">{mark}
     <model name="floor">{floor}</model>
@@ -127,6 +127,6 @@ GOOD = [
     _world(_PICTURE, more="<gravity>0 0 0</gravity>"),
     _world(_PICTURE, more="<include><uri>https://fuel.example/depot</uri></include>"),
     _world(_PICTURE, more='<plugin filename="acme-terrain" name="acme::Terrain"/>'),
-    _launched(_FLOOR),
+    _example(_FLOOR),
 ]
-BAD = [_world(_PICTURE, _MARK), _launched(_PICTURE, _MARK)]
+BAD = [_world(_PICTURE, _MARK), _example(_PICTURE, _MARK)]
