@@ -38,6 +38,7 @@ from typing import Any
 
 from checker.base.cache import Cache, cache_folder
 from checker.base.resources import PACKAGE
+from checker.engine.judge import Judge
 from checker.engine.review import run_and_set_aside
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
@@ -323,7 +324,7 @@ def model_with(fragment: str) -> str:
     return f'{_HEAD}<link name="base_link"/>\n{fragment}\n{_TAIL}'
 
 
-def judge_of(rule: Rule, example: Example = "") -> Profile:
+def profile_of(rule: Rule, example: Example = "") -> Profile:
     """Return the profile that judges an example: of those that have the rule, the first."""
     if isinstance(example, Mapping) and "@profile" in example:
         return profile(example["@profile"])
@@ -430,7 +431,8 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
         cache = Cache(cache_folder())
         subject = Subject(opened.packages[0], cache, xacro_args=settings.xacro_args)
         rules = [rule, *_companions(example)]
-        outcome = run_and_set_aside(rules, all_rules(), subject, judge_of(rule, example), settings)
+        judge = Judge(profile_of(rule, example), settings)
+        outcome = run_and_set_aside(rules, all_rules(), subject, judge)
         subject.close()
     for skipped in outcome.not_checked:
         if skipped.rule == rule.id and skipped.cause is not Cause.NOT_APPLICABLE:

@@ -11,6 +11,7 @@ import pytest
 
 from checker.base.cache import Cache, cache_folder
 from checker.cli.rule import page_text
+from checker.engine.judge import Judge
 from checker.engine.review import run_and_set_aside
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
@@ -18,7 +19,7 @@ from checker.finding import Severity
 from checker.package.inputs import open_input
 from checker.report.report import Cause
 from checker.rule import Concern, Findings, Rule
-from checker.rule_testing import judge_of, write_example
+from checker.rule_testing import profile_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options, words_of, work_of
 from checker.settings import Settings
@@ -102,8 +103,8 @@ def example_of(rule: Rule, number: int, folder: Path) -> Iterator[Callable[..., 
 
         def run(**options: object) -> Outcome:
             settings = Settings(options={rule.id: options}, thorough=True)
-            judge = judge_of(rule, example)
-            return run_and_set_aside([rule], all_rules(), subject, judge, settings)
+            judge = Judge(profile_of(rule, example), settings)
+            return run_and_set_aside([rule], all_rules(), subject, judge)
 
         yield run
 

@@ -6,9 +6,10 @@ from functools import cached_property
 
 from checker.base.cache import Cache
 from checker.base.parts import type_name
+from checker.engine.judge import TRIALS, Judge
 from checker.engine.options import check_against_rules
 from checker.engine.review import run_and_set_aside
-from checker.engine.run import TRIALS, Outcome
+from checker.engine.run import Outcome
 from checker.engine.subject import Subject
 from checker.model.devices.known import known_devices
 from checker.model.sensing.view import SensorViews
@@ -17,7 +18,6 @@ from checker.physics.mass.mass_properties import MassProperties
 from checker.report.report import Cause, NotChecked, ReportedFinding
 from checker.report.scene.processes import StartedProcesses
 from checker.rule import Rule
-from checker.rulebook.profiles import profile
 from checker.rulebook.rule_index import rules
 from checker.settings import Settings
 
@@ -60,10 +60,8 @@ class Checked:
         self.outcome = self._outcome(known)
 
     def _outcome(self, known: tuple[Rule, ...]) -> Outcome:
-        settings = self.settings
         chosen = [rule for rule in known if not is_measured(rule)]
-        judge = profile(settings.profile, settings.distro)
-        return run_and_set_aside(chosen, known, self.subject, judge, settings)
+        return run_and_set_aside(chosen, known, self.subject, Judge.of(self.settings))
 
     @property
     def findings(self) -> tuple[ReportedFinding, ...]:

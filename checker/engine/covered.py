@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from operator import itemgetter
+from collections.abc import Iterable, Iterator, Sequence
+from operator import attrgetter
+from typing import TypeVar
 
 from checker.base.record import Record
-from checker.finding import Place, Severity
-from checker.rule import Finding, Rule
+from checker.engine.judge import GradedFinding
+from checker.finding import Place
+from checker.rule import Rule
 
-SeverityOf = Callable[[Rule, Finding], Severity]
-Said = tuple[Rule, list[Finding]]
+K = TypeVar("K")
+
+Said = tuple[Rule, list[GradedFinding]]
 """A rule and what it found."""
-Cover = tuple[str, Finding]
+Cover = tuple[str, GradedFinding]
 """The id of a rule and what it says."""
-_Ranked = tuple[int, Finding]
 
 
 class Parted(Record):
@@ -26,11 +28,11 @@ class Parted(Record):
     """
 
     rule: Rule
-    told: list[Finding]
-    covered: list[tuple[Finding, Cover]]
+    told: list[GradedFinding]
+    covered: list[tuple[GradedFinding, Cover]]
 
 
-def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parted]:
+def parted_by_cover(said: Sequence[Said]) -> list[Parted]:
     """Part findings from those that a rule of `covered_by` tells as gravely or more.
 
     It tells the same if it reports the same place; or all related places, which are what a finding
@@ -38,24 +40,18 @@ def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parte
 
     Args:
         said: What all rules found that ran.
-        severity_of: Tells how grave a finding of a rule is.
     """
     covering = {id for _, found in said for finding in found for id in finding.covered_by}
-    told = {rule.id: _Told() for rule, _ in said if rule.id in covering}
-    for rule, found in said:
-        if rule.id in told:
-            for each in found:
-                told[rule.id].add(each, severity_of(rule, each).rank)
+    told = {rule.id: _Told(found) for rule, found in said if rule.id in covering}
 
-    def cover_of(rule: Rule, finding: Finding) -> Cover | None:
-        own = severity_of(rule, finding).rank
+    def cover_of(finding: GradedFinding) -> Cover | None:
         others = (id for id in finding.covered_by if id in told)
-        covers = ((id, told[id].telling(finding.places, own)) for id in others)
+        covers = ((id, told[id].telling(finding)) for id in others)
         return next(((id, cover) for id, cover in covers if cover), None)
 
     parted = []
     for rule, found in said:
-        covers = [(each, cover_of(rule, each)) for each in found]
+        covers = [(each, cover_of(each)) for each in found]
         parted.append(
             Parted(
                 rule,
@@ -67,34 +63,32 @@ def parted_by_cover(said: Sequence[Said], severity_of: SeverityOf) -> list[Parte
 
 
 class _Told:
-    """Places that a rule reports, each with the gravest finding there and its rank."""
+    """Places that a rule reports, each with the gravest finding there."""
 
-    def __init__(self) -> None:
-        """Hold none yet."""
-        self._main: dict[tuple[str, int, str], _Ranked] = {}
-        self._around: dict[tuple[str, str], _Ranked] = {}
+    def __init__(self, findings: Iterable[GradedFinding]) -> None:
+        self._main: dict[tuple[str, int, str], GradedFinding] = {}
+        self._around: dict[tuple[str, str], GradedFinding] = {}
+        for finding in findings:
+            _keep_gravest(self._main, _key(finding.places[0]), finding)
+            for place in finding.places:
+                for element in _around(place.element):
+                    _keep_gravest(self._around, (place.file, element), finding)
 
-    def add(self, finding: Finding, rank: int) -> None:
-        """Add the places of a finding, the main one first."""
-        ranked = rank, finding
-        main = _key(finding.places[0])
-        self._main[main] = min(ranked, self._main.get(main, ranked), key=itemgetter(0))
-        for place in finding.places:
-            for element in _around(place.element):
-                at = place.file, element
-                self._around[at] = min(ranked, self._around.get(at, ranked), key=itemgetter(0))
-
-    def telling(self, places: Sequence[Place], rank: int) -> Finding | None:
-        """Return the finding of a rank, or a graver one, that has the places of another finding."""
-        main, *suspects = places
+    def telling(self, finding: GradedFinding) -> GradedFinding | None:
+        """Return the finding, as grave or graver, that has the places of another rule's."""
+        main, *suspects = finding.places
         at_main = self._main.get(_key(main))
-        if at_main and at_main[0] <= rank:
-            return at_main[1]
+        if at_main and at_main.severity.rank <= finding.severity.rank:
+            return at_main
         around = [
             self._around.get((place.file, place.element)) for place in suspects if place.element
         ]
-        told = [cover[1] for cover in around if cover and cover[0] <= rank]
+        told = [each for each in around if each and each.severity.rank <= finding.severity.rank]
         return told[0] if told and len(told) == len(suspects) else None
+
+
+def _keep_gravest(kept: dict[K, GradedFinding], at: K, finding: GradedFinding) -> None:
+    kept[at] = min(finding, kept.get(at, finding), key=attrgetter("severity.rank"))
 
 
 def _key(place: Place) -> tuple[str, int, str]:

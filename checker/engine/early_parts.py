@@ -8,7 +8,7 @@ from contextlib import suppress
 from checker.base.allowance import Exceeded
 from checker.base.extras import PHYSICS
 from checker.base.parts import type_name
-from checker.engine.run import TRIALS
+from checker.engine.judge import TRIALS
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews

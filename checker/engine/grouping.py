@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from msgspec.structs import replace
 
 from checker.base.words import shortened
+from checker.engine.judge import GradedFinding
 from checker.finding import Fix, Place, Safety, Severity
 from checker.rule import Finding
 
@@ -18,31 +19,30 @@ ALIKE = 5
 _NAME = re.compile(r"'[^']*'|\S*[\d_/<>]\S*")
 """What a message says of one case: quoted, or with a letter that plain words do not have."""
 
-Judged = tuple[Severity, Finding]
 
-
-def grouped(findings: Iterable[Judged]) -> list[tuple[Severity, list[Finding]]]:
-    """Return the findings of one rule that are told as one, in order, each with its severity.
+def grouped(findings: Iterable[GradedFinding]) -> list[list[GradedFinding]]:
+    """Return the findings of one rule, those together that are told as one, in order.
 
     Those with one key, or one message, are one fault. Many that say the same of different parts
     have one cause, as have those that the copies of one line of a macro show.
     """
-    faults: dict[tuple[Severity, str], list[Finding]] = {}
-    for severity, finding in findings:
-        faults.setdefault((severity, finding.key or finding.message), []).append(finding)
-    alike: dict[tuple[Severity, str], list[list[Finding]]] = {}
-    for (severity, _), group in faults.items():
-        alike.setdefault(_said(severity, group), []).append(group)
+    faults: dict[tuple[Severity, str], list[GradedFinding]] = {}
+    for finding in findings:
+        fault = finding.severity, finding.key or finding.message
+        faults.setdefault(fault, []).append(finding)
+    alike: dict[tuple[Severity, str], list[list[GradedFinding]]] = {}
+    for group in faults.values():
+        alike.setdefault(_said(group[0]), []).append(group)
     together = {said for said, groups in alike.items() if _have_one_cause(groups)}
-    told: dict[tuple[Severity, str], list[Finding]] = {}
+    told: dict[tuple[Severity, str], list[GradedFinding]] = {}
     for fault, group in faults.items():
-        said = _said(fault[0], group)
+        said = _said(group[0])
         told.setdefault(said if said in together else fault, []).extend(group)
-    return [(severity, group) for (severity, _), group in told.items()]
+    return list(told.values())
 
 
-def _said(severity: Severity, group: Sequence[Finding]) -> tuple[Severity, str]:
-    return severity, _NAME.sub("", group[0].message)
+def _said(finding: GradedFinding) -> tuple[Severity, str]:
+    return finding.severity, _NAME.sub("", finding.message)
 
 
 def _have_one_cause(groups: Sequence[Sequence[Finding]]) -> bool:

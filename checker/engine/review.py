@@ -17,6 +17,7 @@ from checker.base.output import Say, Stages
 from checker.base.parts import NotAvailable, type_name
 from checker.engine.early_parts import begin, begin_display, begin_meshes
 from checker.engine.facts import facts_of, trials_of
+from checker.engine.judge import Judge
 from checker.engine.launched import launched_of
 from checker.engine.options import check_against_rules
 from checker.engine.other_robots import (
@@ -25,7 +26,7 @@ from checker.engine.other_robots import (
     other_descriptions,
     with_only,
 )
-from checker.engine.run import Outcome, joined, needed_parts, run_rules, unfinished
+from checker.engine.run import Outcome, joined, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
@@ -44,7 +45,6 @@ from checker.report.report import (
 )
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.rule import Rule
-from checker.rulebook.profiles import Profile, profile
 from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
@@ -63,18 +63,17 @@ def run_and_set_aside(
     chosen: Sequence[Rule],
     every: Sequence[Rule],
     subject: Subject,
-    profile: Profile,
-    settings: Settings,
+    judge: Judge,
 ) -> Outcome:
     """Run rules over a package and part what they find from what does not count.
 
     Args:
-        chosen: Of which those run that profile and settings want.
+        chosen: Of which those run that are wanted.
         every: All that there are, which suppressions may name.
         subject: The package.
-        profile: What it judges, and how gravely.
-        settings: The user's.
+        judge: Says which are wanted, and how severe their findings are.
     """
+    settings = judge.settings
     of_suppressions = [rule for rule in chosen if type_name(Suppressions) in rule.needs.values()]
     of_baseline = [rule for rule in chosen if type_name(BaselineUse) in rule.needs.values()]
     first = [rule for rule in chosen if rule not in (*of_suppressions, *of_baseline)]
@@ -83,16 +82,16 @@ def run_and_set_aside(
     matcher = SuppressionMatcher(subject.package, settings.suppress, every, held)
     unloaded = subject.package.unloaded_files
     run = partial(run_rules, allowance=subject.allowance)
-    outcome = run(first, subject, profile, settings, matcher, unloaded)
+    outcome = run(first, subject, judge, matcher, unloaded)
     for description in other_descriptions(subject):
         other = with_only(subject, description)
-        added = run(of_one_robot(first), other, profile, settings, matcher, unloaded)
+        added = run(of_one_robot(first), other, judge, matcher, unloaded)
         outcome = joined(outcome, only_new(added, outcome, description))
     used = matcher.suppressions(_looked(outcome), settings.source)
-    added = run(of_suppressions, subject.having(used), profile, settings, matcher)
+    added = run(of_suppressions, subject.having(used), judge, matcher)
     outcome = joined(outcome, added)
     stale = _stale(matcher, outcome, settings, {rule.id for rule in every})
-    added = run(of_baseline, subject.having(stale), profile, settings, matcher)
+    added = run(of_baseline, subject.having(stale), judge, matcher)
     return joined(outcome, added)
 
 
@@ -160,8 +159,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     try:
         known = rules(cache)
         check_against_rules(settings, known)
-        judge = profile(settings.profile, settings.distro)
-        return run_and_set_aside(known, known, subject, judge, settings).findings
+        return run_and_set_aside(known, known, subject, Judge.of(settings)).findings
     finally:
         subject.close()
 
@@ -179,14 +177,14 @@ def _report_or_crash(
 def _report(
     subject: Subject, shown: str, settings: Settings, known: Sequence[Rule]
 ) -> PackageReport:
-    package, judge = subject.package, profile(settings.profile, settings.distro)
+    package, judge = subject.package, Judge.of(settings)
     with subject.stages.stage("rules", "rules"):
         # What needs too much is met again by the rules that ask for it.
         with suppress(Exceeded), subject.allowance.piece():
-            begin(subject, needed_parts(known, judge, settings))
+            begin(subject, judge.needed_parts(known))
             if settings.display:
                 begin_display(subject)
-        outcome = run_and_set_aside(known, known, subject, judge, settings)
+        outcome = run_and_set_aside(known, known, subject, judge)
     blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
     unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
     robots, trouble = _piece(subject, "facts", lambda: facts_of(subject))

@@ -16,8 +16,9 @@ from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts, type_name
 from checker.base.record import Record
 from checker.base.words import shortened
-from checker.engine.covered import Cover, Parted, Said, SeverityOf, parted_by_cover
+from checker.engine.covered import Cover, Parted, Said, parted_by_cover
 from checker.engine.grouping import TEXT_LIMIT, bounded_places, grouped, joined_fix, joined_places
+from checker.engine.judge import GradedFinding, Judge
 from checker.engine.options import options_of
 from checker.finding import (
     Severity,
@@ -25,17 +26,11 @@ from checker.finding import (
     numbered,
     without_line_numbers,
 )
-from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
-from checker.report.report import NO_TRIAL, Cause, NotChecked, Repeat, ReportedFinding, Suppressed
+from checker.report.report import Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
-from checker.rulebook.profiles import Profile
 from checker.rulebook.suppression.finding_places import Spot, spot
 from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
-from checker.settings import Settings
-
-TRIALS = frozenset(map(type_name, (RobotTrial, SettledTrial, RepeatedTrial)))
-"""Names of the types of parts for which the robot is driven."""
 
 
 class Outcome(Record):
@@ -57,8 +52,7 @@ class Outcome(Record):
 def run_rules(
     rules: Iterable[Rule],
     parts: Parts,
-    profile: Profile,
-    settings: Settings,
+    judge: Judge,
     matcher: SuppressionMatcher | None = None,
     unloaded: Collection[str] = (),
     *,
@@ -69,8 +63,7 @@ def run_rules(
     Args:
         rules: Of which those run that are wanted.
         parts: What they ask for.
-        profile: What it judges, and how gravely.
-        settings: The user's.
+        judge: Says which are wanted, and how severe their findings are.
         matcher: Tells what does not count.
         unloaded: Files that nothing loads: what is found in them is information.
         allowance: What each rule may use; the usual when None.
@@ -80,30 +73,28 @@ def run_rules(
     not_checked: list[NotChecked] = []
     looked: dict[str, Mapping[str, Any]] = {}
     for rule in rules:
-        if not wanted(rule, profile, settings):
-            not_checked += _switched_off(rule, profile, settings)
+        if not judge.wanted(rule):
+            not_checked += judge.switched_off(rule)
             continue
-        result = _run_isolated(rule, parts, profile.context, settings, allowance)
-        severity = _severity(rule, None, profile, settings)
+        result = _run_isolated(rule, parts, judge, allowance)
+        severity = judge.severity(rule)
         if isinstance(result, NotChecked):
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
             continue
-        looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        own = [_graded(item, unloaded) for item in result if isinstance(item, Finding)]
-        said.append((rule, own))
+        looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
+        found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
+        said.append((rule, [judge.graded(rule, each) for each in found]))
         unchecked = (item.reason for item in result if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [
             NotChecked(rule.id, reason, Cause.NOT_AT_HAND, severity, rule.concern)
             for reason in reasons
         ]
-    return _reported(said, profile, settings, matcher, not_checked, looked)
+    return _reported(said, matcher, not_checked, looked)
 
 
 def _reported(
     said: list[Said],
-    profile: Profile,
-    settings: Settings,
     matcher: SuppressionMatcher | None,
     not_checked: list[NotChecked],
     looked: Mapping[str, Mapping[str, Any]],
@@ -112,18 +103,13 @@ def _reported(
     findings: list[ReportedFinding] = []
     suppressed: list[Suppressed] = []
     covered: list[ReportedFinding] = []
-
-    def severity_of(rule: Rule, finding: Finding) -> Severity:
-        return _severity(rule, finding.severity, profile, settings)
-
-    shares = parted_by_cover(said, severity_of)
-    repeats = _repeats(shares, severity_of)
+    shares = parted_by_cover(said)
+    repeats = _repeats(shares)
     for each in shares:
         rule = each.rule
-        covered += _report(rule, [found for found, _ in each.covered], profile, settings, {})
-        spot_of = partial(_spot, rule, profile, settings)
-        for suppression, group in parted(rule.id, each.told, matcher, spot_of).items():
-            reported = _report(rule, group, profile, settings, repeats)
+        covered += _report(rule, [found for found, _ in each.covered], {})
+        for suppression, group in parted(rule.id, each.told, matcher, partial(_spot, rule)).items():
+            reported = _report(rule, group, repeats)
             if suppression is None:
                 findings += reported
             else:
@@ -135,7 +121,7 @@ def _reported(
     return replace(outcome, covered=tuple(covered))
 
 
-def _repeats(shares: Sequence[Parted], severity_of: SeverityOf) -> dict[Cover, list[Repeat]]:
+def _repeats(shares: Sequence[Parted]) -> dict[Cover, list[Repeat]]:
     """Return what less precise rules say, by the finding that is told in their place."""
     covers = {(each.rule.id, found): cover for each in shares for found, cover in each.covered}
     repeats: dict[Cover, list[Repeat]] = {}
@@ -145,15 +131,14 @@ def _repeats(shares: Sequence[Parted], severity_of: SeverityOf) -> dict[Cover, l
             while told in covers:
                 told = covers[told]
             message = shortened(found.message, TEXT_LIMIT)
-            severity = severity_of(each.rule, found)
             repeat = Repeat(
-                each.rule.id, each.rule.name, severity, message, bounded_places(found.places)
+                each.rule.id, each.rule.name, found.severity, message, bounded_places(found.places)
             )
             repeats.setdefault(told, []).append(repeat)
     return repeats
 
 
-def _graded(finding: Finding, unloaded: Collection[str]) -> Finding:
+def _informing(finding: Finding, unloaded: Collection[str]) -> Finding:
     """Return a finding as information, if it is about a file that nothing loads."""
     if finding.places[0].file in unloaded:
         return replace(finding, severity=Severity.INFO)
@@ -194,49 +179,16 @@ def joined(*outcomes: Outcome) -> Outcome:
     )
 
 
-def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
-    """Say whether a rule is to run: one of the profile, or one that the user names itself."""
-    asked_for = _asked_for(rule, profile, settings)
-    return asked_for and (settings.trial or not _needs_trial(rule))
-
-
-def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[str]:
-    """Return the names of the types of parts that the rules to be run ask for."""
-    to_run = (rule for rule in rules if wanted(rule, profile, settings))
-    return {kind for rule in to_run for kind in rule.needs.values()}
-
-
-def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
-    if type_name(RepeatedTrial) in rule.needs.values() and not settings.thorough:
-        return False
-    return settings.selects(rule) and (settings.names(rule) or profile.includes(rule))
-
-
-def _needs_trial(rule: Rule) -> bool:
-    return not TRIALS.isdisjoint(rule.needs.values())
-
-
-def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:
-    """Say what the user switched off; what was not asked for in the first place goes unsaid."""
-    if _asked_for(rule, profile, settings):
-        yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)
-    elif settings.select and settings.selects(rule) and not profile.includes(rule):
-        reason = f"not in the profile {profile.name}; `--select {rule.id}` runs it"
-        yield NotChecked(rule.id, reason, Cause.SWITCHED_OFF)
-    elif not settings.selects(rule) and profile.includes(rule) and not settings.select:
-        yield NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF)
-
-
 def _run_isolated(
-    rule: Rule, parts: Parts, context: Context, settings: Settings, allowance: Allowance
+    rule: Rule, parts: Parts, judge: Judge, allowance: Allowance
 ) -> list[Finding | Unchecked] | NotChecked:
     """Run one rule; what goes wrong inside it is the checker's fault and says so."""
     try:
-        arguments = _arguments(rule, parts, context)
+        arguments = _arguments(rule, parts, judge.profile.context)
         if isinstance(arguments, NotAvailable):
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
-        options = options_of(rule, settings)
+        options = options_of(rule, judge.settings)
         with allowance.piece():
             return [said for argument in arguments for said in rule.check(**argument, **options)]
     except MissingExtra as missing:
@@ -281,22 +233,19 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
 
 def _report(
     rule: Rule,
-    findings: list[Finding],
-    profile: Profile,
-    settings: Settings,
+    findings: list[GradedFinding],
     repeats: Mapping[Cover, Sequence[Repeat]],
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
-    judged = ((_severity(rule, it.severity, profile, settings), it) for it in findings)
-    for severity, group in grouped(judged):
+    for group in grouped(findings):
         first = group[0]
         places = joined_places(group)
         fixes = tuple(finding.fix for finding in group if finding.fix)
         yield ReportedFinding(
             rule.id,
             rule.name,
-            severity,
+            first.severity,
             rule.concern,
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
@@ -312,23 +261,10 @@ def _report(
         )
 
 
-def _spot(rule: Rule, profile: Profile, settings: Settings, finding: Finding) -> Spot:
+def _spot(rule: Rule, finding: GradedFinding) -> Spot:
     """Return how the baseline knows a finding, in the words of the report."""
-    severity = _severity(rule, finding.severity, profile, settings)
     message = shortened(finding.message, TEXT_LIMIT)
-    return spot(rule.id, severity, finding.places[0], finding.key, message)
-
-
-def _severity(rule: Rule, own: Severity | None, profile: Profile, settings: Settings) -> Severity:
-    """Return how severe a finding is: the user's word counts most, then the finding's own.
-
-    Then counts the rule's; a profile can lower it.
-    """
-    if rule.id in settings.severity:
-        return settings.severity[rule.id]
-    severity = own or rule.severity
-    limit = profile.severity.get(rule.id)
-    return max(severity, limit, key=lambda s: s.rank) if limit else severity
+    return spot(rule.id, finding.severity, finding.places[0], finding.key, message)
 
 
 def _identity(finding: Finding) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from checker.base.parts import NotAvailable, type_name
+from checker.engine.judge import Judge
 from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
 from checker.rule import Concern, Finding, Findings, Rule, Severity
@@ -50,7 +51,7 @@ def run(
     profile: Profile | None = None,
     **settings: Any,
 ) -> Outcome:
-    return run_rules(rules, parts or Parts(Wheel()), profile or subt(), Settings(**settings))
+    return run_rules(rules, parts or Parts(Wheel()), Judge(profile or subt(), Settings(**settings)))
 
 
 def subt(**changes: Any) -> Profile:

@@ -10,12 +10,13 @@ from msgspec.structs import replace
 
 from checker.base.cache import Cache, cache_folder
 from checker.base.parts import type_name
+from checker.engine.judge import Judge
 from checker.engine.run import Outcome, run_rules
 from checker.engine.subject import Subject
 from checker.finding import Place
 from checker.package.inputs import open_input
 from checker.package.package import Package
-from checker.rule import finding
+from checker.rule import Rule, finding
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import profile
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
@@ -47,21 +48,21 @@ def _told(rule: str, places: Sequence[Place]) -> Iterator[Told]:
 def differences(package: Package, *, trial: bool) -> list[str]:
     """Return what rules selected alone report of a package and the full run does not."""
     settings = Settings(trial=trial).suiting(package)
-    judge = profile(settings.profile)
+    judge = Judge(profile(settings.profile), settings)
+
+    def selecting(rule: Rule) -> Judge:
+        return Judge(judge.profile, replace(settings, select=(rule.id,)))
+
     rules = [
         rule
         for rule in all_rules()
-        if judge.includes(rule) and _OF_OTHERS.isdisjoint(rule.needs.values())
+        if judge.profile.includes(rule) and _OF_OTHERS.isdisjoint(rule.needs.values())
     ]
     subject = Subject(package, Cache(cache_folder()))
     try:
-        full = set(told(run_rules(rules, subject, judge, settings)))
+        full = set(told(run_rules(rules, subject, judge)))
         alone = {
-            each
-            for rule in rules
-            for each in told(
-                run_rules([rule], subject, judge, replace(settings, select=(rule.id,)))
-            )
+            each for rule in rules for each in told(run_rules([rule], subject, selecting(rule)))
         }
     finally:
         subject.close()

@@ -9,6 +9,7 @@ import pytest
 
 from checker.base.allowance import Allowance
 from checker.base.parts import NotAvailable
+from checker.engine.judge import Judge
 from checker.engine.run import run_rules
 from checker.report.report import Cause, NotChecked
 from checker.rule import Concern, Context, Findings, Rule, Severity, finding, unchecked
@@ -83,7 +84,7 @@ def too_large(_: Wheel) -> Findings:
 )
 def test_a_rule_that_needs_too_much_is_not_checked(check: object, reason: str) -> None:
     rules = (rule_of(check), rule_saying(finding(at(1), "found")))
-    outcome = run_rules(rules, Parts(Wheel()), subt(), Settings(), allowance=Allowance(0.2))
+    outcome = run_rules(rules, Parts(Wheel()), Judge(subt(), Settings()), allowance=Allowance(0.2))
     assert reported(outcome) == ["TST001"]
     (unseen,) = outcome.not_checked
     assert (unseen.rule, unseen.cause, unseen.reason) == ("TST009", Cause.NOT_AT_HAND, reason)

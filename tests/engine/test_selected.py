@@ -8,6 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE
+from checker.engine.judge import Judge
 from checker.engine.review import run_and_set_aside
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
@@ -46,12 +47,12 @@ def test_the_whole_check_shows_what_each_rule_shows_alone(sample: Path) -> None:
 def compare(package: Package) -> None:
     known = rules(NO_CACHE)
     settings = Settings(trial=False, cache=False).suiting(package)
-    judge = profile(settings.profile, settings.distro)
+    judge = Judge.of(settings)
     subject = Subject(package)
-    shown, repeats = told(run_and_set_aside(known, known, subject, judge, settings))
-    for rule in (each for each in known if judge.includes(each)):
-        alone = replace(settings, select=(rule.id,))
-        outcome = run_and_set_aside([rule], known, subject, judge, alone)
+    shown, repeats = told(run_and_set_aside(known, known, subject, judge))
+    for rule in (each for each in known if judge.profile.includes(each)):
+        alone = Judge(judge.profile, replace(settings, select=(rule.id,)))
+        outcome = run_and_set_aside([rule], known, subject, alone)
         for finding in outcome.findings:
             assert said(finding) in shown or (rule.id, finding.message) in repeats
     subject.close()
@@ -65,7 +66,7 @@ def test_what_stops_a_build_is_told_for_every_kind_of_package(name: str, tmp_pat
         subject = Subject(opened.packages[0])
         settings = Settings(trial=False, profile=name)
         outcome = run_and_set_aside(
-            rules(NO_CACHE), rules(NO_CACHE), subject, profile(name), settings
+            rules(NO_CACHE), rules(NO_CACHE), subject, Judge(profile(name), settings)
         )
         subject.close()
     assert "PKG009" in {finding.rule for finding in outcome.findings}

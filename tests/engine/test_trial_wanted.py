@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from checker.base.parts import NotAvailable, type_name
-from checker.engine.run import Outcome, needed_parts, run_rules
+from checker.engine.judge import Judge
+from checker.engine.run import Outcome, run_rules
 from checker.finding import Severity
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
@@ -44,7 +45,7 @@ class Parts:
 
 
 def outcome(part: object = "driven", **settings: Any) -> Outcome:
-    return run_rules(RULES, Parts(part), subt(), Settings(**settings))
+    return run_rules(RULES, Parts(part), Judge(subt(), Settings(**settings)))
 
 
 def said(result: Outcome) -> set[str]:
@@ -99,4 +100,4 @@ def test_rules_that_looked_are_named_with_the_options_they_used() -> None:
 def test_only_parts_that_a_rule_to_be_run_asks_for_are_started(
     settings: dict[str, Any], needed: set[type]
 ) -> None:
-    assert needed_parts(RULES, subt(), Settings(**settings)) == set(map(type_name, needed))
+    assert Judge(subt(), Settings(**settings)).needed_parts(RULES) == set(map(type_name, needed))

@@ -20,7 +20,7 @@ from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
 from checker.rule import Rule
-from checker.rule_testing import Example, judge_of, write_example
+from checker.rule_testing import Example, profile_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from checker.source.text import SourceText
@@ -41,7 +41,7 @@ REVEALED = {
 
 
 def judge(rule: Rule, example: Example, **wishes: Any) -> Settings:
-    return Settings(trial=False, profile=judge_of(rule, example).name, **wishes)
+    return Settings(trial=False, profile=profile_of(rule, example).name, **wishes)
 
 
 def fixed(package: Package, settings: Settings) -> tuple[Package, bool]:

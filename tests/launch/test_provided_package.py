@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.parts import NotAvailable
+from checker.engine.judge import Judge
 from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
@@ -67,7 +68,7 @@ def test_it_is_no_undeclared_sibling(tmp_path: Path) -> None:
     graph_in(tmp_path, tmp_path)
     rules = [rule for rule in all_rules() if rule.id == "PKG007"]
     with open_input(tmp_path / NAME) as opened:
-        outcome = run_rules(rules, Subject(opened.packages[0]), profile("subt"), Settings())
+        outcome = run_rules(rules, Subject(opened.packages[0]), Judge(profile("subt"), Settings()))
     assert [found.severity for found in outcome.findings] == [Severity.INFO]
 
 

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from checker.engine.judge import Judge
 from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
@@ -241,7 +242,7 @@ def reported(robot: Robot) -> list[str]:
         package = write_example({"model.sdf": robot.text()}, Path(folder))
         with open_input(package) as opened:
             subject = Subject(opened.packages[0])
-            outcome = run_rules(RULES, subject, profile("subt"), Settings())
+            outcome = run_rules(RULES, subject, Judge(profile("subt"), Settings()))
     crashed = [each.rule + "!" for each in outcome.not_checked if each.cause is Cause.CRASHED]
     return crashed + [finding.rule for finding in outcome.findings]
 

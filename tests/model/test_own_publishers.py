@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.engine.judge import Judge
 from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
@@ -49,6 +50,6 @@ def test_who_else_may_publish(
     rules = [rule for rule in all_rules() if rule.id == "ROS002"]
     with open_input(write_example(files, tmp_path)) as opened:
         subject = Subject(opened.packages[0])
-        outcome = run_rules(rules, subject, profile("subt"), Settings())
+        outcome = run_rules(rules, subject, Judge(profile("subt"), Settings()))
     assert bool(outcome.findings) is judged
     assert bool(outcome.not_checked) is not judged

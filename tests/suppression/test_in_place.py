@@ -14,8 +14,8 @@ from checker.rule_testing import (
     MINIMAL,
     NAME,
     SPAWNER,
-    judge_of,
     model_with,
+    profile_of,
     write_example,
 )
 from checker.rulebook.discovery import all_rules
@@ -209,7 +209,7 @@ def _cases() -> list[Any]:
 
 @pytest.mark.parametrize(("rule", "example"), _cases())
 def test_what_any_rule_finds_can_be_set_aside(rule: Rule, example: Any, tmp_path: Path) -> None:
-    profile = judge_of(rule, example).name
+    profile = profile_of(rule, example).name
     report = checked_again(write_example(example, tmp_path), rule.id, profile=profile)
     assert found(report) == []
     assert {each.finding.rule for each in report.suppressed} == {rule.id}

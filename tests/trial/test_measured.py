@@ -10,7 +10,8 @@ import jsonschema
 import pytest
 
 from checker.engine.facts import measured
-from checker.engine.run import TRIALS, Outcome, run_rules
+from checker.engine.judge import TRIALS, Judge
+from checker.engine.run import Outcome, run_rules
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Measurement, Trial
 from checker.rulebook.discovery import all_rules
@@ -35,7 +36,7 @@ class Parts:
 
 def shown(trial: Trial, **settings: Any) -> dict[str, Any]:
     parts = Parts(trial)
-    outcome = run_rules(OF_TRIAL, parts, profile("subt"), Settings(**settings))
+    outcome = run_rules(OF_TRIAL, parts, Judge(profile("subt"), Settings(**settings)))
     said = json.loads(json.dumps(measured(parts.driven, outcome)))
     jsonschema.validate(said, {**SCHEMA["$defs"]["TrialJson"], "$defs": SCHEMA["$defs"]})
     return dict(said)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
@@ -29,6 +30,8 @@ from checker.rulebook.suppression.parts import (
     UnusedEntries,
 )
 from checker.source.text_file import TEXT_LIMIT
+
+F = TypeVar("F", bound=Finding)
 
 SEARCHED_LIMIT = 100_000_000
 """Bytes of a package's own files in which comments are looked for before findings point there."""
@@ -80,7 +83,7 @@ class SuppressionMatcher:
         self._own = tuple(self._own_comments())
 
     def matches(
-        self, rule: str, findings: Sequence[Finding], spot_of: Callable[[Finding], Spot]
+        self, rule: str, findings: Sequence[F], spot_of: Callable[[F], Spot]
     ) -> list[Suppression | None]:
         """Return why each finding of a rule does not count; None for those that do.
 
@@ -209,14 +212,14 @@ class SuppressionMatcher:
 
 def parted(
     rule: str,
-    findings: Sequence[Finding],
+    findings: Sequence[F],
     matcher: SuppressionMatcher | None,
-    spot_of: Callable[[Finding], Spot],
-) -> dict[Suppression | None, list[Finding]]:
+    spot_of: Callable[[F], Spot],
+) -> dict[Suppression | None, list[F]]:
     """Part what a rule found by why it does not count; what does stands under None."""
     nothing = [None] * len(findings)
     matches = matcher.matches(rule, findings, spot_of) if matcher else nothing
-    parts: dict[Suppression | None, list[Finding]] = {}
+    parts: dict[Suppression | None, list[F]] = {}
     for finding, suppression in zip(findings, matches, strict=True):
         parts.setdefault(suppression, []).append(finding)
     return parts

@@ -1,0 +1,80 @@
+"""Which rules run over a package, and how severe their findings are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from msgspec.structs import asdict
+
+from checker.base.parts import type_name
+from checker.base.record import Record
+from checker.finding import Severity
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
+from checker.report.report import NO_TRIAL, Cause, NotChecked
+from checker.rule import Finding, Rule
+from checker.rulebook.profiles import Profile, profile
+from checker.settings import Settings
+
+TRIALS = frozenset(map(type_name, (RobotTrial, SettledTrial, RepeatedTrial)))
+"""Names of the types of parts for which the robot is driven."""
+
+
+class GradedFinding(Finding):
+    """A finding with its final severity."""
+
+    severity: Severity = Severity.ERROR
+
+
+class Judge(Record):
+    """What a profile and the user's settings say about rules."""
+
+    profile: Profile
+    settings: Settings
+
+    @classmethod
+    def of(cls, settings: Settings) -> Judge:
+        """Return the judge with the profile that the settings name."""
+        return cls(profile(settings.profile, settings.distro), settings)
+
+    def wanted(self, rule: Rule) -> bool:
+        """Say whether a rule is to run: one of the profile, or one that the user names itself."""
+        needs_trial = not TRIALS.isdisjoint(rule.needs.values())
+        return self._asked_for(rule) and (self.settings.trial or not needs_trial)
+
+    def needed_parts(self, rules: Iterable[Rule]) -> set[str]:
+        """Return the names of the types of parts that the rules to be run ask for."""
+        return {kind for rule in filter(self.wanted, rules) for kind in rule.needs.values()}
+
+    def switched_off(self, rule: Rule) -> Iterator[NotChecked]:
+        """Yield why a rule that does not run was switched off; nothing if none asked for it."""
+        selected, included = self.settings.selects(rule), self.profile.includes(rule)
+        if self._asked_for(rule):
+            yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)
+        elif self.settings.select and selected and not included:
+            reason = f"not in the profile {self.profile.name}; `--select {rule.id}` runs it"
+            yield NotChecked(rule.id, reason, Cause.SWITCHED_OFF)
+        elif not selected and included and not self.settings.select:
+            yield NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF)
+
+    def _asked_for(self, rule: Rule) -> bool:
+        settings = self.settings
+        if type_name(RepeatedTrial) in rule.needs.values() and not settings.thorough:
+            return False
+        return settings.selects(rule) and (settings.names(rule) or self.profile.includes(rule))
+
+    def graded(self, rule: Rule, finding: Finding) -> GradedFinding:
+        """Return a finding of a rule with its final severity."""
+        severity = self.severity(rule, finding.severity)
+        return GradedFinding(**{**asdict(finding), "severity": severity})
+
+    def severity(self, rule: Rule, own: Severity | None = None) -> Severity:
+        """Return the severity of a finding of a rule.
+
+        The user's settings come first, then the finding's own, then the rule's; a profile can
+        lower the latter two.
+        """
+        if rule.id in self.settings.severity:
+            return self.settings.severity[rule.id]
+        severity = own or rule.severity
+        limit = self.profile.severity.get(rule.id)
+        return max(severity, limit, key=lambda each: each.rank) if limit else severity
