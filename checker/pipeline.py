@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain
@@ -17,7 +16,7 @@ from checker.base.allowance import Allowance, Exceeded
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput, momentary_cause
 from checker.base.extras import PHYSICS
-from checker.base.garbage_collection import collection_put_off
+from checker.base.garbage_collection import collected_between, collection_put_off
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.resources import versions
@@ -50,7 +49,7 @@ def check_package(path: str | Path, settings: Settings | None = None) -> Report:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    return joined_report([tuple(_check_input(Task(Path(path), settings=settings)))])
+    return joined_report([tuple(_opened_and_checked(Task(Path(path), settings=settings)))])
 
 
 def check_paths(
@@ -76,6 +75,10 @@ def check_paths(
 
 Checked = tuple[PackageReport | NotOpened, ...]
 """The result of one task."""
+_PATCHED = 2000
+"""Findings whose fixes a report's patch holds; `--fix` makes all."""
+_PROBLEM_LIMIT = 600
+"""Characters of what is wrong with settings."""
 
 
 class Task(Record):
@@ -177,36 +180,69 @@ def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
         InvalidSettings: See `check_paths`.
     """
     if min(jobs, len(tasks)) < 2:
-        for number, task in enumerate(tasks):
-            if number:
-                # The packages before have left what nothing but the collection finds.
-                gc.collect()
-            yield _check_or_say_why_not(task)
+        yield from map(_checked, collected_between(tasks))
         return
     from checker.base.process_pool import in_processes
 
-    yield from in_processes(_check_and_collect, tasks, jobs)
+    yield from in_processes(_checked, tasks, jobs)
 
 
-def _check_and_collect(task: Task) -> Checked:
-    checked = _check_or_say_why_not(task)
-    gc.collect()
-    return checked
-
-
-_PATCHED = 2000
-"""Findings whose fixes a report's patch holds; `--fix` makes all."""
-_PROBLEM_LIMIT = 600
-"""Characters of what is wrong with settings."""
-
-
-def _check_or_say_why_not(task: Task) -> Checked:
+def _checked(task: Task) -> Checked:
+    """Return the reports of a task, or why there is none."""
     if task.result:
         return task.result
     try:
-        return tuple(_check_input(task))
+        return tuple(_opened_and_checked(task))
     except UnreadableInput as error:
         return (_failed(task.path, error),)
+
+
+def _opened_and_checked(task: Task) -> Iterator[PackageReport | NotOpened]:
+    """Open what a task is about and check each package in it."""
+    if task.package is not None:
+        yield _report_of(task.package, task)
+        return
+    started = perf_counter()
+    with open_input(task.path) as opened:
+        task = replace(task, opening=perf_counter() - started)
+        for package in collected_between(opened.packages):
+            yield _report_of(package, task)
+        yield from _not_opened(task.path, opened)
+
+
+def _report_of(package: Package, task: Task) -> PackageReport | NotOpened:
+    """Return the report of a package: the remembered one while nothing has changed."""
+    started, shown = perf_counter(), task.shown_of(package)
+    try:
+        settings = task.settings_for(package)
+        package = with_package_path(package, settings.package_path)
+        cache = Cache(cache_folder()) if settings.cache else NO_CACHE
+        # An archive is unpacked into another folder each time.
+        lasts = settings.cache and task.path.is_dir()
+        key = memory_key(package, settings) if lasts else ""
+        report = recalled(cache, key, shown)
+        if report is None:
+            report = _judged(package, shown, settings, cache, task)
+            remember(cache, key, report)
+        else:
+            report = replace(report, timings={"recall": perf_counter() - started})
+    except InvalidSettings as error:
+        if task.settings or error.path is None or not error.path.is_relative_to(package.root):
+            raise
+        return _unusable(error.path.relative_to(package.root), error, shown)
+    return replace(report, timings={"open": task.opening, **report.timings})
+
+
+def _judged(
+    package: Package, shown: str, settings: Settings, cache: Cache, task: Task
+) -> PackageReport:
+    """Run the rules, which are loaded only now, as readers and engines are."""
+    processes = _started_processes(package, settings, cache, task.mesh_server)
+    with collection_put_off():
+        from checker.engine.review import judged
+
+        report = judged(package, shown, settings, cache, task.say, processes)
+        return _with_patch(report, package) if settings.display else report
 
 
 def _failed(path: Path, error: UnreadableInput) -> NotOpened:
@@ -214,77 +250,16 @@ def _failed(path: Path, error: UnreadableInput) -> NotOpened:
     return NotOpened(str(path), reason, failed=True, disturbed=disturbed)
 
 
-def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
-    if task.package is not None:
-        yield _checked(task.package, task)
-        return
-    started = perf_counter()
-    with open_input(task.path) as opened:
-        task = replace(task, opening=perf_counter() - started)
-        for number, package in enumerate(opened.packages):
-            if number:
-                gc.collect()
-            yield _checked(package, task)
-        yield from _not_opened(task.path, opened)
-
-
 def _not_opened(path: Path, opened: Opened) -> Iterator[NotOpened]:
     for skipped in opened.skipped:
         yield NotOpened(str(path / skipped.name), skipped.reason, failed=False)
 
 
-def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
-    """Check a package; where its own settings are at fault, the others are checked anyway."""
-    try:
-        report = _recalled_or_judged(package, task)
-        return replace(report, timings={"open": task.opening, **report.timings})
-    except InvalidSettings as error:
-        if task.settings or error.path is None or not error.path.is_relative_to(package.root):
-            raise
-        file = error.path.relative_to(package.root)
-        problem = shortened(error.problem, _PROBLEM_LIMIT)
-        reason = f"is not checked, because its settings cannot be used: {file}: {problem}"
-        return NotOpened(task.shown_of(package), reason, failed=True)
-
-
-def settings_of(path: Path) -> Iterator[Settings]:
-    """Yield the settings of each package at a path, but for those that cannot be used.
-
-    For packages in an archive these are the defaults: nothing that they name lasts.
-
-    Raises:
-        UnreadableInput: There is nothing to check at the path.
-    """
-    task = Task(path)
-    with open_input(path) as opened:
-        for package in opened.packages:
-            lasts = package.only or path.is_dir()
-            with suppress(InvalidSettings):
-                yield task.settings_for(package) if lasts else Settings()
-
-
-def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
-    """Take the report of a package from the cache while nothing has changed, else check it."""
-    started = perf_counter()
-    settings, shown = task.settings_for(package), task.shown_of(package)
-    package = with_package_path(package, settings.package_path)
-    cache = Cache(cache_folder()) if settings.cache else NO_CACHE
-    # An archive is unpacked into another folder each time.
-    is_archive = not task.path.is_dir()
-    key = memory_key(package, settings) if settings.cache and not is_archive else ""
-    known = recalled(cache, key, shown)
-    if known is not None:
-        return replace(known, timings={"recall": perf_counter() - started})
-    # Readers, engines and rules are loaded only when there is something to judge.
-    processes = _started_processes(package, settings, cache, task.mesh_server)
-    with collection_put_off():
-        from checker.engine.review import judged
-
-        report = judged(package, shown, settings, cache, task.say, processes)
-        if settings.display:
-            report = _with_patch(report, package)
-    remember(cache, key, report)
-    return report
+def _unusable(file: Path, error: InvalidSettings, shown: str) -> NotOpened:
+    """Return a package whose own settings are at fault; the others are checked anyway."""
+    problem = shortened(error.problem, _PROBLEM_LIMIT)
+    reason = f"is not checked, because its settings cannot be used: {file}: {problem}"
+    return NotOpened(shown, reason, failed=True)
 
 
 def _started_processes(
@@ -314,6 +289,22 @@ def _with_patch(report: PackageReport, package: Package) -> PackageReport:
         changes = patch(one_round(package, report.findings[:_PATCHED], (Safety.SAFE,)))
     timings = {**report.timings, "patch": perf_counter() - started}
     return replace(report, patch=changes, timings=timings)
+
+
+def settings_of(path: Path) -> Iterator[Settings]:
+    """Yield the settings of each package at a path, but for those that cannot be used.
+
+    For packages in an archive these are the defaults: nothing that they name lasts.
+
+    Raises:
+        UnreadableInput: There is nothing to check at the path.
+    """
+    task = Task(path)
+    with open_input(path) as opened:
+        for package in opened.packages:
+            lasts = package.only or path.is_dir()
+            with suppress(InvalidSettings):
+                yield task.settings_for(package) if lasts else Settings()
 
 
 def joined_report(done: Iterable[Checked]) -> Report:

@@ -1,10 +1,13 @@
-"""Garbage collection, put off while a package is checked."""
+"""Garbage collection: not while a package is checked, but between packages."""
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 @contextmanager
@@ -21,3 +24,11 @@ def collection_put_off() -> Iterator[None]:
     finally:
         if was_enabled:
             gc.enable()
+
+
+def collected_between(items: Iterable[T]) -> Iterator[T]:
+    """Yield the items; from the second on, what the work on those before has left is collected."""
+    for number, item in enumerate(items):
+        if number:
+            gc.collect()
+        yield item

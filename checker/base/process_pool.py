@@ -15,6 +15,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
+from checker.base.garbage_collection import collected_between
+
 Given = TypeVar("Given")
 Made = TypeVar("Made")
 _ENDS_SECONDS = 0.3
@@ -112,7 +114,7 @@ def _serve(connection: Connection, work: Callable[[Any], Any]) -> None:
     # What it has begun is put away on the way out.
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     with suppress(EOFError, BrokenPipeError):
-        while (item := connection.recv()) is not None:
+        for item in collected_between(iter(connection.recv, None)):
             try:
                 answer: tuple[bool, Any] = True, work(item)
             except Exception as error:  # noqa: BLE001 - raised where it was asked for
