@@ -334,13 +334,13 @@ def _suppressed(value: Any, path: Path) -> tuple[SettingsEntry, ...]:
 
 def _baseline(value: Any, path: Path) -> Baseline:
     """Read the baseline beside a settings file."""
-    return read_baseline(_inside("baseline", value, path, "a file"))
+    return read_baseline(_checked_path("baseline", value, path, "a file"))
 
 
 def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
     if not isinstance(value, list):
         raise InvalidSettings(path, f"package-path is {value!r}, expected a list of folders")
-    folders = tuple(_inside("package-path", folder, path, "a folder") for folder in value)
+    folders = tuple(_checked_path("package-path", folder, path, "a folder") for folder in value)
     for folder in folders:
         if not folder.is_dir():
             raise InvalidSettings(
@@ -359,7 +359,7 @@ def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
     return arguments
 
 
-def _inside(key: str, value: Any, path: Path, kind: str) -> Path:
+def _checked_path(key: str, value: Any, path: Path, kind: str) -> Path:
     """Return the path that settings name: a stranger's may not name what lies elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
     if inside is None or not _lies_in(path.parent, inside):

@@ -21,17 +21,16 @@ class Record(msgspec.Struct, frozen=True):
 
     def __repr__(self) -> str:
         """Show the fields, two levels deep."""
-        return _clipped(_shown(self, _DEPTH), _SHOWN)
+        return _clipped(_text(self, _DEPTH), _SHOWN)
 
 
-def _shown(value: object, depth: int) -> str:
+def _text(value: object, depth: int) -> str:
     if not isinstance(value, Record):
         return _clipped(repr(value), 120) if _is_plain(value) else f"<{type(value).__name__}>"
     if depth == 0:
         return f"{type(value).__qualname__}(…)"
     fields = (
-        f"{name}={_shown(getattr(value, name, None), depth - 1)}"
-        for name in value.__struct_fields__
+        f"{name}={_text(getattr(value, name, None), depth - 1)}" for name in value.__struct_fields__
     )
     return f"{type(value).__qualname__}({', '.join(fields)})"
 

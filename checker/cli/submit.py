@@ -63,7 +63,7 @@ def tell(check: Check, standing: Standing, options: argparse.Namespace, folder: 
     """
     if options.report:
         _write_all(check, standing, Path(options.report))
-    report = _seen_from_here(_read(check), Path(options.package))
+    report = _seen_from_here(_report(check), Path(options.package))
     if options.fail_on:
         severity = Severity(options.fail_on)
         packages = (replace(package, fail_on=severity) for package in report.packages)
@@ -80,7 +80,7 @@ def tell(check: Check, standing: Standing, options: argparse.Namespace, folder: 
     return report
 
 
-def _read(check: Check) -> Report:
+def _report(check: Check) -> Report:
     try:
         return report_from_json(_file(check, "report.json").decode("utf-8", "replace"))
     except NoReport as problem:
@@ -115,7 +115,9 @@ def _seen_from_here(report: Report, path: Path) -> Report:
         replace(package, path=_package_path(package.path, package.name, path))
         for package in report.packages
     )
-    not_opened = (replace(item, path=str(path / _below(item.path))) for item in report.not_opened)
+    not_opened = (
+        replace(item, path=str(path / _path_in_upload(item.path))) for item in report.not_opened
+    )
     return replace(report, packages=tuple(packages), not_opened=tuple(not_opened))
 
 
@@ -123,10 +125,10 @@ def _package_path(path: str, name: str, source: Path) -> str:
     if source.name.lower().endswith(SINGLE_FILE_SUFFIXES):
         return str(source.parent)
     is_itself = source.is_dir() and name == source.resolve().name
-    return str(source if is_itself else source / _below(path))
+    return str(source if is_itself else source / _path_in_upload(path))
 
 
-def _below(path: str) -> str:
+def _path_in_upload(path: str) -> str:
     """Return a path without its first part, the name of the upload."""
     return path.partition("/")[2]
 

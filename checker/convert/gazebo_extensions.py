@@ -66,13 +66,13 @@ class Copier:
         """
         twin = copied(element.node)
         parent.append(twin)
-        name = self._named(element, twin, link)
+        name = self._unique_name(element, twin, link)
         self._list_plugins(element, twin, CarriedFrom(link, name, reference))
         if pose is not None and element.tag in _POSED and not is_identity(pose):
             self._move(element, twin, pose)
         self.naming.strip(twin)
 
-    def _named(self, element: Element, twin: etree._Element, link: str) -> str:
+    def _unique_name(self, element: Element, twin: etree._Element, link: str) -> str:
         """Give a sensor or light a name of its own in its link, and return a sensor's."""
         name = element.get("name") or ""
         if name and element.tag in _NAMED:

@@ -135,8 +135,8 @@ def _add_states(root: etree._Element, scene: Scene, plan: Plan, recording: Recor
     section(root, "option").set("timestep", repr(recording.timestep))
     keys = etree.SubElement(root, "keyframe")
     for name, state in recording.states.items():
-        commands = _at(recording.commands, state.step, len(scene.actuators))
-        thrusts = _at(recording.thrusts, state.step, len(plan.rotors))
+        commands = _values_at(recording.commands, state.step, len(scene.actuators))
+        thrusts = _values_at(recording.thrusts, state.step, len(plan.rotors))
         etree.SubElement(
             keys,
             "key",
@@ -148,7 +148,7 @@ def _add_states(root: etree._Element, scene: Scene, plan: Plan, recording: Recor
         )
 
 
-def _at(changes: Changes, step: int, count: int) -> tuple[float, ...]:
+def _values_at(changes: Changes, step: int, count: int) -> tuple[float, ...]:
     """Return what holds in a step; zeros before the first change."""
     held = (0.0,) * count
     for begins, values in changes:
@@ -201,7 +201,7 @@ def controls_of(mjcf: etree._Element, scene: Scene, plan: Plan, recording: Recor
     names = [actuator.get("name") for actuator in section(mjcf, "actuator").iterchildren("*")]
     writer.writerow(["time", *names, *(f"belt:{belt.geom}" for belt in recording.belts)])
     for step in sorted({step for each in changes for step, _ in each}):
-        row = [_at(each, step, count) for each, count in zip(changes, counts, strict=True)]
+        row = [_values_at(each, step, count) for each, count in zip(changes, counts, strict=True)]
         time = repr(step * recording.timestep)
         writer.writerow([time, *(repr(value) for values in row for value in values)])
     return text.getvalue()

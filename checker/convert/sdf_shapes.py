@@ -172,18 +172,18 @@ class ShapeWriter:
                 add(geometry, name, exact_numbers(sizes))
 
     def _surface(self, element: etree._Element, part: PartOfBody) -> None:
-        for setting in self._of(part).collision:
+        for setting in self._settings_of(part).collision:
             child_of(element, *setting.path).text = setting.value
 
     def _paint(self, element: etree._Element, part: PartOfBody, visual: Visual) -> None:
-        paint = self.materials.of(visual, self._of(part).materials)
+        paint = self.materials.of(visual, self._settings_of(part).materials)
         if paint is not None:
             texture = self.mesh_uri(paint.texture) if paint.texture else ""
             paint.write(element, texture)
 
     def _blobs(self, element: etree._Element, part: PartOfBody) -> None:
         """Add what a `<gazebo>` tag holds for each shape of the link; it replaces what is there."""
-        for blob in self._of(part).shapes:
+        for blob in self._settings_of(part).shapes:
             if blob.tag != element.tag:
                 continue
             for child in blob.children:
@@ -191,7 +191,7 @@ class ShapeWriter:
                     element.remove(there)
                 element.append(copied(child.node))
 
-    def _of(self, part: PartOfBody) -> GazeboSettings:
+    def _settings_of(self, part: PartOfBody) -> GazeboSettings:
         return self.settings.get(part.link.name.value, self._nothing)
 
 

@@ -83,7 +83,7 @@ def urdf_attributes(path: str) -> dict[str, AttributeSpec]:
     Args:
         path: Below `<robot>`. In a macro it may begin anywhere: then the last tag alone counts.
     """
-    path = _known(path)
+    path = _table_path(path)
     beside = table("xml_meanings")["beside"].get(path, {"attributes": ()})
     known = {name: AttributeSpec() for name in beside["attributes"]}
     specified = table("urdf_spec")["elements"].get(path, {})
@@ -97,7 +97,7 @@ def urdf_children(path: str) -> tuple[str, ...]:
     Args:
         path: As of `urdf_attributes`; `robot` for the robot itself.
     """
-    path, spec = _known(path), table("urdf_spec")
+    path, spec = _table_path(path), table("urdf_spec")
     needed = list(spec["needs"].get(path, ()))
     if path in ("link/visual/geometry", "link/collision/geometry"):
         needed += spec["shapes"]
@@ -109,7 +109,7 @@ def urdf_children(path: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*needed, *beside, *below]))
 
 
-def _known(path: str) -> str:
+def _table_path(path: str) -> str:
     """Return the path of the tables that a path in a macro stands for, else itself."""
     known = _paths()
     if path in known:

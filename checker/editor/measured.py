@@ -32,12 +32,16 @@ class Measured(Record, eq=False):
         found = []
         for finding in self.report.findings:
             if finding.rule in self.rules:
-                places = [moved for place in finding.places if (moved := self._at(place, package))]
+                places = [
+                    moved
+                    for place in finding.places
+                    if (moved := self._current_place(place, package))
+                ]
                 if places and not places[0].note:
                     found.append(replace(finding, places=tuple(places), fix=None))
         return tuple(found)
 
-    def _at(self, place: Place, package: Package) -> Place | None:
+    def _current_place(self, place: Place, package: Package) -> Place | None:
         """Return where the element of a place is now; None where it is not any more."""
         if not place.file or _text(self.package, place.file) == _text(package, place.file):
             return place

@@ -55,19 +55,19 @@ class Navigator:
 
     def definitions(self, position: lsp.Position) -> list[lsp.Location]:
         """Return where the thing at a position is made."""
-        mention = self._at(position)
+        mention = self._mention_at(position)
         return list(self._locations(self._index.definitions(mention))) if mention else []
 
     def references(self, position: lsp.Position, *, definitions: bool) -> list[lsp.Location]:
         """Return where the thing at a position is named, also where it is made if wanted."""
-        mention = self._at(position)
+        mention = self._mention_at(position)
         found = self._index.references(mention) if mention else ()
         made = self._index.definitions(mention) if mention and not definitions else ()
         return list(self._locations(each for each in found if each not in made))
 
     def range(self, position: lsp.Position) -> lsp.Range | None:
         """Return the range of the name at a position; None where none can be changed."""
-        mention = self._at(position)
+        mention = self._mention_at(position)
         source = self._source(mention.path) if mention else None
         if mention is None or source is None:
             return None
@@ -77,7 +77,7 @@ class Navigator:
         self, position: lsp.Position, new: str, documents: Iterable[Document]
     ) -> lsp.WorkspaceEdit | str:
         """Return what names the thing at a position otherwise, or why it cannot be."""
-        mention = self._at(position)
+        mention = self._mention_at(position)
         if mention is None:
             return "there is no name here that can be changed"
         edits = self._index.rename(mention, new)
@@ -89,7 +89,7 @@ class Navigator:
                 return f"{edit.place.file} has changed; try again"
         return changes.edit
 
-    def _at(self, position: lsp.Position) -> Mention | None:
+    def _mention_at(self, position: lsp.Position) -> Mention | None:
         source = self._source(self._path)
         if source is None:
             return None

@@ -188,13 +188,13 @@ def _ros2_control(stem: str, target: Context) -> PluginFacts:
     of_release = [it for it in fitting if target.release in it["release"].lower()]
     entry = (of_release or fitting)[-1]
     classes = tuple(name.split(" ")[0] for name in entry["name"] if name != "any")
-    parameters = {it.path: it for it in map(_told, entry["params"])}
+    parameters = {it.path: it for it in map(_parameter, entry["params"])}
     note = f"hardware: {entry['hardware']}"
     return PluginFacts(
         entry["filename"][0], classes, "ros2_control", (entry["release"],), parameters, note
     )
 
 
-def _told(text: str) -> Parameter:
+def _parameter(text: str) -> Parameter:
     match = _TOLD.fullmatch(text)
     return Parameter(match[1], match[2]) if match else Parameter(text)

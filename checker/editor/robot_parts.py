@@ -121,7 +121,7 @@ def robot_parts(subject: Subject, path: str) -> RobotParts:
     if not isinstance(document, XmlDocument):
         return RobotParts(robots)
     own = tuple(robot for robot in robots if _is_about(robot, document))
-    return RobotParts(own or _read(subject, document) or robots)
+    return RobotParts(own or _robots(subject, document) or robots)
 
 
 def package_robots(subject: Subject) -> Iterator[Robot]:
@@ -145,7 +145,7 @@ def _is_about(robot: Robot, document: XmlDocument) -> bool:
     return any(part.element.document is document for part in parts)
 
 
-def _read(subject: Subject, document: XmlDocument) -> tuple[Robot, ...]:
+def _robots(subject: Subject, document: XmlDocument) -> tuple[Robot, ...]:
     if document.root.tag == "sdf":
         return tuple(read_sdf(document, ModelIncludes(subject.package)))
     is_xacro = "xmlns:xacro" in document.source.text

@@ -92,7 +92,7 @@ def rule_switched_off(
     source_file = settings.source if settings is not None else None
     file = source_file or state.unit.package.root / FILE_NAME
     document = next((each for each in documents.values() if each.path == file.resolve()), None)
-    source = document.source if document is not None else _read(file)
+    source = document.source if document is not None else _source(file)
     insertion = settings_insertion(source, rule)
     if insertion is None:
         return None
@@ -105,7 +105,7 @@ def rule_switched_off(
     return lsp.WorkspaceEdit(document_changes=[create, *edit.document_changes])
 
 
-def _read(file: Path) -> SourceText:
+def _source(file: Path) -> SourceText:
     source = read_text(file, file.name, SIZE_LIMIT)
     return SourceText(file.name, "") if isinstance(source, NotReadable) else source
 

@@ -60,14 +60,14 @@ class Units:
         return self._found[file]
 
     def _look_for(self, file: Path) -> Unit | None:
-        for path in self._around(file):
+        for path in self._candidates(file):
             opened = self._open(path)
             holding = [each for each in opened.packages if _holds(each, file)] if opened else []
             if holding:
                 return Unit(path, max(holding, key=lambda each: (len(each.root.parts), each.only)))
         return None
 
-    def _around(self, file: Path) -> Iterable[Path]:
+    def _candidates(self, file: Path) -> Iterable[Path]:
         """Yield what may be opened to find a file, what the user has opened first."""
         yield from (folder for folder in self.folders if file.is_relative_to(folder))
         try:

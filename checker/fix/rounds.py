@@ -54,15 +54,15 @@ class EditedText:
 
     def accepts(self, stretch: Stretch) -> bool:
         """Whether a stretch is free; one that is to become the same text already is."""
-        beside = self._beside(stretch)
+        beside = self._neighbours(stretch)
         return stretch in beside or not any(map(stretch.collides, beside))
 
     def add(self, stretch: Stretch) -> None:
         """Take a stretch that the text accepts among the edits."""
-        if stretch not in self._beside(stretch):
+        if stretch not in self._neighbours(stretch):
             insort(self.stretches, stretch)
 
-    def _beside(self, stretch: Stretch) -> list[Stretch]:
+    def _neighbours(self, stretch: Stretch) -> list[Stretch]:
         """Return the stretches in front of and behind a place; one that is further off is free."""
         behind = bisect_left(self.stretches, stretch)
         return self.stretches[max(behind - 1, 0) : behind + 1]

@@ -51,7 +51,7 @@ def uncommitted(folder: Path, paths: Sequence[str]) -> list[str]:
     changed = [path for path in paths if not _is_same(folder / path, committed.get(path, ""))]
     new = [f"./{path}" for path in changed if path not in committed]
     ask = ["check-ignore", "-z", "--stdin"]
-    ignored = _asked(git, folder, ask, {0, 1}, "\0".join(new)) if new else []
+    ignored = _git_fields(git, folder, ask, {0, 1}, "\0".join(new)) if new else []
     return [path for path in changed if f"./{path}" not in ignored]
 
 
@@ -64,15 +64,15 @@ def _committed(git: str, folder: Path, paths: Sequence[str]) -> dict[str, str]:
 
     With `./` in front, no name is an option or a pattern.
     """
-    if not _asked(git, folder, ["rev-parse", "--verify", "--quiet", "HEAD^{commit}"], {0, 1}):
+    if not _git_fields(git, folder, ["rev-parse", "--verify", "--quiet", "HEAD^{commit}"], {0, 1}):
         return {}
     here = [f"./{path}" for path in paths]
-    entries = _asked(git, folder, ["ls-tree", "-z", "HEAD", "--", *here], {0})
+    entries = _git_fields(git, folder, ["ls-tree", "-z", "HEAD", "--", *here], {0})
     split = (entry.partition("\t") for entry in entries)
     return {path: about.split()[-1] for about, _, path in split}
 
 
-def _asked(
+def _git_fields(
     git: str, folder: Path, words: Sequence[str], fine: set[int], given: str = ""
 ) -> list[str]:
     """Return what git answers, by its NUL characters.

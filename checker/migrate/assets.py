@@ -90,11 +90,11 @@ class Assets:
             for mesh in map(meshes.of, uris):
                 if isinstance(mesh, Mesh) and mesh.path in self._targets:
                     for named in (*mesh.textures, *mesh.materials):
-                        self._beside(mesh.path, named)
+                        self._add_neighbour(mesh.path, named)
         finally:
             meshes.stop()
 
-    def _beside(self, mesh: str, named: str) -> None:
+    def _add_neighbour(self, mesh: str, named: str) -> None:
         old = posixpath.normpath(posixpath.join(posixpath.dirname(mesh), named))
         new = posixpath.normpath(posixpath.join(posixpath.dirname(self._targets[mesh]), named))
         if old in self._targets or not self.source.package.exists(old):
@@ -111,10 +111,10 @@ class Assets:
 
     def _target(self, old: str) -> str:
         if old not in self._targets:
-            self._targets[old] = self._free(self._apart(old, _wanted(old)))
+            self._targets[old] = self._free(self._unique_folder(old, _target_path(old)))
         return self._targets[old]
 
-    def _apart(self, old: str, wanted: str) -> str:
+    def _unique_folder(self, old: str, wanted: str) -> str:
         """Keep meshes of different folders apart, for their textures may have the same names."""
         folder, name = posixpath.split(wanted)
         if _folder_for(name) == TEXTURES:
@@ -146,7 +146,7 @@ def _folder_for(name: str) -> str:
     return TEXTURES if name.lower().endswith(_PICTURES) else MESHES
 
 
-def _wanted(old: str) -> str:
+def _target_path(old: str) -> str:
     """Return where a file goes: below meshes/ as it lies there now, pictures with pictures."""
     name = posixpath.basename(old)
     if _folder_for(name) == TEXTURES:

@@ -202,10 +202,10 @@ def _mean_y(wheels: Sequence[Wheel]) -> float:
 
 
 def _places(wheels: Sequence[Wheel]) -> str:
-    return ", ".join(_shown(wheels))
+    return ", ".join(_wheel_texts(wheels))
 
 
-def _shown(wheels: Sequence[Wheel]) -> Iterator[str]:
+def _wheel_texts(wheels: Sequence[Wheel]) -> Iterator[str]:
     for wheel in wheels:
         at = "unknown" if wheel.centre is None else f"y {wheel.centre[1]:.3g} m"
         size = "no radius" if not wheel.radius else f"radius {wheel.radius:.3g} m"

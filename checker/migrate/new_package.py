@@ -182,7 +182,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
         NotMigrated: The package is there already, or the destination is a package itself, is no
             folder or cannot be written to.
     """
-    folders = _made(destination, package)
+    folders = _created_folders(destination, package)
     hidden: Path | None = None
     try:
         hidden = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=destination))
@@ -201,7 +201,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
                 folder.rmdir()
 
 
-def _made(destination: Path, package: str) -> list[Path]:
+def _created_folders(destination: Path, package: str) -> list[Path]:
     """Make the destination; return the folders that were not there, innermost first."""
     try:
         if destination.is_dir():

@@ -67,7 +67,7 @@ def servos_of(source: Source, robot: Robot) -> list[Servo]:
     if not isinstance(control, ControlSystem):
         return []
     servos: dict[str, Servo] = {}
-    for joint, gains in _held(control.controllers):
+    for joint, gains in _gains(control.controllers):
         own = robot.joints_by_name.get(joint)
         if own is None or not own.axes or joint in servos:
             continue
@@ -78,7 +78,7 @@ def servos_of(source: Source, robot: Robot) -> list[Servo]:
     return list(servos.values())
 
 
-def _held(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, float]]]:
+def _gains(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, float]]]:
     """Yield joints with their gains."""
     for controller in controllers:
         if controller.kind != _KIND:

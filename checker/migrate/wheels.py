@@ -63,16 +63,16 @@ def find_drive_wheels(
             make pairs.
     """
     if wishes.left_wheels or wishes.right_wheels:
-        return _named(robot, wishes.left_wheels, wishes.right_wheels, "from your options")
+        return _named_wheels(robot, wishes.left_wheels, wishes.right_wheels, "from your options")
     for carried in plugins:
         left, right = _of_plugin(carried, robot)
         if left and right:
             reason = f"named by {carried.plugin.filename.value}"
-            return _named(robot, left, right, reason)
+            return _named_wheels(robot, left, right, reason)
     return _guessed(robot, driven)
 
 
-def _named(robot: Robot, left: Iterable[str], right: Iterable[str], reason: str) -> Wheels:
+def _named_wheels(robot: Robot, left: Iterable[str], right: Iterable[str], reason: str) -> Wheels:
     reader, knuckles = _reader(robot)
     sides = []
     for side, names in ((Side.LEFT, left), (Side.RIGHT, right)):

@@ -41,11 +41,13 @@ class Breadcrumbs(Record, eq=False):
 def breadcrumbs(robot: Robot) -> tuple[Breadcrumbs, ...]:
     """Return what drops relays; a robot may have one plugin for each side."""
     return tuple(
-        _read(plugin) for plugin in robot.plugins if plugin.class_name == BREADCRUMBS_CLASS
+        _breadcrumbs_of(plugin)
+        for plugin in robot.plugins
+        if plugin.class_name == BREADCRUMBS_CLASS
     )
 
 
-def _read(plugin: Plugin) -> Breadcrumbs:
+def _breadcrumbs_of(plugin: Plugin) -> Breadcrumbs:
     return Breadcrumbs(
         plugin,
         plugin.number("max_deployments"),

@@ -62,14 +62,14 @@ def _sources(package: Package) -> Iterator[SourceText]:
         if _tells(file.path) and isinstance(source := package.read(file.path), SourceText):
             yield source
     if not package.only:
-        yield from _beside(package)
+        yield from _files_above(package)
 
 
 def _tells(path: str) -> bool:
     return any(pattern.search(path.lower()) for pattern in (_CONTAINER, _CI, _README))
 
 
-def _beside(package: Package) -> Iterator[SourceText]:
+def _files_above(package: Package) -> Iterator[SourceText]:
     """Yield the files at the top of the folder that the package and its siblings lie in."""
     top = package.workspace.directories[0]
     for folder in (".", ".devcontainer", ".github/workflows"):

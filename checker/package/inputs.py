@@ -168,7 +168,7 @@ def _opened(
     if not found.complete:
         reason = f"contains more than {MAX_FOLDERS} folders; the rest is not searched"
         skipped = (*skipped, Skipped("", reason))
-    beside = (*found.units, *_around(folder, within))
+    beside = (*found.units, *_siblings(folder, within))
     spaces: dict[Path, Workspace] = {}
     packages = []
     for unit in found.units:
@@ -180,7 +180,7 @@ def _opened(
     return Opened(next(iter(spaces.values())), tuple(packages), skipped)
 
 
-def _around(folder: Path, within: Path | None) -> tuple[Unit, ...]:
+def _siblings(folder: Path, within: Path | None) -> tuple[Unit, ...]:
     """Return what the package around a model folder or a file holds: its models' siblings."""
     enclosing = enclosing_package(folder.parent, FILE_LEVELS)
     if enclosing is None or (within is not None and not enclosing.is_relative_to(within)):
@@ -206,7 +206,7 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
 def _open_single(path: Path, file: Path) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
-    beside = _around(file, None)
+    beside = _siblings(file, None)
     workspace = Workspace(homes_of(beside, file.parent))
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))
 

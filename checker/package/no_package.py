@@ -51,7 +51,7 @@ class Instead(Record):
 
 def said_of_file(name: str) -> tuple[str, str]:
     """Return why a file that is neither archive nor model is not checked, and what to give."""
-    found = _of([name])
+    found = _instead([name])
     if found is None:
         return "is not a package, archive or model file", WHAT_TO_GIVE
     return f"is {found.kind}, not a package, archive or model file", found.advice
@@ -59,10 +59,10 @@ def said_of_file(name: str) -> tuple[str, str]:
 
 def found_in(folder: Path) -> Instead | None:
     """Return what a folder without a package holds; None where its names tell nothing."""
-    return _of(list(islice(_names(folder), _FILES_LIMIT)))
+    return _instead(list(islice(_names(folder), _FILES_LIMIT)))
 
 
-def _of(names: list[str]) -> Instead | None:
+def _instead(names: list[str]) -> Instead | None:
     for endings, (kind, advice) in _ADVICE.items():
         for name in names:
             if name.lower().endswith(endings):

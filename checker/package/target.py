@@ -50,18 +50,18 @@ def usual_profile(package: Package) -> str:
 def ros_2_package(package: Package) -> Package | None:
     """Return the package of ROS 2 that a package is, or that a model or file lies in."""
     manifest = None if package.only else package.xml("package.xml")
-    around = None if isinstance(manifest, XmlDocument) else _around(package)
+    around = None if isinstance(manifest, XmlDocument) else _enclosing(package)
     holders = (around, package)
     return next((each for each in holders if each and usual_profile(each) == ROS_2), None)
 
 
 def _usual_around(package: Package) -> str:
     """Return the profile of the package that a model or file lies in; empty without one."""
-    whole = _around(package)
+    whole = _enclosing(package)
     return usual_profile(whole) if whole is not None else ""
 
 
-def _around(package: Package) -> Package | None:
+def _enclosing(package: Package) -> Package | None:
     folder = package.root if package.only else package.root.parent
     around = enclosing_package(folder, _LEVELS)
     whole = package.workspace.package(around.name) if around else None

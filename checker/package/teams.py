@@ -56,7 +56,7 @@ def teams() -> tuple[Team, ...]:
 
 
 def _pattern(name: str) -> re.Pattern[str]:
-    return _alone(f"(?i:{name.replace(' ', '[ _-]{1,4}')})")
+    return _name_pattern(f"(?i:{name.replace(' ', '[ _-]{1,4}')})")
 
 
 def _common(name: str, known_as: str | None) -> re.Pattern[str]:
@@ -70,10 +70,10 @@ def _common(name: str, known_as: str | None) -> re.Pattern[str]:
         f"{word}{_CONFIGURED}",
         *([known_as] if known_as else []),
     ]
-    return _alone(f"(?:{'|'.join(forms)})")
+    return _name_pattern(f"(?:{'|'.join(forms)})")
 
 
-def _alone(name: str) -> re.Pattern[str]:
+def _name_pattern(name: str) -> re.Pattern[str]:
     return re.compile(rf"(?<![\w/.@-]){name}(?![^\W_]|[/.@]\w)")
 
 

@@ -80,9 +80,11 @@ def told_target(package: Package, distro: str = "") -> ToldTarget:
     signs = package.simulator_signs
     if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
         reason = f"Gazebo Classic 11, {_SUPPORT}: {signs[CLASSIC]}"
-        return ToldTarget(True, _known(distro or _OLDEST), reason)
+        return ToldTarget(True, _known_distribution(distro or _OLDEST), reason)
     if named is not None:
-        return ToldTarget(False, _known(distro), f"ROS 2 {distro.capitalize()}: {named.words}")
+        return ToldTarget(
+            False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
+        )
     if [*signs] == [IGNITION] and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return ToldTarget(False, _OLDEST, reason)
@@ -95,7 +97,7 @@ def is_described_for_ros_2(package: Package) -> bool:
     return any(_in_files(package, paths, {GZ: _OF_ROS_2}))
 
 
-def _known(distro: str) -> str:
+def _known_distribution(distro: str) -> str:
     known = (entry["distro"] for entry in table("gazebo_releases")["ros"])
     return distro if distro in known else _OLDEST
 

@@ -69,7 +69,7 @@ class _Walk:
         while pending and len(self.entries) <= MAX_ENTRIES:
             prefix, location = pending.pop()
             for item in self._items(prefix, location):
-                entry = self._entry(prefix + _shown(item.name), item)
+                entry = self._entry(prefix + _printable(item.name), item)
                 if entry is None:
                     continue
                 self.entries[entry.path] = entry
@@ -107,7 +107,7 @@ class _Walk:
         return FileEntry(path, kind, size, Path(item.path), kind)
 
     def _link(self, path: str, location: Path) -> FileEntry:
-        target = _shown(str(location.readlink()))
+        target = _printable(str(location.readlink()))
         state = self._state(location)
         if state in (LinkState.OK, LinkState.SIBLING):
             entry = entry_at(location, path, self.root, self.inside)
@@ -135,6 +135,6 @@ class _Walk:
         self.faults.append(IndexFault(path, reason))
 
 
-def _shown(name: str) -> str:
+def _printable(name: str) -> str:
     """Return a name that can be printed: bytes that are not UTF-8 become replacement marks."""
     return name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")

@@ -75,10 +75,10 @@ class Workspace(Record, eq=False, dict=True):
         if self.ignores(name):
             return None
         for directory in self.directories:
-            if found := self._at(directory / name):
+            if found := self._package_at(directory / name):
                 return found
         if name in PROVIDED:
-            return self._above(name)
+            return self._package_above(name)
         folder = self._folder_by_declared_name.get(name)
         return self.at(folder) if folder else None
 
@@ -130,7 +130,7 @@ class Workspace(Record, eq=False, dict=True):
                     return True
         return False
 
-    def _at(self, folder: Path) -> Package | None:
+    def _package_at(self, folder: Path) -> Package | None:
         try:
             real = folder.resolve(strict=True)
             is_package = looks_like_package(real)
@@ -138,7 +138,7 @@ class Workspace(Record, eq=False, dict=True):
             return None
         return self.at(real) if is_package and self.holds(real) else None
 
-    def _above(self, name: str) -> Package | None:
+    def _package_above(self, name: str) -> Package | None:
         """Return a package that lies up to `LEVELS_ABOVE` folders above; links are not followed."""
         for directory in self.directories:
             for above in islice(directory.parents, LEVELS_ABOVE):

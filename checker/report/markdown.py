@@ -51,7 +51,7 @@ def _verdicts(report: Report) -> Iterator[str]:
     if len(report.packages) > 1:
         yield f"## {ready_of_all(report.packages)}"
         table, left = summary_markdown(report.packages, _PACKAGES_ROOM)
-        yield table + _left(left, "package")
+        yield table + _remainder(left, "package")
     for package in report.packages if len(report.packages) == 1 else ():
         verdict, name = sentence(package), _short(package.name)
         aside = f" ({escaped(verdict.aside)})" if verdict.aside else ""
@@ -59,7 +59,7 @@ def _verdicts(report: Report) -> Iterator[str]:
         yield f"{escaped(verdict.rest)}{aside}"
     unopened = [item for item in report.not_opened if item.failed]
     rows, left = fitting(unopened, _unopened, _DETAILS_ROOM)
-    yield "\n".join(rows) + _left(left, "path")
+    yield "\n".join(rows) + _remainder(left, "path")
 
 
 def _unopened(item: NotOpened) -> str:
@@ -71,7 +71,7 @@ def _findings(findings: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
     if not rows:
         return ""
     head = ["| severity | rule | place | what |", "|---|---|---|---|"]
-    return "\n".join([*head, *rows]) + _left(left, "finding", "; `--format json` lists all")
+    return "\n".join([*head, *rows]) + _remainder(left, "finding", "; `--format json` lists all")
 
 
 def _row(pair: tuple[PackageReport, ReportedFinding]) -> str:
@@ -141,11 +141,11 @@ def _folded(title: str, items: Sequence[T], line: Callable[[T], str]) -> str:
     rows, left = fitting(items, line, _DETAILS_ROOM)
     if not rows:
         return ""
-    body = "\n".join(rows) + _left(left, "line")
+    body = "\n".join(rows) + _remainder(left, "line")
     return f"<details><summary>{title}</summary>\n\n{body}\n\n</details>"
 
 
-def _left(number: int, noun: str, end: str = "") -> str:
+def _remainder(number: int, noun: str, end: str = "") -> str:
     return f"\n\nand {count(number, f'more {noun}')}{end}" if number else ""
 
 

@@ -70,7 +70,7 @@ def region(place: Place) -> Json:
     if (place.line, place.column) >= (place.end_line, place.end_column):
         return {"startLine": place.line}
     stretch = _stretch(place)
-    if _shown(place):
+    if _is_whole(place):
         stretch["snippet"] = {"text": plain(place.snippet[place.column - 1 : place.end_column - 1])}
     return stretch
 
@@ -78,7 +78,7 @@ def region(place: Place) -> Json:
 def _context(place: Place) -> Json:
     """Return the line around a stretch; it must be more than the stretch itself."""
     whole = place.column == 1 and place.end_column > len(place.snippet)
-    if whole or not _shown(place):
+    if whole or not _is_whole(place):
         return {}
     return {
         "startLine": place.line,
@@ -89,7 +89,7 @@ def _context(place: Place) -> Json:
     }
 
 
-def _shown(place: Place) -> bool:
+def _is_whole(place: Place) -> bool:
     """Say whether the snippet, which may be cut, holds the whole stretch."""
     inside = place.column < place.end_column <= len(place.snippet) + 1
     return place.line == place.end_line and inside

@@ -155,7 +155,7 @@ class TextReport:
             self._owners |= owned_by(package)
             self._waiting.append(package)
         while self._waiting and not self._must_wait(self._waiting[0]):
-            yield self._told(self._waiting.pop(0))
+            yield self._package_text(self._waiting.pop(0))
 
     def rest(self) -> Iterator[str]:
         """Yield what had to wait."""
@@ -169,7 +169,7 @@ class TextReport:
         paths = (path_of(found.places[0], package) for found in foreign_findings(package))
         return any(path.startswith(f"{awaited}/") for path in paths for awaited in self._awaited)
 
-    def _told(self, package: PackageReport) -> str:
+    def _package_text(self, package: PackageReport) -> str:
         if self._settings.concise:
             return concise_text(package, self._owners, self._settings)
         gap = "" if self._is_first or self._settings.quiet else "\n"

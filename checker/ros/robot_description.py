@@ -61,13 +61,13 @@ def robot_descriptions(launch: LaunchGraph) -> list[RobotDescription]:
     """Return the descriptions that a launch graph sets, private ones of nodes left out."""
     private = {node.full_name for node in launch.nodes}
     return [
-        _read(param)
+        _description(param)
         for param in launch.params
         if posixpath.basename(param.name) == NAME and posixpath.dirname(param.name) not in private
     ]
 
 
-def _read(param: Param) -> RobotDescription:
+def _description(param: Param) -> RobotDescription:
     if param.kind != "command":
         files = _files([param.value]) if param.kind in ("textfile", "load") else ()
         return RobotDescription(param, tuple(files), {}, uses_xacro=False)

@@ -75,7 +75,7 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
     for node in graph.nodes:
         server = node.package.value in GAZEBO and node.executable.value in _SERVERS
         if server and node.starts is not False:
-            yield _given(package, node.parameters, node.span, node.starts)
+            yield _server_of_node(package, node.parameters, node.span, node.starts)
 
 
 def is_gazebo(process: Process) -> bool:
@@ -151,7 +151,7 @@ def _commanded(
     yield replace(server, engine=engine)
 
 
-def _given(
+def _server_of_node(
     package: Package, parameters: Sequence[object], span: Span, starts: bool | None
 ) -> GazeboServer:
     """Return the server that a node is, by its parameters."""

@@ -150,7 +150,7 @@ def _of_plugin(plugin: Plugin) -> Iterator[SimulatedTopic]:
     ):
         stated = [text.value.strip() for text in plugin.at(parameter)] if parameter else []
         for topic in [it for it in stated if it] or _filled(plugin, default):
-            carried = _carried(plugin, messages)
+            carried = _messages(plugin, messages)
             way = Direction(direction)
             yield SimulatedTopic("/" + topic.strip("/"), carried, way, plugin)
 
@@ -168,7 +168,7 @@ def _filled(plugin: Plugin, default: str) -> Iterator[str]:
         yield topic
 
 
-def _carried(plugin: Plugin, messages: Sequence[Any]) -> tuple[str, ...]:
+def _messages(plugin: Plugin, messages: Sequence[Any]) -> tuple[str, ...]:
     """Return the messages; PosePublisher states which of two it publishes."""
     if list(messages) != ["Pose", "Pose_V"]:
         return tuple(messages)

@@ -96,7 +96,7 @@ class SpawnedReader:
                 continue
             if node.starts is False:
                 continue
-            given = _given(node, loaded)
+            given = _descriptions_of(node, loaded)
             if not given:
                 unknown.append(f"what {node.executable.value} spawns is not known")
             for description in given:
@@ -122,10 +122,10 @@ class SpawnedReader:
         load = description.load
         key = f"{load.path} {sorted(load.args.items())}"
         if key not in self._known:
-            self._known[key] = self._read(load)
+            self._known[key] = self._described_robot(load)
         return self._known[key]
 
-    def _read(self, load: Load) -> _Described | str:
+    def _described_robot(self, load: Load) -> _Described | str:
         path = local_path(self._package, load.path)
         if path is None:
             return f"{shown(load.path)} is not found"
@@ -156,7 +156,7 @@ def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
             yield "what a command spawns is not known"
 
 
-def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
+def _descriptions_of(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
     """Return the descriptions that a node spawns: its own, or what is published on a topic."""
     own = [description for description in loaded if description.node is node]
     words = [word.value for word in node.arguments]

@@ -42,10 +42,10 @@ class OpticalFrame(Record, eq=False):
 
 def optical_frames(nodes: Iterable[Node]) -> tuple[OpticalFrame, ...]:
     """Return the optical_frame_publishers among some nodes."""
-    return tuple(_read(node) for node in nodes if node.type == PROGRAM)
+    return tuple(_optical_frame(node) for node in nodes if node.type == PROGRAM)
 
 
-def _read(node: Node) -> OpticalFrame:
+def _optical_frame(node: Node) -> OpticalFrame:
     sources = {resolve_name(remap.source, node.namespace, node.name) for remap in node.remaps}
     names = [
         name

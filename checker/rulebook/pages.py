@@ -190,12 +190,12 @@ def _example(example: object) -> str:
             return _fenced(example, "model.sdf")
         case Mapping() if len(example) == 1:
             ((path, text),) = example.items()
-            return _shown(path, text)
+            return _example_block(path, text)
         case _:
             return ""
 
 
-def _shown(path: str, text: Any) -> str:
+def _example_block(path: str, text: Any) -> str:
     if path == "@ros2" and isinstance(text, str):
         return _fenced(dedent(text), "arm.launch.py")
     if path == "@bridge" and isinstance(text, str):

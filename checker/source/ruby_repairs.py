@@ -52,7 +52,7 @@ def repaired(
         _grammars(tree, nodes),
         _closed_at_the_end(tree, opened),
         _closed_at_the_end(tree, _unpaired(tokens, _QUOTES)[0]),
-        _without(tree, surplus),
+        _removals(tree, surplus),
         _heredocs(tree, nodes),
         _quotes(tree, suspects),
         _brackets(tree, opened, suspects),
@@ -119,7 +119,7 @@ def _grammars(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
     for node in nodes:
         for child in node.children:
             if child.missing and not child.named and node.children[0] is not child:
-                text = _with(tree.source.text, child.start, child.type)
+                text = _insert(tree.source.text, child.start, child.type)
                 yield text, _opened(tree, node.children[0])
 
 
@@ -161,7 +161,7 @@ def _closed_at_the_end(tree: RubyNode, opened: Sequence[RubyNode]) -> Iterator[_
         yield "\n".join((tree.source.text, *closing)), _opened(tree, opened[0])
 
 
-def _without(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_Repair]:
+def _removals(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_Repair]:
     text = tree.source.text
     for token in surplus[:_SUSPECTS]:
         yield text[: token.start] + text[token.end :], _unopened(token)
@@ -176,7 +176,7 @@ def _opening_brackets(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_
     opening = {closing: opening for opening, closing in _CLOSING.items() if len(opening) == 1}
     for token in surplus[:_SUSPECTS]:
         for at in range(_line(text, token.start)[0], token.start):
-            yield _with(text, at, opening.get(token.type, "")), _unopened(token)
+            yield _insert(text, at, opening.get(token.type, "")), _unopened(token)
 
 
 def _heredocs(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
@@ -192,7 +192,7 @@ def _heredocs(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
             fault = (node.span, f"no heredoc is open that this {node.text} closes")
             for at in inner[:_SUSPECTS]:
                 end = _line(text, text.rfind("\n", 0, at))[1]
-                yield _with(text, end, f" <<-{node.text}"), fault
+                yield _insert(text, end, f" <<-{node.text}"), fault
 
 
 def _suspects(nodes: Sequence[RubyNode], errors: Sequence[RubyNode]) -> list[int]:
@@ -238,7 +238,7 @@ def _quotes(tree: RubyNode, suspects: Sequence[int]) -> Iterator[_Repair]:
             if line.count(quote) % 2:
                 at = start + line.index(quote)
                 fault = (Span(tree.source, at, at + 1), "the quotes of this line are not paired")
-                yield from ((_with(text, i, quote), fault) for i in _gaps(text, start, end))
+                yield from ((_insert(text, i, quote), fault) for i in _gaps(text, start, end))
 
 
 def _brackets(
@@ -249,7 +249,7 @@ def _brackets(
     for token in [token for token in opened if token.type in _CLOSING][:_SUSPECTS]:
         places = [*_gaps(text, token.end, _line(text, token.start)[1]), *suspects]
         for at in places:
-            yield _with(text, at, _CLOSING[token.type]), _opened(tree, token)
+            yield _insert(text, at, _CLOSING[token.type]), _opened(tree, token)
 
 
 def _gaps(text: str, start: int, end: int) -> list[int]:
@@ -257,5 +257,5 @@ def _gaps(text: str, start: int, end: int) -> list[int]:
     return [end, *(start + gap.start() for gap in re.finditer(r"\b|(?<=\W)", text[start:end]))]
 
 
-def _with(text: str, at: int, piece: str) -> str:
+def _insert(text: str, at: int, piece: str) -> str:
     return text[:at] + piece + text[at:]

@@ -132,7 +132,7 @@ _NONE: Mapping[str, str] = MappingProxyType({})
 """One for all elements without attributes: a text may have millions."""
 
 
-def _own(attributes: Mapping[str, str]) -> Mapping[str, str]:
+def _without_namespaces(attributes: Mapping[str, str]) -> Mapping[str, str]:
     """Return attributes without the declarations of namespaces."""
     return {name: value for name, value in attributes.items() if name.split(":")[0] != "xmlns"}
 
@@ -170,7 +170,7 @@ class _TagReader:
         return self.tags
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
-        own = _own(attributes) if attributes else _NONE
+        own = _without_namespaces(attributes) if attributes else _NONE
         tag = TagPosition(name, own, self.parser.CurrentByteIndex, -1, -1, -1)
         self.open_tags.append(tag)
         self.tags.append(tag)

@@ -52,9 +52,7 @@ def check(
     if total not in counts:
         yield finding(numbers[0], f"the robot carries {total:g} breadcrumbs, expected {expected}")
     for item in (
-        []
-        if specification is None
-        else _listed_breadcrumbs(specification, configuration_number(package.name))
+        [] if specification is None else _items(specification, configuration_number(package.name))
     ):
         if item.count != total:
             yield finding(
@@ -78,7 +76,7 @@ def _missing_parameters(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
             yield finding(plugin, message, key=f"no {tag}")
 
 
-def _listed_breadcrumbs(sheet: Specification, number: int | None) -> list[ListedSensor]:
+def _items(sheet: Specification, number: int | None) -> list[ListedSensor]:
     """Return what the sheet lists for a configuration, when all of it says one number."""
     items = [
         item

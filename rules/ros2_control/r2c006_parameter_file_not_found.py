@@ -39,15 +39,13 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
             if file.path is None and file.package:
                 yield from _elsewhere(file, package, papers)
             elif file.path is not None and not file.exists:
-                yield finding(
-                    file.text, f"{_path_in_package(file)} does not exist (looked for {file.path})"
-                )
+                yield finding(file.text, f"{_label(file)} does not exist (looked for {file.path})")
             elif file.path is not None and file.package:
                 holder, path = listed(package, file.path)
                 # Under another path than in the source it was found because it is installed there.
                 left = left_out(package, holder, path) if path == _path_below_share(file) else None
                 if left is not None:
-                    message = f"{_path_in_package(file)} is not installed: {left.instead}"
+                    message = f"{_label(file)} is not installed: {left.instead}"
                     yield finding(file.text, message, key=left.around)
 
 
@@ -61,7 +59,7 @@ def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Fin
     here = bool(path) and package.exists(path)
     yield finding(
         file.text,
-        f"{_path_in_package(file)} is in package {file.package!r}, which is not available and which "
+        f"{_label(file)} is in package {file.package!r}, which is not available and which "
         f"package.xml does not depend on{f'; {path} is in this package' if here else ''}",
         severity=None if here else Severity.WARNING,
     )
@@ -72,7 +70,7 @@ def _path_below_share(file: ParametersFile) -> str:
     return file.text.value.partition(file.package)[2].lstrip(")/")
 
 
-def _path_in_package(file: ParametersFile) -> str:
+def _label(file: ParametersFile) -> str:
     return file.text.value.removeprefix(f"{ROOT}/")
 
 

@@ -31,7 +31,7 @@ def check(world: World, context: Context) -> Findings:
         library = f"{_prefix(context.release)}-{system}-system"
         yield finding(
             world,
-            f"{_sensors_phrase(sensors)} no data: no plugin in world {world.name!r} loads {library}",
+            f"{_label(sensors)} no data: no plugin in world {world.name!r} loads {library}",
             severity=None if settled else Severity.WARNING,
             key=f"{world.name} {system}",
             related=_own_sensors(world, sensors),
@@ -42,7 +42,7 @@ def _prefix(release: str) -> str:
     return "ignition-gazebo" if release == "fortress" else "gz-sim"
 
 
-def _sensors_phrase(sensors: list[tuple[Robot, Sensor]]) -> str:
+def _label(sensors: list[tuple[Robot, Sensor]]) -> str:
     model, sensor = sensors[0]
     first = f"sensor {sensor.name.value!r} of {model.name.value!r}"
     if len(sensors) == 1:

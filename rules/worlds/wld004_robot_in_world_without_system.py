@@ -97,7 +97,7 @@ def _effects(
             silent.setdefault(system, []).append(sensor)
     for system, sensors in silent.items():
         gives = "give" if len(sensors) > 1 else "gives"
-        yield system, f"{_sensors_phrase(sensors)} of {name!r} {gives} no data", sensors
+        yield system, f"{_label(sensors)} of {name!r} {gives} no data", sensors
 
 
 def _related_places(
@@ -110,7 +110,7 @@ def _related_places(
         yield sensor, "this sensor"
 
 
-def _sensors_phrase(sensors: list[Sensor]) -> str:
+def _label(sensors: list[Sensor]) -> str:
     first = f"sensor {sensors[0].name.value!r}"
     others = len(sensors) - 1
     return f"{first} and {others} other{'s' if others > 1 else ''}" if others else first

@@ -41,7 +41,7 @@ def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list
     parents = (parent for path in paths for parent in reversed(Path(path).parents))
     folders = dict.fromkeys(parent for parent in parents if str(parent) not in _LINKS)
     shown = [word for folder in folders if folder.name for word in ("--dir", str(folder))]
-    shown += [word for path in paths for word in _shown(path)]
+    shown += [word for path in paths for word in _mount_options(path)]
     place = ("--bind", work, WORK) if work else ("--tmpfs", WORK)
     return [*_BWRAP, *_rights(), *_OWN, *shown, *place, "--chdir", "/", "--", *command]
 
@@ -66,7 +66,7 @@ def _rights() -> tuple[str, ...]:
     return ("--unshare-user", "--cap-drop", "ALL")
 
 
-def _shown(path: str) -> tuple[str, ...]:
+def _mount_options(path: str) -> tuple[str, ...]:
     if path in _LINKS and os.path.islink(path):  # noqa: PTH114 - where they are parts of /usr
         return ("--symlink", os.readlink(path), path)  # noqa: PTH115
     return ("--ro-bind-try", path, path)

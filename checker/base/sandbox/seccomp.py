@@ -145,7 +145,11 @@ def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = Tr
     also = (*(() if opens else _OPENING), *(() if changes else _CHANGING))
     _hold(
         machine,
-        [*_refused(machine, (*FORBIDDEN, *also)), *_own(machine, signals), *_partly(machine)],
+        [
+            *_refused(machine, (*FORBIDDEN, *also)),
+            *_process_steps(machine, signals),
+            *_partly(machine),
+        ],
     )
 
 
@@ -162,7 +166,7 @@ def forbid_others(*, changes: bool = True) -> None:
     """
     machine = _machine()
     also = () if changes else _CHANGING
-    _hold(machine, [*_refused(machine, also), *_own(machine, signals=False)])
+    _hold(machine, [*_refused(machine, also), *_process_steps(machine, signals=False)])
 
 
 def _machine() -> Architecture:
@@ -188,33 +192,33 @@ def _hold(machine: Architecture, steps: Iterable[Step]) -> None:
 def _refused(machine: Architecture, names: Iterable[str]) -> Iterator[Step]:
     """Yield the steps that refuse calls, whatever their arguments."""
     for name in names:
-        yield from _on(name, machine, [(_RETURN, 0, 0, _ERROR | _EPERM)])
+        yield from _call_steps(name, machine, [(_RETURN, 0, 0, _ERROR | _EPERM)])
 
 
 def _partly(machine: Architecture) -> Iterator[Step]:
     """Yield the steps that refuse calls with some arguments."""
     # glibc goes back to clone(2), whose flags can be looked at.
-    yield from _on("clone3", machine, [(_RETURN, 0, 0, _ERROR | _ENOSYS)])
-    yield from _on("clone", machine, _refused_if(_ANY_BIT, 0, (_NEW_NAMESPACES,)))
-    yield from _on("ioctl", machine, _refused_if(_EQUAL, 1, _IOCTLS))
-    yield from _on("fcntl", machine, _refused_if(_EQUAL, 1, _FCNTLS))
+    yield from _call_steps("clone3", machine, [(_RETURN, 0, 0, _ERROR | _ENOSYS)])
+    yield from _call_steps("clone", machine, _refused_if(_ANY_BIT, 0, (_NEW_NAMESPACES,)))
+    yield from _call_steps("ioctl", machine, _refused_if(_EQUAL, 1, _IOCTLS))
+    yield from _call_steps("fcntl", machine, _refused_if(_EQUAL, 1, _FCNTLS))
 
 
-def _own(machine: Architecture, signals: bool) -> Iterator[Step]:
+def _process_steps(machine: Architecture, signals: bool) -> Iterator[Step]:
     """Yield the steps that refuse calls about other processes.
 
     Without signals, a process can also not leave the group that the launcher has put it into.
     """
     own = os.getpid()
     for name, argument in _OWN_PROCESS_ONLY.items():
-        yield from _on(name, machine, _refused_unless(argument, (0, own)))
+        yield from _call_steps(name, machine, _refused_unless(argument, (0, own)))
     if not signals:
         yield from _refused(machine, _LEAVING)
     for name in () if signals else _SIGNALS:
-        yield from _on(name, machine, _refused_unless(0, (own,)))
+        yield from _call_steps(name, machine, _refused_unless(0, (own,)))
 
 
-def _on(name: str, machine: Architecture, then: list[Step]) -> list[Step]:
+def _call_steps(name: str, machine: Architecture, then: list[Step]) -> list[Step]:
     """Return the steps that do something about one call."""
     number = machine.calls[name]
     return [] if number is None else [(_EQUAL, 0, len(then), number), *then]

@@ -93,8 +93,8 @@ def _to_renew(options: argparse.Namespace) -> Baseline:
         with suppress(UnreadableInput):  # said when it is to be checked
             named |= {settings.baseline.path for settings in settings_of(path)}
     only = named.pop() if len(named) == 1 else None
-    return baseline_to_renew(_from(here(), only) if only else Path(DEFAULT_FILE))
+    return baseline_to_renew(_relative(here(), only) if only else Path(DEFAULT_FILE))
 
 
-def _from(folder: Path, path: Path) -> Path:
+def _relative(folder: Path, path: Path) -> Path:
     return path.relative_to(folder) if path.is_relative_to(folder) else path

@@ -51,7 +51,7 @@ def write_files(package: Package, files: Iterable[FixedFile]) -> None:
         for file in files:
             target = _target(package, file)
             _tidy(target)
-            prepared.append((_beside(target, _content(target, file)), target))
+            prepared.append((_temporary_copy(target, _content(target, file)), target))
         while prepared:
             new, target = prepared[0]
             new.replace(target)
@@ -94,7 +94,7 @@ def _tidy(target: Path) -> None:
         left.unlink()
 
 
-def _beside(target: Path, content: bytes) -> Path:
+def _temporary_copy(target: Path, content: bytes) -> Path:
     """Write the content into a new file in the same folder, with the same permissions."""
     number, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=_SUFFIX, dir=target.parent)
     new = Path(name)

@@ -47,12 +47,14 @@ def expressions(request: Request) -> list[Completion] | None:
 
 def _values(request: Request, written: str) -> Iterator[Completion]:
     start = _start(request, written)
-    for parameter in _around(request):
-        yield _inside(request, parameter.name, CompletionKind.PARAMETER, parameter.words, 0, start)
+    for parameter in _macro_parameters(request):
+        yield _expression_word(
+            request, parameter.name, CompletionKind.PARAMETER, parameter.words, 0, start
+        )
     for name, known in request.names.properties.items():
-        yield _inside(request, name, CompletionKind.PROPERTY, known.value[:80], 2, start)
+        yield _expression_word(request, name, CompletionKind.PROPERTY, known.value[:80], 2, start)
     for name in _CONSTANTS:
-        yield _inside(request, name, CompletionKind.VALUE, "", 6, start)
+        yield _expression_word(request, name, CompletionKind.VALUE, "", 6, start)
 
 
 def _commands(request: Request, written: str) -> Iterator[Completion]:
@@ -60,16 +62,16 @@ def _commands(request: Request, written: str) -> Iterator[Completion]:
     if not blank:
         start = _start(request, written)
         for name in _COMMANDS:
-            yield _inside(request, name, CompletionKind.VALUE, "", 2, start)
+            yield _expression_word(request, name, CompletionKind.VALUE, "", 2, start)
         return
     start = request.offset - len(rest.lstrip())
     if command == "arg":
         for name, known in request.names.arguments.items():
             detail = "required" if known.default is None else f"default {known.default[:80]}"
-            yield _inside(request, name, CompletionKind.ARGUMENT, detail, 0, start)
+            yield _expression_word(request, name, CompletionKind.ARGUMENT, detail, 0, start)
     elif command == "find":
         for name in packages(request):
-            yield _inside(request, name, CompletionKind.PACKAGE, "", 0, start)
+            yield _expression_word(request, name, CompletionKind.PACKAGE, "", 0, start)
 
 
 def packages(request: Request) -> list[str]:
@@ -83,7 +85,7 @@ def _start(request: Request, written: str) -> int:
     return request.offset - (len(match[0]) if match is not None else 0)
 
 
-def _inside(
+def _expression_word(
     request: Request, name: str, kind: CompletionKind, detail: str, rank: int, start: int
 ) -> Completion:
     """Return a word of an expression: it goes from its start to the caret alone."""
@@ -91,7 +93,7 @@ def _inside(
     return Completion(name, kind, detail, "", name, start, request.offset, False, text)
 
 
-def _around(request: Request) -> tuple[MacroParameter, ...]:
+def _macro_parameters(request: Request) -> tuple[MacroParameter, ...]:
     """Return the parameters of the macro around the caret, as the text has them now."""
     macros = (it for it in reversed(request.xml.around) if it.tag == f"{PREFIX}macro")
     macro = next(macros, None)
@@ -150,7 +152,7 @@ def values(request: Request) -> Iterator[Completion]:
     """Yield what an attribute of xacro's own may say: names of blocks, of macros."""
     here = (request.xml.tag, request.xml.attribute)
     if here == (f"{PREFIX}insert_block", "name"):
-        for it in _around(request):
+        for it in _macro_parameters(request):
             if it.block:
                 yield request.item(it.name, CompletionKind.PARAMETER, rank=0)
     elif here == (f"{PREFIX}call", "macro"):

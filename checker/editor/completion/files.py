@@ -33,7 +33,7 @@ class _Wanted(Record):
 
 def files(request: Request) -> Iterator[Completion]:
     """Yield packages, folders and files that may go on at the caret."""
-    wanted = _wanted(request)
+    wanted = _wanted_kind(request)
     if wanted is None:
         return
     typed = request.xml.typed
@@ -52,7 +52,7 @@ def files(request: Request) -> Iterator[Completion]:
         yield from _starts(request, wanted)
 
 
-def _wanted(request: Request) -> _Wanted | None:
+def _wanted_kind(request: Request) -> _Wanted | None:
     """Return what kind of file the caret's place names; None where it names none."""
     xml = request.xml
     if xml.where is Where.VALUE and xml.attribute == "filename":

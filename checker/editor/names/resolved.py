@@ -140,7 +140,7 @@ class Lookup:
         self, path: str, name: str, kinds: tuple[NameKind, ...], role: Role, depth: int = 0
     ) -> Iterator[Key]:
         """Yield what a name means in a file, or in the models that it includes."""
-        found = [*self._own(path, name, kinds)]
+        found = [*self._named_things(path, name, kinds)]
         if found:
             yield from found if role is Role.MAY_NAME else found[:1]
         elif depth < _DEPTH:
@@ -150,7 +150,7 @@ class Lookup:
                 elif target != path:
                     yield from self._in_file(target, rest, kinds, role, depth + 1)
 
-    def _own(self, path: str, name: str, kinds: tuple[NameKind, ...]) -> Iterator[Key]:
+    def _named_things(self, path: str, name: str, kinds: tuple[NameKind, ...]) -> Iterator[Key]:
         """Yield the things of a file that have a name."""
         for kind in kinds:
             scope = self._scope(kind, path)

@@ -124,11 +124,11 @@ class LaunchFiles(Record):
         """Return an included file; see `ReadLaunch`."""
         del from_file  # all paths start at the package's folder
         if not package:
-            return self._read(path)
+            return self._document(path)
         prefix = self._folder(package)
         if prefix is None:
             return f"package {package} is not available"
-        return self._read(posixpath.join(prefix, path))
+        return self._document(posixpath.join(prefix, path))
 
     def path_of(self, text: str) -> str | None:
         """Return the path of `$(find package)/path`; None when the package is not available."""
@@ -149,7 +149,7 @@ class LaunchFiles(Record):
             candidate.path for candidate in files if posixpath.basename(candidate.path) == file
         )
         path = next(named, f"launch/{file}")
-        return self._read(posixpath.join(prefix, path))
+        return self._document(posixpath.join(prefix, path))
 
     def _folder(self, name: str) -> str | None:
         """Return the way from the package to another one."""
@@ -160,7 +160,7 @@ class LaunchFiles(Record):
             return None
         return "" if package is self.package else f"../{package.name}"
 
-    def _read(self, path: str) -> XmlDocument | str:
+    def _document(self, path: str) -> XmlDocument | str:
         document = self.package.xml(posixpath.normpath(path))
         if isinstance(document, XmlDocument):
             return document

@@ -83,7 +83,10 @@ def nodes_of(file: KnownFile, context: Context, span: Span) -> Iterator[Node]:
     for node in file.nodes:
         yield _node(node, given, context.under(_unsure(span, in_some=node.in_some)), span)
     for include in file.includes:
-        conditions = (*_when(include.when, given, span), *_unsure(span, in_some=include.in_some))
+        conditions = (
+            *_conditions(include.when, given, span),
+            *_unsure(span, in_some=include.in_some),
+        )
         yield from nodes_of(_files()[include.file], context.under(conditions), span)
 
 
@@ -94,7 +97,9 @@ def _value(name: str, file: KnownFile, context: Context, span: Span) -> str:
     return _UNKNOWN if isinstance(text, Unknown) else str(text)
 
 
-def _when(when: Mapping[str, str], given: Mapping[str, str], span: Span) -> Iterator[Condition]:
+def _conditions(
+    when: Mapping[str, str], given: Mapping[str, str], span: Span
+) -> Iterator[Condition]:
     for name, wanted in when.items():
         holds = given[name].lower() == wanted if is_known(given[name]) else None
         yield Condition(Located(given[name], span), wanted=True, holds=holds)

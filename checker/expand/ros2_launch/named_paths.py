@@ -49,10 +49,10 @@ class NamedPath(Record, eq=False):
 def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
     """Yield the files in share folders that a launch file names; what has no suffix is none."""
     for use in graph.files:
-        yield from _named(use.text.value, use.text.span, needed=use.certain)
+        yield from _paths(use.text.value, use.text.span, needed=use.certain)
     for include in graph.includes:
         needed = include.starts is True
-        yield from _named(include.target.value, include.target.span, needed=needed, include=True)
+        yield from _paths(include.target.value, include.target.span, needed=needed, include=True)
         if include.reason:
             yield from _handed_over(include)
     for node in graph.nodes:
@@ -71,7 +71,7 @@ def _handed_over(include: Include) -> Iterator[NamedPath]:
     needed = include.starts is True and target is not None and target.package in GAZEBO
     for value in include.arguments.values():
         for word in value.value.split():
-            yield from _named(word, value.span, needed=needed)
+            yield from _paths(word, value.span, needed=needed)
 
 
 def _starts(started: Started) -> bool:
@@ -80,24 +80,24 @@ def _starts(started: Started) -> bool:
 
 def _in_words(words: Iterable[Located[str]], *, needed: bool) -> Iterator[NamedPath]:
     for word in words:
-        yield from _named(word.value, word.span, needed=needed)
+        yield from _paths(word.value, word.span, needed=needed)
 
 
 def _in_parameter(parameter: Parameter | ParameterFile, *, needed: bool) -> Iterator[NamedPath]:
     if isinstance(parameter, ParameterFile):
-        yield from _named(parameter.path, parameter.span, needed=needed)
+        yield from _paths(parameter.path, parameter.span, needed=needed)
     elif isinstance(parameter.value, str):
-        yield from _named(parameter.value, parameter.span, needed=needed)
+        yield from _paths(parameter.value, parameter.span, needed=needed)
 
 
-def _named(text: str, span: Span, *, needed: bool, include: bool = False) -> Iterator[NamedPath]:
+def _paths(text: str, span: Span, *, needed: bool, include: bool = False) -> Iterator[NamedPath]:
     """Yield the path that a text is, or the one that a command reads."""
     for opening in ("$(command ", "$(file-content "):
         if text.startswith(opening) and text.endswith(")"):
             for match in _INSIDE.finditer(text):
                 behind = text[match.end() : match.end() + 1]
                 if behind in (" ", ")"):
-                    yield from _named(match.group(), span, needed=needed)
+                    yield from _paths(match.group(), span, needed=needed)
             return
     path = share_path(text.strip())
     if path is not None and _SUFFIX.search(path.path):

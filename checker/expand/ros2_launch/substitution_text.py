@@ -90,9 +90,9 @@ class AttributeText:
         if not closed:
             message = f"the substitution {text[opening.start() : end][:60]!r} is not closed"
             self._report(LaunchFaultKind.SUBSTITUTION, span, message, name)
-        return self._made(name, arguments, span, text[opening.start() : end]), end
+        return self._call_value(name, arguments, span, text[opening.start() : end]), end
 
-    def _made(self, name: str, arguments: list[Value], span: Span, written: str) -> Value:
+    def _call_value(self, name: str, arguments: list[Value], span: Span, written: str) -> Value:
         form = _FORMS.get(name)
         if form is None:
             message = f"$({name} …) is not a substitution of ROS 2"

@@ -235,7 +235,7 @@ def _compared(*, equal: bool) -> Callable[[Made, Context], Text]:
                 return side
             if not is_known(side):
                 return Unknown(f"{str(side)[:60]!r} is not known before the launch", made.span)
-        return _said(made, _same(str(left), str(right)) is equal)
+        return _truth_text(made, _same(str(left), str(right)) is equal)
 
     return work
 
@@ -256,23 +256,23 @@ def _combined(*, every: bool) -> Callable[[Made, Context], Text]:
         truths = [_truth(operand, context, made.span) for operand in operands]
         unknown = next((truth for truth in truths if isinstance(truth, Unknown)), None)
         if (not every) in [truth for truth in truths if isinstance(truth, bool)]:
-            return _said(made, not every)
-        return unknown if unknown is not None else _said(made, every)
+            return _truth_text(made, not every)
+        return unknown if unknown is not None else _truth_text(made, every)
 
     return work
 
 
 def _not(made: Made, context: Context) -> Text:
     truth = _truth(made.values.get("value"), context, made.span)
-    return truth if isinstance(truth, Unknown) else _said(made, not truth)
+    return truth if isinstance(truth, Unknown) else _truth_text(made, not truth)
 
 
 def _boolean(made: Made, context: Context) -> Text:
     truth = _truth(made.values.get("value"), context, made.span)
-    return truth if isinstance(truth, Unknown) else _said(made, truth)
+    return truth if isinstance(truth, Unknown) else _truth_text(made, truth)
 
 
-def _said(made: Made, truth: bool) -> PlacedText:
+def _truth_text(made: Made, truth: bool) -> PlacedText:
     return PlacedText(str(truth).lower(), made.span)
 
 

@@ -28,12 +28,12 @@ def used_packages(launch: Ros2Launch) -> Iterator[Use]:
     What a condition leaves out is among them; what other packages' files use is theirs to declare.
     """
     for graph in launch.entries:
-        for name, span, how in _named(graph):
+        for name, span, how in _package_names(graph):
             if name and is_known(name) and not span.source.file.startswith("../"):
                 yield Use(name, span.place(), how)
 
 
-def _named(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
+def _package_names(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
     for node in graph.nodes:
         what = "component" if node.kind is NodeKind.COMPONENT else "node"
         yield node.package.value, node.package.span, f"{what} {node.executable.value}"

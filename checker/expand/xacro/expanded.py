@@ -117,7 +117,7 @@ def _pieces(
     for offset, opens, element, origin in _tags(document, origins):
         if offset > at:
             holder = around[-1] if around else None
-            yield from _between(text[at:offset], holder, root)
+            yield from _inner_text(text[at:offset], holder, root)
         if opens:
             yield from _start_tag(element, origin, root)
             at = element.position.start_end
@@ -169,7 +169,7 @@ def _end_tag(origin: Element | None, root: SourceText) -> Span:
     return Span(origin.source, origin.position.end_start, origin.position.end, origin)
 
 
-def _between(text: str, holder: Element | None, root: SourceText) -> Iterator[Piece]:
+def _inner_text(text: str, holder: Element | None, root: SourceText) -> Iterator[Piece]:
     """Yield the text inside an element: as it is written there, or as a whole."""
     if holder is None:
         yield Piece(text, root.whole())

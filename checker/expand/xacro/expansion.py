@@ -169,7 +169,7 @@ class Expansions:
         return key_of(self._basis, json.dumps(job, sort_keys=True))
 
     def _outcome(self, file: str, answer: dict[str, Any] | WorkerFailed) -> Outcome:
-        shown = self._shown(file)
+        shown = self._file_label(file)
         if isinstance(answer, WorkerFailed):
             return Unread(f"{shown} is not expanded: the process that expands it {answer.reason}")
         if "xml" in answer:
@@ -183,14 +183,14 @@ class Expansions:
             return Unread(f"{shown} includes too many files with computed names")
         return Unread(f"{shown} is not expanded: {answer['unread']}")
 
-    def _shown(self, file: str) -> str:
+    def _file_label(self, file: str) -> str:
         source = self._gathered.sources.get(file)
         return source.file if source is not None else file.rpartition("/")[2]
 
     def _fault(self, file: str, answer: Mapping[str, Any]) -> Outcome:
         source = self._gathered.sources.get(file)
         if source is None:
-            return Unread(f"{self._shown(file)} cannot be read")
+            return Unread(f"{self._file_label(file)} cannot be read")
         through = ", ".join(dict.fromkeys(answer.get("through") or ()))
         message = str(answer["message"]) + (f" (in the macro {through})" if through else "")
         span, hint = source.whole(), ""

@@ -125,16 +125,16 @@ def _problem_of_keys(entry: Mapping[str, Any]) -> str:
             return f"has the unknown key {key!r}, expected one of {', '.join(_KNOWN)}"
     for key in _TEXTS:
         if not isinstance(entry.get(key, ""), str):
-            return f"has the {key} {_shown(entry[key])}, expected a string"
+            return f"has the {key} {_excerpt(entry[key])}, expected a string"
     if not _is_texts(entry["sdf_types"]):
-        return f"has the sdf_types {_shown(entry['sdf_types'])}, expected a list of strings"
+        return f"has the sdf_types {_excerpt(entry['sdf_types'])}, expected a list of strings"
     details = entry.get("source_detail", {})
     if not isinstance(details, dict) or not _is_texts(list(details.values())):
-        return f"has the source_detail {_shown(details)}, expected a table of strings"
+        return f"has the source_detail {_excerpt(details)}, expected a table of strings"
     return ""
 
 
-def _shown(value: object) -> str:
+def _excerpt(value: object) -> str:
     try:
         return f"{value!r:.100}"
     except ValueError:  # a whole number of more than 4300 digits
@@ -147,13 +147,13 @@ def _is_texts(value: object) -> bool:
 
 def _problem_of_table(name: str, table: Any, forms: Mapping[str, _Form]) -> str:
     if not isinstance(table, dict):
-        return f"has the {name} {_shown(table)}, expected a table"
+        return f"has the {name} {_excerpt(table)}, expected a table"
     for key, value in table.items():
         if key not in forms:
             return f"has the unknown {name}.{key}, expected one of {', '.join(forms)}"
         fits, expected = forms[key]
         if not fits(value):
-            return f"has the {name}.{key} {_shown(value)}, expected {expected}"
+            return f"has the {name}.{key} {_excerpt(value)}, expected {expected}"
     return ""
 
 

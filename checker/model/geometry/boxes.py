@@ -100,7 +100,7 @@ def close_pairs(
         start = box.low[axis] - gap
         open_boxes = [other for other in open_boxes if boxes[other].high[axis] >= start]
         for other in open_boxes:
-            if _near(box, boxes[other], gap):
+            if _is_near(box, boxes[other], gap):
                 yield other, number
         open_boxes.append(number)
 
@@ -114,7 +114,7 @@ def _longest_axis(boxes: Sequence[Box]) -> int:
     return spreads.index(max(spreads))
 
 
-def _near(box: Box, other: Box, gap: float) -> bool:
+def _is_near(box: Box, other: Box, gap: float) -> bool:
     return all(
         box.low[axis] - other.high[axis] <= gap and other.low[axis] - box.high[axis] <= gap
         for axis in range(3)

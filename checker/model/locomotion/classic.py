@@ -89,11 +89,11 @@ def classic_drives(robot: Robot, reader: WheelReader) -> Iterator[WheelDrive]:
         separations = list(_numbers(plugin, drive.separation))
         diameters = list(_numbers(plugin, drive.diameter))
         for number, named in enumerate(drive.joints(plugin)):
-            diameter = _at(diameters, number, drive.default_diameter, plugin)
+            diameter = _value_at(diameters, number, drive.default_diameter, plugin)
             yield WheelDrive(
                 plugin,
                 tuple(_wheels(reader, plugin, named)),
-                _at(separations, number, drive.default_separation, plugin),
+                _value_at(separations, number, drive.default_separation, plugin),
                 Located(diameter.value / 2, diameter.span, stated=diameter.stated),
                 MotionLimits(plugin.span),
                 MotionLimits(plugin.span),
@@ -117,7 +117,7 @@ def _numbers(plugin: Plugin, tag: str) -> Iterator[Located[float]]:
             yield Located(value, text.span)
 
 
-def _at(
+def _value_at(
     stated: list[Located[float]], number: int, default: float, plugin: Plugin
 ) -> Located[float]:
     if number < len(stated):

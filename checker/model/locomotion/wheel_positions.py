@@ -175,7 +175,7 @@ def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
 def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     axis = drive.axis
     left, right = ([middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
-    true = _apart(left, right, axis) if axis is not None else None
+    true = _distance(left, right, axis) if axis is not None else None
     if true is not None and drive.separation_tag:
         what, slips = "left and right wheels", drive.slips
         separation = drive.wheel_separation
@@ -197,14 +197,14 @@ def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
         if (pose := robot.pose_of_joint(joint)) is not None
     ]
     left, right = ([place for on, place in places if on is side] for side in Side)
-    width = _apart(left, right, _LEFT)
+    width = _distance(left, right, _LEFT)
     if width is not None and drive.kingpin_width is not None:
         what = "steering joints"
         yield CountedDistance(
             drive.plugin, drive.kingpin_tag, drive.kingpin_width, width, what, steers=True
         )
     rear = [middle_of(robot, wheel) for wheel in drive.wheels if wheel.steering is None]
-    base = _apart([*left, *right], rear, _FORWARD)
+    base = _distance([*left, *right], rear, _FORWARD)
     if base is not None and drive.wheel_base is not None:
         stated = drive.wheel_base
         yield CountedDistance(drive.plugin, drive.base_tag, stated, base, "axles", steers=True)
@@ -224,13 +224,13 @@ def _of_tracks(robot: Robot, drive: TrackedDrive) -> Iterator[CountedDistance]:
     inner_left, inner_right = (
         sorted(side, key=lambda centre: abs(centre[1]))[:1] for side in (left, right)
     )
-    true = _apart(inner_left, inner_right, _LEFT)
+    true = _distance(inner_left, inner_right, _LEFT)
     if true is not None:
         what = "left and right tracks"
         yield CountedDistance(drive.plugin, "tracks_separation", drive.separation, true, what)
 
 
-def _apart(
+def _distance(
     some: Iterable[Vector | None], others: Iterable[Vector | None], axis: Vector
 ) -> float | None:
     """Return how far the middles of two groups of points are apart along an axis, metres."""

@@ -43,7 +43,7 @@ def automatic_inertial(element: Element, collisions: Iterable[Collision]) -> Ine
         return _inertial(element, math.nan, (0.0, 0.0, 0.0), (math.nan,) * 6)
     scale = stated.value / total
     centre = _mean(known, total)
-    moments = _about(known, centre)
+    moments = _moments_about(known, centre)
     return _inertial(element, stated.value, centre, tuple(scale * each for each in moments))
 
 
@@ -99,7 +99,7 @@ def _mean(bodies: list[_Body], total: float) -> Vector:
     return x, y, z
 
 
-def _about(bodies: list[_Body], centre: Vector) -> tuple[float, ...]:
+def _moments_about(bodies: list[_Body], centre: Vector) -> tuple[float, ...]:
     """Return ixx, ixy, ixz, iyy, iyz, izz of all bodies about a point."""
     sums = []
     for row, column in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)):

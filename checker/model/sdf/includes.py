@@ -54,14 +54,14 @@ class ModelIncludes(Record):
         A bare name is looked up as `model://name` is: along the paths of the simulator.
         """
         if "://" not in uri:
-            beside = self._at(posixpath.join(folder, uri), folder)
+            beside = self._model_file_at(posixpath.join(folder, uri), folder)
             if beside is not None:
                 return beside
             uri = f"model://{uri}"
         path = path_behind(self.package, folder, uri)
-        return None if isinstance(path, Unknown) else self._at(path, folder)
+        return None if isinstance(path, Unknown) else self._model_file_at(path, folder)
 
-    def _at(self, path: str, folder: str) -> str | None:
+    def _model_file_at(self, path: str, folder: str) -> str | None:
         """Return the model file at a path, which may be a folder; None when nothing is there."""
         path = posixpath.normpath(path)
         entry = self.package.resolve(path)

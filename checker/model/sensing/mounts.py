@@ -128,7 +128,7 @@ def called_directions(mounted: Mounted) -> CalledDirections | None:
         if directions:
             towards = list(dict.fromkeys(_DIRECTIONS[word] for word in directions))
             others = [way for word in words for way in _TOO.get(word, ())]
-            between = [mid for a, b in combinations(towards, 2) if (mid := _between(a, b))]
+            between = [mid for a, b in combinations(towards, 2) if (mid := _bisector(a, b))]
             sideways = all(way in (_LEFT, _RIGHT) for way in towards)
             tilted = not sideways and not {_AHEAD, _BEHIND}.intersection(towards)
             meant = (*towards, *others, *between)
@@ -150,7 +150,7 @@ def _words(text: str) -> list[str]:
     return re.findall(r"[a-z]+", parted.lower())
 
 
-def _between(a: Vector, b: Vector) -> Vector | None:
+def _bisector(a: Vector, b: Vector) -> Vector | None:
     """Return the direction half way between two; None where they are opposite."""
     x, y, z = (p + q for p, q in zip(a, b, strict=True))
     length = math.hypot(x, y, z)

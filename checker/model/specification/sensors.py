@@ -59,7 +59,7 @@ def listed_sensors(passages: Sequence[Passage]) -> Iterator[ListedSensor]:
             lead = configurations_in(passage.words)
             yield from _breadcrumbs(passage)
         elif NOT_MODELED.search(passage.text) is None:
-            yield from _read_item(passage, _below(passages, index), lead)
+            yield from _read_item(passage, _children(passages, index), lead)
 
 
 def _breadcrumbs(passage: Passage) -> Iterator[ListedSensor]:
@@ -77,7 +77,7 @@ def _breadcrumbs(passage: Passage) -> Iterator[ListedSensor]:
             )
 
 
-def _below(passages: Sequence[Passage], index: int) -> list[Passage]:
+def _children(passages: Sequence[Passage], index: int) -> list[Passage]:
     """Return the items one level below an item."""
     below = []
     for passage in passages[index + 1 :]:

@@ -54,7 +54,7 @@ def further_values(
     found = [
         (aliases[name], value)
         for element in elements
-        for name, value in _named(package, element, values, aliases)
+        for name, value in _compared_values(package, element, values, aliases)
         if aliases.get(name) in values
     ]
     tried = dict.fromkeys((*listed, *found))
@@ -75,7 +75,7 @@ def _aliases(elements: Iterable[Element]) -> dict[str, str]:
     return {name: match[1] for name, match in found if match}
 
 
-def _named(
+def _compared_values(
     package: Package, element: Element, values: Mapping[str, str], aliases: Mapping[str, str]
 ) -> Iterator[tuple[str, str]]:
     if element.tag in ("xacro:if", "xacro:unless"):

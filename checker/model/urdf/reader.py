@@ -56,11 +56,11 @@ def read_link(element: Element, values: ValueReader) -> Link:
         _read_inertial(element, values),
         tuple(
             _read_collision(child, shape, values)
-            for child, shape in _named(element, "collision", name.value)
+            for child, shape in _named_shapes(element, "collision", name.value)
         ),
         tuple(
             _read_visual(child, shape, values)
-            for child, shape in _named(element, "visual", name.value)
+            for child, shape in _named_shapes(element, "visual", name.value)
         ),
         (),
         (),
@@ -106,7 +106,7 @@ def _read_inertial(link: Element, values: ValueReader) -> Inertial | None:
     )
 
 
-def _named(link: Element, tag: str, owner: str) -> Iterator[tuple[Element, Located[str]]]:
+def _named_shapes(link: Element, tag: str, owner: str) -> Iterator[tuple[Element, Located[str]]]:
     """Yield shapes with their names; those without one are called as libsdformat calls them."""
     for number, element in enumerate(link.all(tag)):
         default = f"{owner}_{tag}_{number}" if number else f"{owner}_{tag}"

@@ -103,7 +103,7 @@ def specified_elements(
     document: XmlDocument,
 ) -> Iterator[tuple[Element, Mapping[str, AttributeSpec]]]:
     """Yield the elements of links and joints with what their attributes hold, in order."""
-    for element, path in _below(document):
+    for element, path in _descendants(document):
         around = element.parent.get("type") if element.parent is not None else ""
         if path in _elements() and not (path == "joint/axis" and around in _WITHOUT_AXIS):
             yield element, _elements()[path]
@@ -113,7 +113,7 @@ def lacking_elements(document: XmlDocument) -> Iterator[tuple[Element, str]]:
     """Yield elements without one that they need, with what it would be."""
     spec = table("urdf_spec")
     shapes = spec["shapes"]
-    for element, path in _below(document):
+    for element, path in _descendants(document):
         for tag in spec["needs"].get(path, ()):
             if element.child(tag) is None:
                 yield element, f"<{tag}>"
@@ -124,7 +124,7 @@ def lacking_elements(document: XmlDocument) -> Iterator[tuple[Element, str]]:
 def newer_parts(document: XmlDocument) -> Iterator[NewerPart]:
     """Yield elements and attributes that came with a later version than the file states."""
     parts = table("urdf_spec")["parts"]
-    for element, path in _below(document):
+    for element, path in _descendants(document):
         if path in parts and not has_version(document, parts[path]):
             yield NewerPart(f"<{element.tag}>", parts[path], element.span)
         for name, spec in _elements().get(path, {}).items():
@@ -135,7 +135,7 @@ def newer_parts(document: XmlDocument) -> Iterator[NewerPart]:
 
 def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
     """Yield elements and attributes whose names are near those of something that is missing."""
-    for element, path in _below(document):
+    for element, path in _descendants(document):
         there = {child.tag for child in element.children}
         for child in element.children:
             known = _children().get(path, frozenset())
@@ -146,14 +146,14 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
         lost = [key for key, it in spec.items() if not it.required and element.get(key) is None]
         for name in element.attributes if lost else ():
             text = element.attribute(name)
-            meant = _meant(name, lost) if name not in spec else None
+            meant = _suggestion(name, lost) if name not in spec else None
             if text is not None and meant is not None:
                 yield MisspeltPart(name, element.tag, meant, text.span, path)
 
 
 def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
     """Yield elements of `<robot>`, `<gazebo>` and SDF that are written in links and joints."""
-    for element, path in _below(document):
+    for element, path in _descendants(document):
         if "/" not in path:
             owner = element
         known = _children().get(path, frozenset())
@@ -187,7 +187,7 @@ def _advice(part: Element, path: str, owner: Element) -> str | None:
     return f'move it into <gazebo reference="{name}"> in <robot>' if part.tag in known else None
 
 
-def _meant(name: str, known: list[str]) -> str | None:
+def _suggestion(name: str, known: list[str]) -> str | None:
     """Return the word with the same letters, or the nearest one."""
     same = (word for word in known if sorted(word) == sorted(name))
     return next(same, None) or Suggestions(known).near(name)
@@ -205,7 +205,7 @@ def _children() -> Mapping[str, frozenset[str]]:
     return {path: frozenset(tags) for path, tags in children.items()}
 
 
-def _below(document: XmlDocument) -> Iterator[tuple[Element, str]]:
+def _descendants(document: XmlDocument) -> Iterator[tuple[Element, str]]:
     """Yield all that stands in links and joints, with its path; readers look no deeper than 4."""
     waiting = [(part, part.tag) for part in document.root.children if part.tag in ("link", "joint")]
     waiting.reverse()
@@ -213,10 +213,12 @@ def _below(document: XmlDocument) -> Iterator[tuple[Element, str]]:
         element, path = waiting.pop()
         yield element, path
         if path.count("/") < 3:
-            waiting += [(child, f"{path}/{child.tag}") for child in reversed(_read(element))]
+            waiting += [
+                (child, f"{path}/{child.tag}") for child in reversed(_read_children(element))
+            ]
 
 
-def _read(parent: Element) -> list[Element]:
+def _read_children(parent: Element) -> list[Element]:
     """Return the children that readers look at: the first of each tag, and all shapes."""
     first = {child.tag: child for child in reversed(parent.children)}
     return [

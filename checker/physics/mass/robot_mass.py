@@ -83,7 +83,7 @@ def gravity_torques(
         motions = motions_of(robot, tie.joint)
         if name in stands or not motions or motions[0].freedom is Freedom.BALL:
             continue
-        torque = _held(robot, tie.joint, motions[0], loads[name])
+        torque = _holding_effort(robot, tie.joint, motions[0], loads[name])
         if torque is not None:
             torques[tie.joint] = torque
     return torques
@@ -105,7 +105,7 @@ def _sum(a: _Load, b: _Load) -> _Load:
     return (a[0] + b[0], (a[1][0] + b[1][0], a[1][1] + b[1][1], a[1][2] + b[1][2]))
 
 
-def _held(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | None:
+def _holding_effort(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | None:
     """Return what an axis holds; None where that is not a number."""
     mass, (x, y, _) = load
     a, b, c = motion.axis

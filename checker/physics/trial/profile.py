@@ -85,7 +85,7 @@ def ramped(targets: Iterable[tuple[float, float, float, float]], limits: Limits)
 
 def value_at(knots: Knots, time: float) -> float:
     """Return the value of a line at a time, where it jumps the one after; its ends reach on."""
-    return _between(knots, bisect_right(knots, time, key=lambda knot: knot[0]), time)
+    return _interpolated(knots, bisect_right(knots, time, key=lambda knot: knot[0]), time)
 
 
 def value_before(knots: Knots, time: float) -> float:
@@ -93,10 +93,10 @@ def value_before(knots: Knots, time: float) -> float:
     right = bisect_left(knots, time, key=lambda knot: knot[0])
     if right < len(knots) and knots[right][0] == time:
         return knots[right][1]
-    return _between(knots, right, time)
+    return _interpolated(knots, right, time)
 
 
-def _between(knots: Knots, right: int, time: float) -> float:
+def _interpolated(knots: Knots, right: int, time: float) -> float:
     """Return the value between two corners, of which the right one is given by its number."""
     if right == 0:
         return knots[0][1] if knots else 0.0

@@ -103,17 +103,17 @@ class Recording(Record):
                 )
                 for name, each in data["states"].items()
             },
-            _read(data["commands"]),
-            _read(data["thrusts"]),
+            _parsed_changes(data["commands"]),
+            _parsed_changes(data["thrusts"]),
             tuple(
                 BeltSurface(str(each["geom"]), _floats(each["direction"])) for each in data["belts"]
             ),
-            _read(data["speeds"]),
+            _parsed_changes(data["speeds"]),
             str(data["refused"]),
         )
 
 
-def _read(changes: Any) -> Changes:
+def _parsed_changes(changes: Any) -> Changes:
     return tuple((int(step), _floats(values)) for step, values in changes)
 
 
@@ -153,10 +153,10 @@ def _recording(item: Mapping[str, Any]) -> Recording:
             run = drive(scene, plan, timestep / 2)
     except ValueError as refusal:
         return Recording(timestep, refused=" ".join(str(refusal).split()))
-    return _of(run)
+    return _recording_of(run)
 
 
-def _of(run: Run) -> Recording:
+def _recording_of(run: Run) -> Recording:
     model = run.rig.model
     servos = (
         Servo(name, -float(model.actuator_biasprm[i, 1]), -float(model.actuator_biasprm[i, 2]))

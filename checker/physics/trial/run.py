@@ -91,7 +91,7 @@ class RobotTrials(Record, eq=False, dict=True):
             if isinstance(trial, Trial)
         ]
         missing = [
-            trial if number in self._left_out else self._told(self.robots[number], trial)
+            trial if number in self._left_out else self._reason(self.robots[number], trial)
             for number, trial in enumerate(self._collected)
             if isinstance(trial, NotAvailable)
         ]
@@ -111,7 +111,7 @@ class RobotTrials(Record, eq=False, dict=True):
         for driven in self.once:
             again = self._trial(driven.robot, thorough=True)
             if isinstance(again, NotAvailable):
-                return self._told(driven.robot, again)
+                return self._reason(driven.robot, again)
             repeated.append(RepeatedTrial(driven.robot, driven.trial, again=again))
         return tuple(repeated)
 
@@ -175,7 +175,7 @@ class RobotTrials(Record, eq=False, dict=True):
             return NotAvailable(f"the trial {trial.reason}")
         return trial
 
-    def _told(self, robot: Robot, missing: NotAvailable) -> NotAvailable:
+    def _reason(self, robot: Robot, missing: NotAvailable) -> NotAvailable:
         """Return a reason; of several robots, with the name of the one that it is about."""
         if len(self.robots) == 1 or not missing.applicable:
             return missing

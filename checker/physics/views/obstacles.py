@@ -84,7 +84,7 @@ def in_view(middle: Array, radius: float, grid: Grid) -> bool:
     if not (np.abs([*middle, radius]) < _FARTHEST).all() or grid.up.reach > math.pi / 2.0:
         return True
     with np.errstate(all="ignore"):
-        rows, columns = _within(*_cones(middle[None, :], np.array([radius])), grid)
+        rows, columns = _rows_in_cones(*_cones(middle[None, :], np.array([radius])), grid)
     return bool(rows[1][0]) and any(column[1][0] for column in columns)
 
 
@@ -108,12 +108,12 @@ def _candidates(corners: Array, grid: Grid) -> Iterator[tuple[Whole, Whole]]:
 
     middles = corners.mean(axis=1)
     radii = np.sqrt(((corners - middles[:, None, :]) ** 2).sum(axis=2).max(axis=1))
-    rows, turns = _within(*_cones(middles, radii), grid)
+    rows, turns = _rows_in_cones(*_cones(middles, radii), grid)
     for columns in turns:
         yield from _pairs(rows, columns, grid.across.number)
 
 
-def _within(
+def _rows_in_cones(
     azimuth: Array, elevation: Array, wide: Array, high: Array, grid: Grid
 ) -> tuple[Range, list[Range]]:
     """Return the rows of a grid that lie within cones, and its columns: those of each turn."""

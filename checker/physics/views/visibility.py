@@ -175,7 +175,7 @@ def seen_of_mesh(
     for use in mesh["uses"] if len(corners) else ():
         placed = np.array(use["pose"])
         in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
-        hits += _seen(sensors, use["visual"], in_robot)
+        hits += _meetings(sensors, use["visual"], in_robot)
         for number, light in enumerate(lights):
             if light["visual"] == use["visual"]:
                 inside.append((number, *covered(in_robot, light)))
@@ -208,7 +208,7 @@ def _corners(mesh: Mapping[str, Any], data: Content) -> Array | MeshFault:
     return corners - ball_around(corners)[0] if mesh["centred"] and len(corners) else corners
 
 
-def _seen(sensors: Sensors, visual: int, in_robot: Array) -> Iterator[Met]:
+def _meetings(sensors: Sensors, visual: int, in_robot: Array) -> Iterator[Met]:
     """Yield what each sensor sees of the triangles of a visual."""
     import numpy as np
 

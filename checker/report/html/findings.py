@@ -192,7 +192,7 @@ def grades_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ())
         for finding in own:
             of_rule[finding.rule] += 1
             if len(shown) < room and of_rule[finding.rule] <= MOST_OF_A_RULE:
-                shown.append(_shown(finding, unseen))
+                shown.append(_shown_finding(finding, unseen))
         room -= len(shown)
         if own:
             grades.append(Grade(str(severity), len(own), tuple(shown), len(own) - len(shown)))
@@ -212,7 +212,7 @@ def rule_pages(findings: Sequence[ReportedFinding]) -> list[RulePage]:
     ]  # fmt: skip
 
 
-def _shown(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
+def _shown_finding(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
     main, *others = reported.places
     return ShownFinding(
         anchor=anchor_of(reported),

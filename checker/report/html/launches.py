@@ -75,10 +75,10 @@ def shown_launches(
 ) -> list[ShownLaunch]:
     """Return what the page shows of each launch file; red is what a finding of WIR names."""
     of_wiring = [it for it in findings if it.rule.startswith(_RULES)]
-    return [_shown(each, of_wiring) for each in launched]
+    return [_shown_launch(each, of_wiring) for each in launched]
 
 
-def _shown(launched: Launched, findings: Sequence[ReportedFinding]) -> ShownLaunch:
+def _shown_launch(launched: Launched, findings: Sequence[ReportedFinding]) -> ShownLaunch:
     own = (it for it in findings if {place.file for place in it.places} & {*launched.files})
     said = "\n".join(text for it in own for text in (it.message, *(p.note for p in it.places)))
 

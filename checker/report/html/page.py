@@ -121,7 +121,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
         package=package,
         sentence=sentence(package),
         tasks=first_tasks(package),
-        told=_told(robots, why_not_driven(package.blind_spots)),
+        told=_trial_sentences(robots, why_not_driven(package.blind_spots)),
         grades=grades_of(package.findings, frozenset(files_out_of_view(robots))),
         rules=rule_pages(package.findings),
         concerns=sorted({finding.concern for finding in package.findings}, key=_CONCERNS.index),
@@ -145,7 +145,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
     )  # fmt: skip
 
 
-def _told(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
+def _trial_sentences(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
     """Return the result of the trial as sentences; of several robots, that of the first driven."""
     driven = next((robot for robot in robots if robot.trial), None)
     if driven is None or driven.trial is None:

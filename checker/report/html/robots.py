@@ -60,10 +60,10 @@ class ShownRobot(Record):
 
 def shown_robots(package: PackageReport) -> list[ShownRobot]:
     """Return the robots of a package; the first is the one in 3D."""
-    return [_shown(robot) for robot in robots_of(package)]
+    return [_shown_robot(robot) for robot in robots_of(package)]
 
 
-def _shown(robot: ReportedRobot) -> ShownRobot:
+def _shown_robot(robot: ReportedRobot) -> ShownRobot:
     facts = {plain(fact.name): plain(fact.value) for fact in facts_in_words(robot.facts)}
     verdict, trial = robot.verdict, robot.trial
     return ShownRobot(

@@ -88,7 +88,7 @@ class Parameters:
             self.unread.append(f"namespace {param.name} is known only at launch")
         elif param.kind == "yaml" and param.text is not None:
             if param.text is not param.span:
-                self._read(text_excerpt(param.text), param.name, param.span)
+                self._parse(text_excerpt(param.text), param.name, param.span)
         elif (path := files.path_of(param.value)) is None:
             self.unread.append(f"parameter file {param.value} is not available")
         else:
@@ -98,7 +98,7 @@ class Parameters:
         self._loaded.add(path)
         source = self.package.read(path)
         if isinstance(source, SourceText):
-            self._read(source, param.name, param.span)
+            self._parse(source, param.name, param.span)
         elif self.package.exists(path):
             self.unread.append(f"{path} {source.reason}")
         else:
@@ -116,7 +116,7 @@ class Parameters:
             self._documents[source.file] = read_yaml(source)
         return self._documents[source.file]
 
-    def _read(self, source: SourceText, namespace: str, loaded_by: Span | None) -> None:
+    def _parse(self, source: SourceText, namespace: str, loaded_by: Span | None) -> None:
         document = self._document(source)
         if loaded_by is not None:
             self.faults += (
@@ -149,7 +149,7 @@ class Parameters:
         for path in self._left_over():
             source = self.package.read(path)
             if not isinstance(source, NotReadable):
-                self._read(source, "/", None)
+                self._parse(source, "/", None)
 
     def _left_over(self) -> Iterator[str]:
         files = self.package.index.with_suffix(".yaml", ".yml")

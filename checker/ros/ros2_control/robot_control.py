@@ -162,7 +162,7 @@ class ControlReader:
             return None
         faults: list[YamlFault] = []
         unread: list[str] = []
-        named = tuple(self._named(managers, faults, unread))
+        named = tuple(self._plugin_files(managers, faults, unread))
         mere = RobotControl(robot, hardware, managers)
         # A file that is named and not there is a fault of its own, and no other one stands for it.
         guesses = not any(manager.files for manager in managers)
@@ -188,7 +188,7 @@ class ControlReader:
         exists = local is not None and self.package.exists(local)
         return ParametersFile(text, package_in(path), local, exists)
 
-    def _named(
+    def _plugin_files(
         self, managers: Iterable[GazeboManager], faults: list[YamlFault], unread: list[str]
     ) -> Iterator[ControllerFile]:
         """Yield the files that Gazebo plugins name."""

@@ -47,13 +47,13 @@ def wanted(node: WiredNode) -> Iterator[Wanted]:
         listed = _LISTED.fullmatch(name)
         setting = node.settings.get(listed[1]) if listed is not None else None
         if listed is None:
-            yield from _wanted(node, name, "", node.node.span)
+            yield from _wanted_service(node, name, "", node.node.span)
         elif setting is not None and isinstance(setting.value, list):
             for item in map(str, setting.value):
-                yield from _wanted(node, f"{item}{listed[2]}", item, setting.span)
+                yield from _wanted_service(node, f"{item}{listed[2]}", item, setting.span)
 
 
-def _wanted(node: WiredNode, name: str, item: str, span: Span) -> Iterator[Wanted]:
+def _wanted_service(node: WiredNode, name: str, item: str, span: Span) -> Iterator[Wanted]:
     absolute = node.resolve(name) if is_known(name) else ""
     if absolute:
         yield Wanted(absolute, item, span)

@@ -45,7 +45,7 @@ def matched(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     used = set(taken.values())
     # What is left at a place of an unused entry is graver than that: the fault is not gone.
     left_over = [spot for at, spot in enumerate(spots) if at not in taken]
-    graver = {_told(tell, spot) for spot in left_over for tell in _TELLS}
+    graver = {_key_of(tell, spot) for spot in left_over for tell in _TELLS}
     unused = (at for at in range(len(entries)) if at not in used)
     stale = tuple(at for at in unused if graver.isdisjoint(_tales(entries[at])))
     return Matched(tuple(map(taken.get, range(len(spots)))), stale)
@@ -68,7 +68,7 @@ def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell
 def _take(spot: Spot, free: _Free, left: Sequence[dict[str, int]], tell: _Tell) -> int | None:
     """Take a place of an entry that is as grave as the spot, else of a graver one."""
     for severity in list(Severity)[spot.severity.rank :: -1]:
-        waiting = free.get((severity, _told(tell, spot)))
+        waiting = free.get((severity, _key_of(tell, spot)))
         while waiting:
             entry = waiting[0]
             if left[entry][spot.place] > 0:
@@ -78,7 +78,7 @@ def _take(spot: Spot, free: _Free, left: Sequence[dict[str, int]], tell: _Tell) 
     return None
 
 
-def _told(tell: _Tell, spot: Spot) -> Hashable:
+def _key_of(tell: _Tell, spot: Spot) -> Hashable:
     return tell(spot.rule, spot.place, spot.key, spot.message)
 
 

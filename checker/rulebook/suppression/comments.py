@@ -61,7 +61,7 @@ def comments_of(source: SourceText) -> tuple[Comment, ...]:
     """Return the comments of a file, in their order."""
     marks = list(islice(_marks(source), COMMENTS_LIMIT))
     below = _lines_below(source, [(mark.start(), end) for mark, end in marks])
-    return tuple(comment for mark, end in marks if (comment := _read(source, mark, end, below)))
+    return tuple(comment for mark, end in marks if (comment := _parsed(source, mark, end, below)))
 
 
 def _marks(source: SourceText) -> Iterator[tuple[re.Match[str], int]]:
@@ -110,7 +110,7 @@ def _is_alone(text: str, start: int, end: int) -> bool:
     return not before.strip() and all(ended and not rest.strip() for _, ended, rest in behind)
 
 
-def _read(
+def _parsed(
     source: SourceText, mark: re.Match[str], end: int, below: dict[int, int]
 ) -> Comment | None:
     """Return what a comment says; None when it is about something else."""

@@ -59,7 +59,7 @@ def _of_element(element: Element) -> Iterator[WrittenName]:
         if tag == "remap":
             yield from _remapped(text)
         else:
-            yield from _given(element, name, text)
+            yield from _written_names(element, name, text)
     if tag == "rosparam" and (text := written(element.text)) is not None:
         yield from words_in(text.value, text.span.start)
 
@@ -115,7 +115,7 @@ def _remapped(text: Located[str]) -> Iterator[WrittenName]:
         yield WrittenName(TOPIC_ONLY, key, start + own, end, Role.MAY_NAME)
 
 
-def _given(element: Element, name: str, text: Located[str]) -> Iterator[WrittenName]:
+def _written_names(element: Element, name: str, text: Located[str]) -> Iterator[WrittenName]:
     """Yield what an attribute of a node, parameter or argument may name."""
     key = name
     if name in ("value", "default"):

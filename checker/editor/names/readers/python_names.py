@@ -98,14 +98,14 @@ class PythonNames:
     def _argument(self, node: ast.AST, role: Role, files: tuple[str, ...] = ()) -> None:
         if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
             return
-        start = self._inside(node, node.value)
+        start = self._text_start(node, node.value)
         if start is not None and node.value:
             end = start + len(node.value)
             self.names.append(WrittenName(ARGUMENT, node.value, start, end, role, files))
 
     def _string(self, node: ast.Constant, text: str, key: str, files: tuple[str, ...]) -> None:
         self.values.add(text)
-        start = self._inside(node, text)
+        start = self._text_start(node, text)
         if start is None:
             return
         is_argument = key in ("arguments", "args", "cmd", "ros_arguments") or ":=" in text
@@ -127,7 +127,7 @@ class PythonNames:
                 kinds = found.kinds
                 self.names.append(WrittenName(kinds, found.name, start, end, Role.MAY_NAME))
 
-    def _inside(self, node: ast.Constant, text: str) -> int | None:
+    def _text_start(self, node: ast.Constant, text: str) -> int | None:
         """Return where the text of a string begins; None where it is written otherwise."""
         span = span_of_node(self._source, node)
         start, end = span.start, span.end

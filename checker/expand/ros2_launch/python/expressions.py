@@ -423,7 +423,7 @@ def _starred(run: Interpreter, node: ast.Starred, _: Scope) -> Value:
     return run.unknown(node, "a star is not allowed here")
 
 
-def _named(run: Interpreter, node: ast.NamedExpr, scope: Scope) -> Value:
+def _formatted_field(run: Interpreter, node: ast.NamedExpr, scope: Scope) -> Value:
     value = evaluate(run, node.value, scope)
     run.assign(node.target, value, scope)
     return value
@@ -462,7 +462,7 @@ _HANDLERS: Mapping[type[ast.AST], Callable[[Interpreter, Any, Scope], Value]] = 
     ast.DictComp: _dict_comprehension,
     ast.Call: _call,
     ast.Starred: _starred,
-    ast.NamedExpr: _named,
+    ast.NamedExpr: _formatted_field,
     ast.Yield: _yield,
     ast.YieldFrom: _yield,
 }

@@ -134,7 +134,7 @@ def _exists(
 def _share(
     run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
 ) -> Value:
-    return _below(run, node, first(arguments, named, "package_name"), ROOT)
+    return _package_folder(run, node, first(arguments, named, "package_name"), ROOT)
 
 
 def _share_path(
@@ -147,10 +147,10 @@ def _share_path(
 def _prefix(
     run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
 ) -> Value:
-    return _below(run, node, first(arguments, named, "package_name"), PREFIX)
+    return _package_folder(run, node, first(arguments, named, "package_name"), PREFIX)
 
 
-def _below(run: Interpreter, node: ast.AST, package: Value, folder: str) -> Value:
+def _package_folder(run: Interpreter, node: ast.AST, package: Value, folder: str) -> Value:
     name = text_of(run, package, node)
     if isinstance(name, Unknown):
         return name
@@ -388,7 +388,7 @@ def _safe(name: str) -> Work:
         return bounded(
             run,
             node,
-            lambda budget: _kept(
+            lambda budget: _as_sequence(
                 SAFE[name].work(
                     budget,
                     *map(plain, arguments),
@@ -400,7 +400,7 @@ def _safe(name: str) -> Work:
     return work
 
 
-def _kept(value: Value) -> Value:
+def _as_sequence(value: Value) -> Value:
     return (
         value if type(value) in (str, int, float, bool, list, tuple, dict, range) else list(value)
     )

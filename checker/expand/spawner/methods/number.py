@@ -109,17 +109,17 @@ def _half_up(size: float, scale: float) -> float:
     return near
 
 
-def _own(call: Call) -> Number:
+def _receiver(call: Call) -> Number:
     return call.number(call.receiver)
 
 
 def _finite(call: Call) -> Number:
-    call.whole(_own(call))
-    return _own(call)
+    call.whole(_receiver(call))
+    return _receiver(call)
 
 
 def _round(call: Call, digits: Value | None = None) -> Value:
-    places, number = call.integer(digits) if digits else 0, _own(call)
+    places, number = call.integer(digits) if digits else 0, _receiver(call)
     if not 0 <= places <= _MAX_ROUND_DIGITS:
         raise call.refuse(f"with more than {_MAX_ROUND_DIGITS} digits, or less than none")
     if isinstance(number, int):
@@ -151,12 +151,12 @@ def _step(call: Call, last: Value, width: Value) -> Value:
 
 NUMBER: Methods = {
     "to_i": _whole(int),
-    "to_f": lambda call: call.value(float(_own(call))),
+    "to_f": lambda call: call.value(float(_receiver(call))),
     "round": _round,
     "floor": _whole(math.floor),
     "ceil": _whole(math.ceil),
-    "abs": lambda call: call.value(abs(_own(call))),
-    "zero?": lambda call: call.value(_own(call) == 0),
+    "abs": lambda call: call.value(abs(_receiver(call))),
+    "zero?": lambda call: call.value(_receiver(call) == 0),
 }
 
 INTEGER: Methods = {

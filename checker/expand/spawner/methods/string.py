@@ -26,7 +26,7 @@ _FLOAT = re.compile(r"\s*([+-]?\d+(?:_\d+)*(?:\.\d+(?:_\d+)*)?(?:[eE][+-]?\d+)?)
 _MAX_DIGITS = MAX_INTEGER_BITS // 4
 
 
-def _own(call: Call) -> TracedString:
+def _receiver(call: Call) -> TracedString:
     return call.traced(call.receiver)
 
 
@@ -35,7 +35,7 @@ def _text(call: Call) -> str:
 
 
 def _cut(call: Call, start: int, end: int) -> Value:
-    return call.run.string(_own(call).cut(start, end))
+    return call.run.string(_receiver(call).cut(start, end))
 
 
 def _chomp(call: Call) -> Value:
@@ -63,7 +63,7 @@ def _plus(call: Call, other: Value) -> Value:
     if not isinstance(other.data, RubyString):
         name = "nil" if other.data is None else class_name(other.data)
         raise RubyError("TypeError", f"no implicit conversion of {name} into String", call.span)
-    return Value(RubyString(call.run.joined(_own(call), call.traced(other))))
+    return Value(RubyString(call.run.joined(_receiver(call), call.traced(other))))
 
 
 def _append(call: Call, *others: Value) -> Value:
@@ -78,7 +78,7 @@ def _times(call: Call, factor: Value) -> Value:
     count = call.integer(factor)
     if count < 0:
         raise call.refuse("with a negative number")
-    content = _own(call)
+    content = _receiver(call)
     call.run.budget.spend_text(len(content.text) * count, len(content.pieces) * count)
     return call.run.string(TracedString(content.pieces * (count if content.pieces else 0)))
 
@@ -94,19 +94,19 @@ def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
             return
 
 
-def _between(text: str, occurrences: list[tuple[int, int]]) -> list[tuple[int, int]]:
+def _gaps(text: str, occurrences: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """Return the ranges of a text before, between and behind others."""
     starts = [0, *(end for _, end in occurrences)]
     return list(zip(starts, [*(start for start, _ in occurrences), len(text)], strict=True))
 
 
 def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> Value:
-    content, new = _own(call), call.traced(replacement)
+    content, new = _receiver(call), call.traced(replacement)
     if "\\" in new.text:
         raise call.refuse("with a backslash in the replacement")
     occurrences = list(_occurrences(call, call.text(wanted)))
     occurrences = occurrences if every else occurrences[:1]
-    kept = content.cut_many(_between(content.text, occurrences))
+    kept = content.cut_many(_gaps(content.text, occurrences))
     call.run.budget.spend_text(len(new.text) * len(occurrences), len(new.pieces) * len(occurrences))
     parts = [kept[0]]
     for part in kept[1:]:
@@ -123,14 +123,14 @@ def _sub(call: Call, wanted: Value, replacement: Value) -> Value:
 
 
 def _split(call: Call, separator: Value | None = None) -> Value:
-    content, text = _own(call), _text(call)
+    content, text = _receiver(call), _text(call)
     between = call.text(separator) if separator is not None else " "
     if between == "":
         ranges = [(at, at + 1) for at in range(len(text))]
     elif between == " ":
         ranges = [match.span() for match in _WORD.finditer(text)]
     else:
-        ranges = _between(text, list(_occurrences(call, between)))
+        ranges = _gaps(text, list(_occurrences(call, between)))
     while ranges and ranges[-1][0] == ranges[-1][1]:
         ranges.pop()
     call.run.budget.spend(len(ranges))

@@ -29,7 +29,7 @@ def _call(run: Interpreter, node: ast.Call, scope: Scope | None) -> Any:
     if work is is_of and len(node.args) == 2:
         return work(run.budget, run.data(node.args[0], scope), _kinds(run, node.args[1], scope))
     return work(
-        run.budget, *_positional(run, node, scope, takes), **_named(run, node, scope, takes)
+        run.budget, *_positional(run, node, scope, takes), **_keywords(run, node, scope, takes)
     )
 
 
@@ -72,7 +72,7 @@ def _positional(
     return values
 
 
-def _named(
+def _keywords(
     run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
 ) -> dict[str, Any]:
     named: dict[str, Any] = {}

@@ -79,7 +79,7 @@ def weigh(value: Any, budget: Budget) -> int:
             else:
                 if kind in HASHED:
                     spend_on_keys(item, len(item), budget)
-                below_it = _held(item)
+                below_it = _contents(item)
                 budget.spend(len(below_it))
                 taken += len(below_it)
                 below += below_it
@@ -91,7 +91,7 @@ def weigh(value: Any, budget: Budget) -> int:
     raise ExpressionLimit(f"has more than {LEVELS_LIMIT} lists within lists")
 
 
-def _held(value: Any) -> list[Any]:
+def _contents(value: Any) -> list[Any]:
     kind = type(value)
     if kind in MAPPINGS:
         return [*dict.keys(value), *dict.values(value)]

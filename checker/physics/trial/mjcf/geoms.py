@@ -107,7 +107,7 @@ class GeomReader:
 
     def of(self, link: Link, collision: Collision) -> Geom | None:
         """Return a shape as MuJoCo can collide it; None where it is left out."""
-        at, frame = self._at(link, collision), self.poses[link.scoped_name]
+        at, frame = self._pose_in_link(link, collision), self.poses[link.scoped_name]
         if at is None:
             self._leave_out(link, collision, "has an unknown place")
             return None
@@ -123,7 +123,7 @@ class GeomReader:
         reach = support(geometry, frame @ at, _DOWN) if shape else None
         return Geom(link.scoped_name, at, shape, -reach) if reach is not None else None
 
-    def _at(self, link: Link, collision: Collision) -> Transform | None:
+    def _pose_in_link(self, link: Link, collision: Collision) -> Transform | None:
         """Return where a shape is in its link's frame."""
         pose = self.robot.pose_in_link(link, collision.pose)
         return pose if pose is not None and well_placed(pose) else None

@@ -90,7 +90,7 @@ class Layout:
             child: degrees_of(robot, tie.joint, self.ledger)
             for child, tie in self.forest.spanning_tree.by.items()
         }
-        self.held = self._held()
+        self.held = self._held_link()
         self.welded = self._welded()
         reader, friction = GeomReader(robot, self.poses, self.ledger), FrictionReader(robot)
         self.geoms = {
@@ -153,7 +153,7 @@ class Layout:
             poses[name] = pose
         return poses
 
-    def _held(self) -> str:
+    def _held_link(self) -> str:
         free = [name for name in self.forest.order if self.forest.tie(name) is None]
         if self.robot.stands_alone or len(free) != 1:
             return ""
