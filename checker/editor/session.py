@@ -20,7 +20,7 @@ from checker.editor.units import Unit, Units
 from checker.engine.subject import Subject
 from checker.expand.xacro.expansion import xacro_server
 from checker.finding import Place
-from checker.fix.rounds import Judge
+from checker.fix.rounds import FindingsOf
 from checker.package.inputs import with_package_path
 from checker.package.overlay import Overlay, OverlayText
 from checker.package.package import Package
@@ -154,7 +154,7 @@ class Session:
         self._note_good_texts(package)
         return replace(before, unit=unit, checked=checked, problem=None)
 
-    def judge(self, state: State) -> Judge:
+    def judge(self, state: State) -> FindingsOf:
         """Return what finds out how a package is judged after some fixes."""
         settings = self._settings_of(state.unit)
 

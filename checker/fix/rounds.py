@@ -101,7 +101,7 @@ def _collide(wanted: Iterable[tuple[EditedText, Stretch]]) -> bool:
 
 MAX_ROUNDS = 10
 
-Judge = Callable[[Package], tuple[ReportedFinding, ...]]
+FindingsOf = Callable[[Package], tuple[ReportedFinding, ...]]
 """Checks a package and returns its findings."""
 
 
@@ -133,7 +133,7 @@ class Fixed(Record):
     rounds: int
 
 
-def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> Fixed:
+def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]) -> Fixed:
     """Apply fixes until nothing changes; nothing is written.
 
     Args:

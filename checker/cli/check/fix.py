@@ -18,7 +18,7 @@ from checker.base.record import Record
 from checker.base.words import count, listed, plain
 from checker.engine.review import findings_of
 from checker.finding import Safety
-from checker.fix.rounds import Fixed, FixedFile, Judge, fix_package, patch
+from checker.fix.rounds import FindingsOf, Fixed, FixedFile, fix_package, patch
 from checker.fix.uncommitted import uncommitted
 from checker.package.inputs import open_input, with_package_path
 from checker.package.package import Package
@@ -202,7 +202,7 @@ def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Packag
             yield package, FixedPackage(package.name, task.shown_of(package), fixed)
 
 
-def _judge(settings: Settings) -> Judge:
+def _judge(settings: Settings) -> FindingsOf:
     """Return how a package is checked between rounds: without a trial, which mends nothing."""
     still = settings.overridden(trial=False, thorough=False)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
