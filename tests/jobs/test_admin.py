@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from checker import cli
 from checker.service.jobs.durable.receipts import key_of_check
+from checker.service.jobs.durable.tasks import TRIES
 from checker.service.jobs.port import Stage
 from tests.jobs.quick_worker import DEATH, FULL
 from tests.jobs.site import Site, site_in
@@ -86,7 +87,7 @@ def test_it_lists_what_is_not_over_and_what_failed(site: Site, said: Said) -> No
     assert not [id for id in (failed, runs, waits) if id in "\n".join(shown)]
 
 
-@pytest.mark.parametrize("profile", ["full:trial:5", "full:static:5"])
+@pytest.mark.parametrize("profile", [f"full:trial:{TRIES}", f"full:static:{TRIES}"])
 def test_a_check_that_was_given_up_is_begun_anew(site: Site, said: Said, profile: str) -> None:
     site.worker()
     receipt = site.receipt(profile)

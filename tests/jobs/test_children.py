@@ -121,14 +121,18 @@ def test_one_that_died_is_not_missed(whom: str, store: Store, children: Children
     assert first not in seen
 
 
+@pytest.mark.parametrize("ready", [False, True])
 @pytest.mark.parametrize(
     ("stage", "niceness"),
     [(Stage.STATIC, NICENESS), (Stage.TRIAL, NICENESS + TRIAL_NICENESS)],
 )
 def test_all_of_its_threads_stand_back(
-    store: Store, children: Children, stage: Stage, niceness: int
+    store: Store, children: Children, stage: Stage, niceness: int, ready: bool
 ) -> None:
     """Behind the service, and those of a trial behind those that look for first findings."""
+    if ready:
+        children.get_ready()
+        wait_for(WAITING)
     seen: list[set[int]] = []
     outcome = check(store, children, lambda: seen.extend(map(nicenesses, tasks())), stage)
     assert isinstance(outcome, Checked)

@@ -52,11 +52,11 @@ class Ended(Record):
 class _Place:
     """A process that checks, its folder and its sandbox: for one check, and then no more."""
 
-    def __init__(self, store: Store, limits: Limits) -> None:
+    def __init__(self, store: Store, limits: Limits, niceness: int) -> None:
         """Start it."""
         with ExitStack() as held:
             folder = held.enter_context(store.workplace())
-            starter = OwnLauncher(folder, niceness=NICENESS)
+            starter = OwnLauncher(folder, niceness=NICENESS + niceness)
             held.enter_context(closing(starter))
             self._starter, self._folder = starter, folder
             self._next_look = 0.0
@@ -66,11 +66,9 @@ class _Place:
             held.callback(self.child.stop)
             self._held = held.pop_all()
 
-    def give(self, request: bytes, contents: Iterable[tuple[str, Content]], niceness: int) -> None:
-        """Give it a check, which stands back behind others by so much."""
-        if niceness:
-            self._starter.stand_back(niceness)
-        self.child.give(request, contents)
+    def stand_back(self, by: int) -> None:
+        """Give its processes a lower priority than other checks have."""
+        self._starter.stand_back(by)
 
     @property
     def alive(self) -> bool:
@@ -130,9 +128,9 @@ class Children:
         Raises:
             OSError: The system starts no process, or the disk is full.
         """
-        place = self._take()
+        place = self._take(niceness)
         try:
-            place.give(request, contents, niceness)
+            place.child.give(request, contents)
             yield _watched(place, seconds, cancelled)
         finally:
             place.close()
@@ -153,10 +151,14 @@ class Children:
                 self._waiting.close()
                 self._waiting = None
 
-    def _take(self) -> _Place:
+    def _take(self, niceness: int) -> _Place:
         with self._lock:
-            child, self._waiting = (self._waiting if self._has_one() else None), None
-        return child or self._start()
+            place, self._waiting = (self._waiting if self._has_one() else None), None
+        if place is None:
+            return self._start(niceness)
+        if niceness:
+            place.stand_back(niceness)
+        return place
 
     def _has_one(self) -> bool:
         """Whether a process waits; one that has died meanwhile is let go."""
@@ -165,9 +167,9 @@ class Children:
             self._waiting = None
         return self._waiting is not None
 
-    def _start(self) -> _Place:
+    def _start(self, niceness: int = 0) -> _Place:
         most = StageLimits(0.0)
-        return _Place(self._store, Limits(_PROCESSOR_SECONDS, most.memory))
+        return _Place(self._store, Limits(_PROCESSOR_SECONDS, most.memory), niceness)
 
 
 _PROCESSOR_SECONDS = 3600.0
