@@ -148,7 +148,7 @@ class Subject(Record, eq=False):
             other.close()
 
     def close(self) -> None:
-        """End what was begun and nobody asked for."""
+        """End the processes that are still running or waiting."""
         self.processes.stop()
         for reader in self.made(MeshServer):
             reader.server.stop()

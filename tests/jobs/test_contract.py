@@ -129,10 +129,10 @@ class TestManyChecks:
 
     def test_tell_how_long_they_take(self, site: Site) -> None:
         site.worker()
-        assert site.jobs.alive().seconds == {}
+        assert site.jobs.stage_seconds() == {}
         ids = [site.submit(f"static:0.5 trial:{seconds}") for seconds in (1, 1, 5)]
         assert {site.end(id).stage for id in ids} == {Stage.DONE}
-        seconds = site.jobs.alive().seconds
+        seconds = site.jobs.stage_seconds()
         times = [[event.time for event in site.events(id)] for id in ids]
         static = median(done - begun for _, begun, done, *_ in times)
         trial = median(done - begun for *_, begun, done in times)
@@ -141,7 +141,7 @@ class TestManyChecks:
         state = site.state(ids[0])
         for _ in range(3):  # what was in the store takes no time, and says nothing of others
             site.jobs.submit(state.order)
-        assert site.jobs.alive().seconds == seconds
+        assert site.jobs.stage_seconds() == seconds
 
     def test_show_static_findings_before_trials_of_older_ones(self, site: Site) -> None:
         site.worker()

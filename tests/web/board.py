@@ -36,6 +36,7 @@ class BoardJobs:
     states: dict[str, State] = field(default_factory=dict)
     cancelled: list[str] = field(default_factory=list)
     keys: list[str] = field(default_factory=list)
+    taken: Mapping[str, float] = field(default_factory=dict)
     waits: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
     def submit(self, order: Order, key: str = "") -> Receipt:
@@ -69,6 +70,9 @@ class BoardJobs:
 
     def wait(self, client: str, per_minute: int) -> float:
         return self.waits.get((client, per_minute), 0.0)
+
+    def stage_seconds(self) -> Mapping[str, float]:
+        return self.taken
 
     def alive(self) -> Alive:
         return Alive({"one": 0.0}, {}, 0)

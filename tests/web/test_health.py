@@ -154,8 +154,8 @@ def test_sandbox_are_named_to_this_machine_and_to_tokens(tmp_path: Path) -> None
 
 
 def test_metrics_count_requests_by_route(tmp_path: Path) -> None:
-    waiting = Alive({'"\\\n': 1.0}, {"static": 2, "trial": 3}, 1, {}, {"static": 0.5})
-    client = client_for(tmp_path, Engine({ID: DONE}, told=waiting))
+    waiting = Alive({'"\\\n': 1.0}, {"static": 2, "trial": 3}, 1)
+    client = client_for(tmp_path, Engine({ID: DONE}, taken={"static": 0.5}, told=waiting))
     for path in (f"/api/checks/{ID}", "/api/checks/x", "/", f"/checks/{ID}", "/nothing"):
         client.get(path)
     client.post("/api/checks", files={"file": ("a.sdf", b"<sdf/>")})
@@ -189,7 +189,7 @@ def figures(text: str) -> dict[tuple[str, ...], float]:
 def test_metrics_are_in_the_format_of_prometheus() -> None:
     metrics = Metrics()
     metrics.count("GET", "/{id}", 200, 0.01)
-    read = figures(metrics.text(Alive({'a"\\\nb': 1.0}, {"static": 1}, 0)).decode())
+    read = figures(metrics.text(Alive({'a"\\\nb': 1.0}, {"static": 1}, 0), {}).decode())
     assert read["subt_check_requests_total", "GET", "/{id}", "200"] == 1
     assert read["subt_check_worker_silent_seconds", 'a"\\\nb'] == 1
     assert all(name.startswith("subt_check_") for name, *_ in read)
@@ -200,7 +200,7 @@ def test_the_histogram_adds_up(seconds: list[float]) -> None:
     metrics = Metrics()
     for each in seconds:
         metrics.count("GET", "/", 200, each)
-    read = figures(metrics.text(None).decode())
+    read = figures(metrics.text(None, {}).decode())
     for bound in (*BOUNDS, float("inf")):
         le = "+Inf" if bound == float("inf") else str(bound)
         expected = sum(each <= bound for each in seconds)

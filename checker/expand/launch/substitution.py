@@ -91,7 +91,7 @@ def evaluate(expression: str, args: Mapping[str, str]) -> Value | Unknown | Expr
     except SyntaxError:
         return ExpressionFault(f"{expression.strip()!r} is not a Python expression")
     except _Undeclared as name:
-        return ExpressionFault(f"the arg {str(name)!r} is used but not declared", str(name))
+        return ExpressionFault(undeclared(str(name)).message, str(name))
     except (_NotKnown, bounds.RefusedExpression, bounds.ExpressionLimit):
         return Unknown()
     except Exception as error:  # noqa: BLE001 - whatever Python raises for it

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: seven calls; `durable` implements them."""
+"""What the service needs of a job engine: eight calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -118,14 +118,12 @@ class Alive(Record):
         waiting: Checks that wait, by queue.
         running: Checks that run.
         layers: Of the sandbox around what each worker checks.
-        seconds: That each stage took lately, the median of some checks; those that are known.
     """
 
     workers: Mapping[str, float]
     waiting: Mapping[str, int]
     running: int
     layers: Mapping[str, Sequence[Layer]] = field(default_factory=dict)
-    seconds: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def living(self) -> Mapping[str, Sequence[Layer]]:
@@ -138,7 +136,7 @@ class Alive(Record):
 
 
 class Jobs(Protocol):
-    """The seven calls; none waits for a check, and all may be called from many threads."""
+    """The eight calls; none waits for a check, and all may be called from many threads."""
 
     def submit(self, order: Order, key: str = "") -> Receipt:
         """Take an order and return its receipt; once it returns, the order is not lost.
@@ -180,6 +178,10 @@ class Jobs(Protocol):
             client: Whom it counts for.
             per_minute: Uploads that a client may send, at least one.
         """
+        ...
+
+    def stage_seconds(self) -> Mapping[str, float]:
+        """Return what each stage took lately, the median of some checks; those that are known."""
         ...
 
     def alive(self) -> Alive:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
@@ -87,9 +88,17 @@ class Health(Record):
         """Return the metrics, to this machine and to those with a token."""
         if not self._may_see(request):
             raise not_found()
-        alive = await run_in_threadpool(self._alive)
-        text = self.services.metrics.text(alive)
+        text = await run_in_threadpool(self._figures)
         return Response(text, headers={"Content-Type": CONTENT_TYPE_PLAIN_0_0_4})
+
+    def _figures(self) -> bytes:
+        """Return the metrics; a database that is away is asked once."""
+        alive = self._alive()
+        taken: Mapping[str, float] = {}
+        if alive is not None:
+            with suppress(JobsUnreachable):
+                taken = self.services.jobs.stage_seconds()
+        return self.services.metrics.text(alive, taken)
 
     def _ready(self) -> Alive | None:
         """Return what is known of the engine.

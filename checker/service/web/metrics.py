@@ -57,19 +57,21 @@ class Metrics:
         self._requests.labels(method, route, status).inc()
         self._seconds.labels(route).observe(seconds)
 
-    def text(self, alive: Alive | None) -> bytes:
+    def text(self, alive: Alive | None, stage_seconds: Mapping[str, float]) -> bytes:
         """Return all figures.
 
         Args:
             alive: What is known of the engine; None if it does not answer.
+            stage_seconds: Median of what stages took lately.
         """
-        return generate_latest(self._registry) + generate_latest(_Engine(alive))
+        return generate_latest(self._registry) + generate_latest(_Engine(alive, stage_seconds))
 
 
 class _Engine(Record):
     """Figures of the engine: not counted, but asked for each time."""
 
     alive: Alive | None
+    stage_seconds: Mapping[str, float]
 
     def collect(self) -> Iterator[GaugeMetricFamily]:
         alive = self.alive
@@ -80,7 +82,7 @@ class _Engine(Record):
             about = "Since each worker's last sign of life."
             yield _gauges("worker_silent_seconds", about, "worker", alive.workers)
             about = "Median of what stages took lately, without waiting, by stage."
-            yield _gauges("stage_seconds", about, "stage", alive.seconds)
+            yield _gauges("stage_seconds", about, "stage", self.stage_seconds)
 
 
 def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:

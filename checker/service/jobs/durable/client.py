@@ -141,6 +141,12 @@ class DurableJobs(Record):
         with reachable():
             return self.senders.wait(client, per_minute)
 
+    def stage_seconds(self) -> Mapping[str, float]:
+        """Return what each stage took lately, the median of some checks; those that are known."""
+        with reachable():
+            taken = {stage.value: self._seconds(stage) for stage in STAGES}
+        return {name: seconds for name, seconds in taken.items() if seconds}
+
     def _seconds(self, stage: Stage) -> float:
         """Return the median of what a stage took lately, seconds; 0 when that is not known."""
         rows = self.checks.client.list_workflows(
@@ -164,9 +170,8 @@ class DurableJobs(Record):
         with reachable():
             silence, layers = Workers(self.checks.engine).known()
             waiting = dict(self.checks.waiting())
-            taken = {stage.value: self._seconds(stage) for stage in STAGES}
         running = waiting.pop("")
-        return Alive(silence, waiting, running, layers, {name: s for name, s in taken.items() if s})
+        return Alive(silence, waiting, running, layers)
 
     def _rows(self, id: str) -> Sequence[Row]:
         key = key_of_check(id)

@@ -63,13 +63,13 @@ class Senders(Record):
             client: Whom it counts for.
             per_minute: Uploads that a client may send.
         """
-        share, moment = _MINUTE / per_minute, now(self.engine)
+        share, moment, who = _MINUTE / per_minute, now(self.engine), self.digest(client)
         free = sa.func.greatest(RATES.c.free, moment) + share
-        counted = insert(RATES).values(client=self.digest(client), free=moment + share)
+        counted = insert(RATES).values(client=who, free=moment + share)
         counted = counted.on_conflict_do_update(
             index_elements=[RATES.c.client], set_={"free": free}, where=free - moment <= _MINUTE
         )
-        left = sa.select(RATES.c.free - moment).where(RATES.c.client == self.digest(client))
+        left = sa.select(RATES.c.free - moment).where(RATES.c.client == who)
         with self.engine.begin() as connection:
             if connection.execute(counted.returning(RATES.c.free)).first() is not None:
                 return 0.0

@@ -25,11 +25,16 @@ _SENDER_DIGITS = 16
 
 
 class Admission:
-    """Lets requests pass or refuses them; used by the event loop alone."""
+    """Lets requests pass or refuses them; used by the event loop alone.
+
+    Attributes:
+        uploads_per_minute: Of one client; 0 for any number.
+    """
 
     def __init__(self, config: Config) -> None:
         self._tokens = tuple(token.encode() for token in config.tokens)
-        self._rate = Rate(0 if config.only_here else config.uploads_per_minute)
+        self.uploads_per_minute = 0 if config.only_here else config.uploads_per_minute
+        self._rate = Rate(self.uploads_per_minute)
         self._guesses = Rate(GUESSES_PER_MINUTE)
         self._uploads = _slots(config.uploads_at_once)
         each = config.streams if config.only_here else config.streams_per_client

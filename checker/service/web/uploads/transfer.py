@@ -74,10 +74,9 @@ async def _count(request: Request, services: Services) -> None:
     Raises:
         Refused: The client has sent too many to some of them.
     """
-    config = services.config
-    if config.uploads_per_minute and not config.only_here:
+    if per_minute := services.admission.uploads_per_minute:
         client, wait = client_of(request), services.jobs.wait
-        if seconds := await run_in_threadpool(wait, client, config.uploads_per_minute):
+        if seconds := await run_in_threadpool(wait, client, per_minute):
             raise too_many(seconds)
 
 
