@@ -18,7 +18,7 @@ from typing import Any
 
 from checker.base.forked_work import in_fork
 from checker.base.parts import WorkerFailed
-from checker.expand.xacro.files import Gathered, path_of
+from checker.formats.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
 
 ROOT = Path(__file__).parent.parent
@@ -38,8 +38,8 @@ def by_python() -> None:
     """Evaluate as xacro does; only for files that one trusts, and in a process of its own."""
     import xacro
 
-    from checker.expand.xacro import processor
-    from checker.expand.xacro.expression.bounds import Budget
+    from checker.formats.xacro import processor
+    from checker.formats.xacro.expression.bounds import Budget
 
     safe_eval, create_global_symbols = xacro.safe_eval, xacro.create_global_symbols
 
@@ -74,7 +74,7 @@ def seconds(request: Request, way: Callable[[], None]) -> tuple[float, bool]:
     def work() -> bytes:
         import xacro
 
-        from checker.expand.xacro import processor
+        from checker.formats.xacro import processor
 
         xacro.warning = xacro.print_location = lambda *_, **__: None
         way()
@@ -91,7 +91,7 @@ def seconds(request: Request, way: Callable[[], None]) -> tuple[float, bool]:
 
 def main() -> None:
     """Print the medians and their ratio."""
-    import_module("checker.expand.xacro.processor")  # once, before the forks
+    import_module("checker.formats.xacro.processor")  # once, before the forks
     named = [Path(os.environ[name]) for name in FOLDERS if os.environ.get(name)]
     found = [each for folder in named or [ROOT / "samples"] for each in requests(folder)]
     found = [each for each in found if seconds(each, by_interpreter)[1]]

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli.exit_code import exit_code
-from checker.model.sdf.schema import VERSIONS
+from checker.formats.sdf.schema import VERSIONS
 from checker.pipeline import check_package
 from checker.report.report import Cause, Report
 from checker.rule import Severity

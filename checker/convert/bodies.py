@@ -8,12 +8,12 @@ from msgspec import field
 
 from checker.base.record import Record
 from checker.convert.conversion import Notes
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.fixed_joints import Lumping
 from checker.physics.mass.mechanism import spanning_tree_of
 
 

@@ -12,10 +12,10 @@ from checker.convert.gazebo_tags import COPIED
 from checker.convert.names import Naming
 from checker.convert.sdf_shapes import copied
 from checker.convert.xml_writer import is_identity, six_numbers, unique
+from checker.formats.sdf.links import read_plugin
+from checker.formats.sdf.scope import Scope
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.transform import Transform
-from checker.model.sdf.links import read_plugin
-from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
 from checker.source.xml import Element
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from checker.base.record import Record
 from checker.convert.conversion import Notes
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
 from checker.source.xml import Element
 
 _COLLISION: Mapping[str, tuple[str, ...]] = {

@@ -22,10 +22,10 @@ from checker.convert.xml_writer import (
     six_numbers,
     tidy,
 )
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
-from checker.model.urdf.description import UrdfDescription
 
 VERSION = "1.6"
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

@@ -7,8 +7,8 @@ from functools import cache
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.formats.urdf.specification import AttributeSpec
 from checker.model.sensing.kind import sensor_types
-from checker.model.urdf.specification import AttributeSpec
 from checker.ros.ros2_control.hardware import STANDARD_INTERFACES, TYPES
 from checker.rule import Context
 

@@ -9,14 +9,14 @@ from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.editor.name_kinds import NameKind
 from checker.engine.subject import Subject
-from checker.expand.xacro.expanded import ExpandedText, written_elements
+from checker.formats.sdf.includes import ModelIncludes
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.reader import read_urdf
+from checker.formats.xacro.expanded import ExpandedText, written_elements
 from checker.model.components import Frame, Joint, Link, Model, Part, Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.includes import ModelIncludes
-from checker.model.sdf.reader import read_sdf
-from checker.model.sdf.world import World
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.reader import read_urdf
+from checker.model.world import World
 from checker.source.xml import Element, XmlDocument
 
 NamedPart = Robot | Link | Joint | Frame | Model | Sensor | Plugin

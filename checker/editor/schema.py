@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checker.model.sdf.schema import VERSIONS, ElementType, sdf_root
+from checker.formats.sdf.schema import VERSIONS, ElementType, sdf_root
 
 
 def schema_type(tags: Sequence[str], version: str) -> ElementType | None:

@@ -18,9 +18,9 @@ from checker.editor.memory_cache import MemoryCache
 from checker.editor.names.index import NameIndex, names_of
 from checker.editor.units import Unit, Units
 from checker.engine.subject import Subject
-from checker.expand.xacro.expansion import xacro_server
 from checker.finding import Place
 from checker.fix.rounds import FindingsOf
+from checker.formats.xacro.expansion import xacro_server
 from checker.package.inputs import with_package_path
 from checker.package.overlay import Overlay, OverlayText
 from checker.package.package import Package

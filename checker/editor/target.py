@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from checker.base.resources import table
-from checker.model.sdf.schema import VERSIONS
+from checker.formats.sdf.schema import VERSIONS
 from checker.package.package import Package
 from checker.rule import Context
 from checker.rulebook.profiles import profile

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.xacro.files import Gathered, path_of
-from checker.expand.xacro.names import MacroParameter, parameters_of
+from checker.formats.xacro.files import Gathered, path_of
+from checker.formats.xacro.names import MacroParameter, parameters_of
 from checker.package.package import Package
 from checker.source.xml import Element, XmlDocument
 

@@ -10,16 +10,16 @@ from checker.base.extras import PHYSICS
 from checker.base.parts import type_name
 from checker.engine.judge import TRIALS
 from checker.engine.subject import Subject
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.robot_trial import RepeatedTrial
 from checker.physics.trial.run import RobotTrials
 from checker.physics.views.sensor_views import RobotViews
+from checker.robots.package_descriptions import PackageDescriptions
+from checker.robots.urdf_files import UrdfFiles
 
 _WITH_MESHES = TRIALS | {type_name(MassProperties)}
 _OF_URDF = frozenset(map(type_name, (UrdfDescription, UrdfFiles)))

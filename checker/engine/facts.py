@@ -15,7 +15,6 @@ from checker.finding import Place, Severity
 from checker.model.components import Collision, Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
-from checker.model.urdf.files import UrdfFiles
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
@@ -23,6 +22,7 @@ from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.run import RobotTrials
 from checker.physics.trial.trial import Measurement, Trial
 from checker.report.figures import NOT_JUDGED
+from checker.robots.urdf_files import UrdfFiles
 
 # A trial as the report shows it: every figure with its limits and a verdict.
 

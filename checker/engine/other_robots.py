@@ -10,21 +10,21 @@ from msgspec.structs import replace
 from checker.base.parts import NotAvailable, type_name
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.xacro.expanded import ExpandedText
-from checker.expand.xacro.expansion import Expander
 from checker.finding import Place, fingerprint
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.expanded import ExpandedText
+from checker.formats.xacro.expansion import Expander
+from checker.launch.ros2.graph import Ros2Launch
 from checker.model.devices.known import KnownDevices
-from checker.model.parts import ModelFile
 from checker.model.plugin_host import PluginHost
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mesh.process import MeshServer
 from checker.report.report import Cause, ReportedFinding
+from checker.robots.parts import ModelFile
+from checker.robots.urdf_files import UrdfFiles
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Context, Rule
 

@@ -18,7 +18,7 @@ from checker.base.output import Stages
 from checker.base.parts import Ask, NotAvailable, Provider, providers_in, type_name
 from checker.base.record import Record
 from checker.base.resources import PACKAGE
-from checker.expand.xacro.expansion import Expander, XacroArguments, xacro_server
+from checker.formats.xacro.expansion import Expander, XacroArguments, xacro_server
 from checker.model.devices.known import KnownDevices, known_devices
 from checker.package.package import Package
 from checker.physics.mesh.process import MeshServer, mesh_server
@@ -26,7 +26,10 @@ from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 
 T = TypeVar("T")
 
-PROVIDERS = ("expand.parts", "model.parts", "model.urdf.parts", "ros.parts", "physics.parts")
+PROVIDERS = (
+    *("launch.parts", "model.parts", "robots.parts", "robots.urdf_parts", "ros.parts"),
+    "physics.parts",
+)
 """Modules that make parts whose types are defined elsewhere."""
 
 _ASK = type_name(Ask)

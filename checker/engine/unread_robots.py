@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
-from checker.expand.ros2_launch.named_paths import named_paths, unavailable
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
+from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package

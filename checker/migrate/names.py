@@ -9,11 +9,11 @@ from lxml import etree
 from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.xml_writer import numbers
+from checker.formats.sdf.poses import transform_of
 from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.source import Source
 from checker.migrate.xml_parts import put
 from checker.model.geometry.transform import Transform
-from checker.model.sdf.poses import transform_of
 from checker.model.values import parse_number
 
 # The link that carries all others gets the name that SubT's tools expect: `base_link`.

@@ -12,16 +12,16 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE
 from checker.base.record import Record
 from checker.convert.xml_writer import document_text
-from checker.expand.xacro.expansion import Expander, xacro_server
-from checker.expand.xacro.fault import XacroFault, XacroFaultKind
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.expansion import Expander, xacro_server
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.migrate.options import NotMigrated
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.package.inputs import Opened, open_input
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
 from checker.physics.mesh.uris import MeshFile, file_behind
+from checker.robots.package_descriptions import PackageDescriptions
+from checker.robots.urdf_files import UrdfFiles
 
 _NAMED_LIMIT = 8
 _GIVE_ARGUMENT = "; give it with --args name:=value"

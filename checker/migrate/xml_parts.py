@@ -9,7 +9,7 @@ from typing import Union
 from lxml import etree
 
 from checker.convert.xml_writer import exact
-from checker.model.sdf.poses import in_degrees
+from checker.formats.sdf.poses import in_degrees
 from checker.model.values import parse_number
 
 # Angles that mean a multiple of π/2, written to 16 digits as the guide asks.

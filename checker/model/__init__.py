@@ -1,1 +1,1 @@
-"""One robot model, read from SDF or URDF, in which everything knows its place."""
+"""One robot model for all formats, in which every value knows its place in the files."""

@@ -1,182 +1,18 @@
-"""The model file of a package, the robots and worlds in it, the specification, the devices."""
+"""The specification sheet of a package, and the sensor devices of its robots."""
 
 from __future__ import annotations
 
-from msgspec.structs import replace
-
 from checker.base.files import NotReadable
-from checker.base.parts import Ask, NotAvailable, part
-from checker.base.record import Record
-from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.expand.xacro.expansion import Expander
-from checker.model.controllers import Controller
+from checker.base.parts import NotAvailable, part
 from checker.model.devices.devices import SensorDevices
 from checker.model.devices.known import KnownDevices
 from checker.model.devices.sensors import find_sensor_devices
-from checker.model.first_configuration import FirstConfiguration
-from checker.model.plugin_host import PluginHost, model_host, world_host
 from checker.model.robot import Robot
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.expanded import expanded_model
-from checker.model.sdf.includes import ModelIncludes, included_model
-from checker.model.sdf.links import read_plugin
-from checker.model.sdf.reader import read_sdf
-from checker.model.sdf.world import World, read_worlds
 from checker.model.specification.sheet import Specification, read_specification
-from checker.model.urdf.description import UrdfDescription
-from checker.package.configuration import configuration_number, first_configuration
+from checker.package.configuration import configuration_number
 from checker.package.inheritance import Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.source.xml import XmlDocument
-from checker.source.xml_positions import XmlFault
-
-_WITHOUT_ROBOT = {
-    PackageKind.PLUGIN: "the package contains only a plugin",
-    PackageKind.UNKNOWN: "the package contains no robot",
-}
-
-
-class ModelFile(Record, eq=False):
-    """The model file; of a package whose robots URDF files describe, the first of these."""
-
-    document: XmlDocument
-
-
-class PlainRobots(Record, eq=False):
-    """The robots of a package without their meshes."""
-
-    robots: tuple[Robot, ...]
-
-
-class ControlledRobot(Record, eq=False):
-    """A robot of a URDF file that ros2_control controls.
-
-    Attributes:
-        robot: As the file describes it.
-        controllers: Those that may run.
-    """
-
-    robot: Robot
-    controllers: tuple[Controller, ...]
-
-
-@part
-def model_file(package: Package, expander: Expander, ask: Ask) -> ModelFile | NotAvailable:
-    """Return the model file."""
-    if (without := _WITHOUT_ROBOT.get(package.kind)) is not None:
-        return NotAvailable(without, applicable=False)
-    if package.kind is PackageKind.URDF_DESCRIPTION:
-        return _first_description(ask)
-    path = package.model_path
-    if isinstance(path, Missing):
-        return NotAvailable(path.reason)
-    document = _document(package, path.path, expander)
-    if isinstance(document, NotAvailable):
-        return document
-    alone = document.root.tag == "robot" and package.only
-    return _first_description(ask) if alone else ModelFile(document)
-
-
-def _first_description(ask: Ask) -> ModelFile | NotAvailable:
-    first = ask.one(UrdfDescription)
-    return first if isinstance(first, NotAvailable) else ModelFile(first.document)
-
-
-def _document(package: Package, path: str, expander: Expander) -> XmlDocument | NotAvailable:
-    """Return a file as XML, or say why it cannot be had."""
-    document = package.xml(path)
-    if isinstance(document, XmlFault):
-        return NotAvailable(f"{path} is not well-formed")
-    if isinstance(document, NotReadable):
-        return NotAvailable(f"{path} {document.reason}")
-    if document.root.tag == "sdf" and path.lower().endswith(".xacro"):
-        return expanded_model(package, path, expander)
-    return document
-
-
-@part
-def sdf(model: ModelFile) -> SdfDocument | NotAvailable:
-    """Return the model file as SDF."""
-    root = model.document.root
-    if root.tag == "robot":
-        return NotAvailable("the model is a URDF file", applicable=False)
-    return SdfDocument(model.document, (root.get("version") or "").strip())
-
-
-@part
-def worlds(package: Package, sdf: SdfDocument | NotAvailable) -> tuple[World, ...] | NotAvailable:
-    """Return the worlds of the model file."""
-    if isinstance(sdf, NotAvailable):
-        return NotAvailable(sdf.reason, applicable=package.kind is PackageKind.WORLD)
-    worlds = read_worlds(sdf.document, ModelIncludes(package))
-    return worlds or NotAvailable("the file contains no world", applicable=False)
-
-
-@part
-def plugin_hosts(
-    robots: tuple[Robot, ...] | NotAvailable, worlds: tuple[World, ...] | NotAvailable
-) -> tuple[PluginHost, ...] | NotAvailable:
-    """Return what loads plugins: the robots, and the worlds of the model file."""
-    hosts = () if isinstance(worlds, NotAvailable) else tuple(map(world_host, worlds))
-    if isinstance(robots, NotAvailable):
-        return hosts or robots
-    return (*map(model_host, robots), *hosts)
-
-
-@part
-def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | NotAvailable:
-    """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
-    root = model.document.root
-    if root.tag == "robot":
-        return _described(ask)
-    includes = ModelIncludes(package)
-    robots = read_sdf(model.document, includes)
-    if package.kind is PackageKind.WORLD:
-        robots = tuple(robot for robot in robots if not robot.is_static)
-    if not package.only:
-        robots = robots[:1]
-    if robots:
-        spawned = ask.one(SpawnedXml)
-        return PlainRobots((_with_spawned_plugins(robots[0], spawned), *robots[1:]))
-    nothing_to_see = root.child("world") is not None
-    kind = "model that moves" if nothing_to_see else "model"
-    reason = f"{model.document.source.file} contains no {kind}"
-    if (placed := root.child("include")) is not None:
-        missing = included_model(placed, includes)
-        reason = missing if isinstance(missing, str) else reason
-    return NotAvailable(reason, applicable=not nothing_to_see)
-
-
-def _described(ask: Ask) -> PlainRobots | NotAvailable:
-    """Return the robots of URDF files with their controllers."""
-    descriptions, controlled = ask.all(UrdfDescription), ask.all(ControlledRobot)
-    if isinstance(descriptions, NotAvailable):
-        return descriptions
-    robots = {id(it.robot): it.robot for it in descriptions}
-    for each in () if isinstance(controlled, NotAvailable) else controlled:
-        robots[id(each.robot)] = replace(each.robot, controllers=each.controllers)
-    return PlainRobots(tuple(robots.values()))
-
-
-def _with_spawned_plugins(robot: Robot, spawned: SpawnedXml | NotAvailable) -> Robot:
-    if isinstance(spawned, NotAvailable):
-        return replace(robot, unread_plugins=spawned.reason if spawned.applicable else "")
-    added = (read_plugin(element) for element in spawned.plugins)
-    return replace(robot, plugins=(*robot.plugins, *added))
-
-
-@part
-def lowest_configuration(package: Package, ask: Ask) -> FirstConfiguration | NotAvailable:
-    """Return the configuration of the same robot that has the lowest available number."""
-    first = first_configuration(package)
-    if first is None:
-        return NotAvailable("no earlier configuration is available to compare", applicable=False)
-    with ask.beside(first) as parts:
-        plain = parts.one(PlainRobots)
-    if isinstance(plain, NotAvailable):
-        return NotAvailable(f"{first.name} cannot be compared: {plain.reason}")
-    return FirstConfiguration(first.name, plain.robots[0])
 
 
 @part

@@ -12,7 +12,7 @@ from checker.model.plugin_library import library_stem
 from checker.source.text import Located
 
 if TYPE_CHECKING:
-    from checker.model.sdf.world import World
+    from checker.model.world import World
 
 _LIBRARY = re.compile(r"(?:gz|ignition)-physics-([\w-]+)-plugin")
 _NUMBERED = re.compile(r"-physics\d+-")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.model.sdf.world import World
+from checker.model.world import World
 
 
 class PluginHost(Record, eq=False):

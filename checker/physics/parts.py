@@ -10,7 +10,6 @@ from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
 from checker.base.output import Stages
 from checker.base.parts import NotAvailable, part
-from checker.model.parts import PlainRobots
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews
 from checker.package.package import Package
@@ -23,6 +22,7 @@ from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, Settled
 from checker.physics.trial.run import RobotTrials
 from checker.physics.trial.settling import unrest_of
 from checker.physics.views.sensor_views import RobotViews
+from checker.robots.parts import PlainRobots
 
 
 @part

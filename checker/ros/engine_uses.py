@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.physics_engine import PhysicsEngine, engine_of
 from checker.model.robot import Robot
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.ros.servers import GazeboServer
 from checker.ros.simulation import Simulations
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from checker.base.parts import Ask, NotAvailable, part
-from checker.expand.launch.package_launch import LaunchEntries
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.xacro.expansion import Expander
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.expansion import Expander
+from checker.launch.ros1.package_launch import LaunchEntries
+from checker.launch.ros2.graph import Ros2Launch
 from checker.model.locomotion.controlled import without_idle
-from checker.model.parts import ControlledRobot
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.robots.parts import ControlledRobot
+from checker.robots.urdf_files import UrdfFiles
 from checker.ros.control.controllers import ControlSystem
 from checker.ros.ros2_control.launched import LaunchedControl, launched_files
 from checker.ros.ros2_control.launched import launched_controls as read_launched_controls

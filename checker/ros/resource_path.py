@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import (
+from checker.launch.ros2.graph import (
     SHARE,
     EnvironmentChange,
     LaunchGraph,
@@ -15,7 +15,7 @@ from checker.expand.ros2_launch.graph import (
     is_known,
     share_path,
 )
-from checker.expand.ros2_launch.package_launch import launch_files
+from checker.launch.ros2.package_launch import launch_files
 from checker.package.package import Package
 from checker.package.resource_path import SearchedFolder, mentions, searched_folders, sets_path
 from checker.source.text import Span

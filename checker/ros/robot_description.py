@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.expand.launch.graph import LaunchGraph, Param
-from checker.expand.launch.launch_file import target_of
+from checker.launch.ros1.graph import LaunchGraph, Param
+from checker.launch.ros1.launch_file import target_of
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 

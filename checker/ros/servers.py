@@ -8,7 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from msgspec.structs import replace
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import (
+from checker.formats.sdf.includes import ModelIncludes
+from checker.formats.sdf.world import read_worlds
+from checker.launch.ros2.graph import (
     GAZEBO,
     Include,
     LaunchGraph,
@@ -17,9 +19,8 @@ from checker.expand.ros2_launch.graph import (
     is_known,
     share_path,
 )
-from checker.expand.ros2_launch.package_files import local_file
-from checker.model.sdf.includes import ModelIncludes
-from checker.model.sdf.world import World, read_worlds
+from checker.launch.ros2.package_files import local_file
+from checker.model.world import World
 from checker.package.package import Package
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument

@@ -13,7 +13,7 @@ from typing import Any
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.bridge import Direction
+from checker.launch.ros1.bridge import Direction
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType

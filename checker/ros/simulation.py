@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.bridges.entry import BridgeEntry
-from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
+from checker.launch.ros2.bridges.entry import BridgeEntry
+from checker.launch.ros2.bridges.reader import Bridges, loose_bridges, read_bridges
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.model.robot import Robot
-from checker.model.sdf.world import World, systems_of
+from checker.model.world import World, systems_of
 from checker.package.package import Package
 from checker.ros.servers import (
     GazeboServer,

@@ -6,9 +6,14 @@ from collections.abc import Collection, Iterator
 from itertools import pairwise
 
 from checker.base.record import Record
-from checker.expand.launch.launch_file import Load
-from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
-from checker.expand.ros2_launch.graph import (
+from checker.formats.sdf.includes import ModelIncludes
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.urdf.description import read_description
+from checker.formats.xacro.expansion import Expander, Expansions, Wanted
+from checker.formats.xacro.files import local_path
+from checker.launch.ros1.launch_file import Load
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
+from checker.launch.ros2.graph import (
     GAZEBO,
     LaunchGraph,
     Node,
@@ -17,12 +22,7 @@ from checker.expand.ros2_launch.graph import (
     share_path,
     shown,
 )
-from checker.expand.xacro.expansion import Expander, Expansions, Wanted
-from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
-from checker.model.sdf.includes import ModelIncludes
-from checker.model.sdf.reader import read_sdf
-from checker.model.urdf.description import read_description
 from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import (
     ControlReader,

@@ -14,7 +14,7 @@ from typing import Any
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.bridge import Bridge, Direction
+from checker.launch.ros1.bridge import Bridge, Direction
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 
 from checker.base.record import Record
-from checker.expand.launch.bridge import Bridge
-from checker.expand.launch.graph import LaunchGraph, Node, resolve_name
+from checker.launch.ros1.bridge import Bridge
+from checker.launch.ros1.graph import LaunchGraph, Node, resolve_name
 
 # optical_frame_publisher: the node that gives a camera's pictures out in its optical frame.
 #

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import Include, LaunchGraph, Process, share_path, shown
+from checker.launch.ros2.graph import Include, LaunchGraph, Process, share_path, shown
 from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
 
 _QUIET_COMMANDS = tuple(

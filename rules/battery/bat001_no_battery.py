@@ -8,7 +8,7 @@ the robot move.
 Source: SubT maintainers ask for it in their reviews; all accepted packages have one.
 """
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.model.battery import BATTERY_CLASS, batteries, commented_out
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind

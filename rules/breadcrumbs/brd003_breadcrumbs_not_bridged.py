@@ -12,8 +12,8 @@ Source: SubT reviews of breadcrumbs; topics of Gazebo's Breadcrumbs plugin.
 
 from collections.abc import Iterable, Iterator
 
-from checker.expand.launch.bridge import Bridge
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.bridge import Bridge
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked

@@ -8,7 +8,7 @@ without spaces, such as `/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan`.
 Source: ros_gz_bridge, parameter_bridge.cpp.
 """
 
-from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
+from checker.launch.ros2.bridges.entry import BridgeFaultKind
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -12,8 +12,8 @@ Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
 from collections.abc import Iterator
 
 from checker.base.words import listed
-from checker.expand.ros2_launch.bridges.entry import GZ_PREFIXES, BridgeEntry
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.bridges.entry import GZ_PREFIXES, BridgeEntry
+from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import (
     all_ros_types,
     gz_messages,

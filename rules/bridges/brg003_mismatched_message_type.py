@@ -9,7 +9,7 @@ Source: gz-sensors and Gazebo's systems; gazebosim/gz-sensors issue 175.
 """
 
 from checker.base.words import listed
-from checker.expand.ros2_launch.bridges.entry import GZ_PREFIXES
+from checker.launch.ros2.bridges.entry import GZ_PREFIXES
 from checker.ros.bridge_types import ros_types
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule

@@ -13,8 +13,8 @@ Source: gz-sensors and Gazebo's systems, their default topics.
 import re
 from collections.abc import Iterable
 
-from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.bridges.entry import BridgeEntry
 from checker.package.package import Package
 from checker.ros.simulated_topics import SimulatedTopic
 from checker.ros.simulation import Simulation, Simulations

@@ -9,8 +9,8 @@ Fix: write `[` or GZ_TO_ROS for what Gazebo publishes, `]` or ROS_TO_GZ for comm
 Source: ros_gz_bridge; gz-sensors and Gazebo's systems.
 """
 
-from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.bridges.entry import BridgeEntry
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -10,7 +10,7 @@ Fix: write `ros_topic_name`, `gz_topic_name`, `ros_type_name`, `gz_type_name` an
 Source: ros_gz_bridge, bridge_config.cpp; gazebosim/ros_gz issue 337.
 """
 
-from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
+from checker.launch.ros2.bridges.entry import BridgeFaultKind
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

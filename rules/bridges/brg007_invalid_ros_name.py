@@ -10,7 +10,7 @@ Source: rcl, validation of topic names; gazebosim/ros_gz issue 660.
 
 import re
 
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.graph import is_known
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -9,8 +9,8 @@ Fix: add the bridge `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
 Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 """
 
-from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
-from checker.expand.ros2_launch.graph import GAZEBO, Node
+from checker.launch.ros2.bridges.entry import BridgeFaultKind
+from checker.launch.ros2.graph import GAZEBO, Node
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -12,8 +12,8 @@ Source: gz-sensors, frame of messages; ros_gz_project_template issue 23, gz-sens
 
 from collections.abc import Iterator
 
-from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.graph import Node, is_known
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
 from checker.model.sensing.kind import SensorType, frame_ids
 from checker.ros.simulation import Simulation, Simulations

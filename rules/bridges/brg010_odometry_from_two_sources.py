@@ -12,8 +12,8 @@ Source: ros2_controllers, diff_drive_controller; gazebosim/gz-sim issue 2372.
 
 from collections.abc import Iterator
 
-from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.bridges.entry import BridgeEntry
 from checker.model.components import Plugin
 from checker.model.controllers import Controller
 from checker.ros.simulation import Simulation

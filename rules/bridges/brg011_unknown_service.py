@@ -14,8 +14,8 @@ import re
 from collections.abc import Iterator
 
 from checker.base.words import listed
-from checker.expand.ros2_launch.bridges.entry import BridgedService, gz_name
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.bridges.entry import BridgedService, gz_name
+from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import meant_service, service_messages
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule

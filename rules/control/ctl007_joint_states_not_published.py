@@ -12,7 +12,7 @@ Source: robot_state_publisher (subscribes to `joint_states`); joint_state_contro
 
 from collections.abc import Iterable
 
-from checker.expand.launch.graph import resolve_name
+from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import ControlLaunch, ControlSystem
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 

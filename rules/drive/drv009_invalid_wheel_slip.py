@@ -15,8 +15,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from checker.model.components import Plugin
-from checker.model.locomotion.friction import SlippingWheel, slipping_wheels
 from checker.model.locomotion.rotors import GRAVITY
+from checker.model.locomotion.wheel_slip import SlippingWheel, slipping_wheels
 from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked

@@ -11,8 +11,8 @@ Source: parameters of Gazebo's drive systems and OdometryPublisher; frames of po
 
 from collections.abc import Iterable, Iterator
 
-from checker.expand.launch.graph import LaunchGraph, Node
-from checker.expand.spawner.reader import SAMPLE_NAME, SAMPLE_WORLD
+from checker.launch.ros1.graph import LaunchGraph, Node
+from checker.launch.spawner.reader import SAMPLE_NAME, SAMPLE_WORLD
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located

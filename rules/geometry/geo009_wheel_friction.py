@@ -12,9 +12,9 @@ Source: SDFormat specification, surface/friction: coefficients of Coulomb fricti
 import enum
 from collections.abc import Iterator
 
+from checker.formats.friction import Friction, FrictionReader
 from checker.model.components import Collision, Link
 from checker.model.geometry.placed_shapes import placed
-from checker.model.locomotion.friction import Friction, FrictionReader
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from checker.formats.sdf.auto_inertia import is_automatic
+from checker.formats.sdf.document import parse_version
 from checker.model.components import Inertial, Link
-from checker.model.sdf.auto_inertia import is_automatic
-from checker.model.sdf.document import parse_version
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 

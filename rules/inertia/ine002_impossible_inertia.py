@@ -16,10 +16,10 @@ accepts a mass of zero.
 import math
 from collections.abc import Iterator
 
+from checker.formats.sdf.auto_inertia import is_automatic
 from checker.model.components import Inertial, Link
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
-from checker.model.sdf.auto_inertia import is_automatic
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mass.mass_properties import LinkInertia
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule

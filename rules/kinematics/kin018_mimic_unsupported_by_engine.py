@@ -17,7 +17,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.ros.engine_uses import EngineUse, engine_uses
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule

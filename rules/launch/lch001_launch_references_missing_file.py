@@ -14,8 +14,8 @@ ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
-from checker.expand.ros2_launch.named_paths import (
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
+from checker.launch.ros2.named_paths import (
     is_missing,
     lies_elsewhere,
     named_paths,

@@ -11,13 +11,13 @@ Source: ament_cmake user documentation; RobotecAI/ROSCon2023Demo#116.
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import Ros2Launch, SharePath, share_path
-from checker.expand.ros2_launch.named_paths import NamedPath, named_paths
-from checker.expand.ros2_launch.package_files import holder_of, local_file
-from checker.expand.xacro.expanded import ExpandedText
-from checker.model.urdf.files import UrdfFiles
+from checker.formats.xacro.expanded import ExpandedText
+from checker.launch.ros2.graph import Ros2Launch, SharePath, share_path
+from checker.launch.ros2.named_paths import NamedPath, named_paths
+from checker.launch.ros2.package_files import holder_of, local_file
 from checker.package.installed import installed_as, left_out
 from checker.package.package import Package
+from checker.robots.urdf_files import UrdfFiles
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

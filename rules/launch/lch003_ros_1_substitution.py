@@ -6,7 +6,7 @@ Fix: write `$(var x)`, `$(find-pkg-share p)` and `$(env V default)`.
 Source: launch_xml and launch_ros, substitutions; ika-rwth-aachen/ros2-pkg-create#27.
 """
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 
 _NEW = {"arg": "var", "find": "find-pkg-share", "optenv": "env"}

@@ -9,7 +9,7 @@ Source: launch_ros, `Node`: `executable` is required, and other keywords raise a
 
 from collections.abc import Mapping
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 OLD: Mapping[str, str] = {

@@ -12,10 +12,10 @@ UniversalRobots/Universal_Robots_ROS2_Driver#1103, intrinsic-dev/aic#43.
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.xacro.files import local_path
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.files import local_path
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
+from checker.launch.ros2.graph import Ros2Launch
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.yaml import MAX_LENGTH, is_yaml

@@ -10,7 +10,7 @@ navigation2, slam_toolbox and ros_gz, humble to lyrical: arguments of their laun
 """
 
 from checker.base.words import Suggestions
-from checker.expand.ros2_launch.graph import Ros2Launch, shown
+from checker.launch.ros2.graph import Ros2Launch, shown
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

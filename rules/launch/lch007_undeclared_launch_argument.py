@@ -11,8 +11,8 @@ Source: launch, `LaunchConfiguration.perform`: without a default, a missing one 
 
 import posixpath
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
-from checker.expand.ros2_launch.package_launch import launch_files
+from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
+from checker.launch.ros2.package_launch import launch_files
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText

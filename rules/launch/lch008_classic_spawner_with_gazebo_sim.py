@@ -7,7 +7,7 @@ Fix: use `create` of ros_gz_sim, `Node(package='ros_gz_sim', executable='create'
 Source: gazebo_ros `spawn_entity.py`; ros_gz_sim `create`.
 """
 
-from checker.expand.ros2_launch.graph import GAZEBO, LaunchGraph, Ros2Launch, share_path
+from checker.launch.ros2.graph import GAZEBO, LaunchGraph, Ros2Launch, share_path
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -9,7 +9,7 @@ Source: ros_gz_sim, `create.cpp`: gflags ends the program at an unknown flag.
 
 from collections.abc import Mapping
 
-from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.launch.ros2.graph import Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _HINTS: Mapping[str, str] = {

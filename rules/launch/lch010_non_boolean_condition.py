@@ -7,7 +7,7 @@ Fix: write one of these, or compare: `PythonExpression(["'", x, "' == 'sim'"])`.
 Source: launch, `evaluate_condition_expression`.
 """
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -7,7 +7,7 @@ Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` show
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
 """
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _KINDS = (

@@ -23,9 +23,9 @@ issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one leve
 import re
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.package_files import holder_of
-from checker.expand.xacro.expanded import ExpandedText
 from checker.finding import Fix
+from checker.formats.xacro.expanded import ExpandedText
+from checker.launch.ros2.package_files import holder_of
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.ros.resource_path import resource_path

@@ -11,9 +11,9 @@ Source: xacro: arguments of the command line are only read by `$(arg …)`.
 import re
 
 from checker.base.words import Suggestions
-from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.xacro.files import Gathered
+from checker.formats.xacro.files import Gathered
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
+from checker.launch.ros2.graph import Ros2Launch
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.base.resources import table
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, is_known, share_path
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, is_known, share_path
 from checker.package.package import Package
 from checker.package.released import ReleasedNames, distributions_with
 from checker.rule import Concern, Context, Findings, Severity, finding, rule

@@ -10,7 +10,7 @@ Source: launch, `DeclareLaunchArgument`: it sets a launch configuration and noth
 """
 
 from checker.base.words import Suggestions
-from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.launch.ros2.graph import Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

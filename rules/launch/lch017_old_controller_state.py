@@ -10,7 +10,7 @@ Source: ros2_control pull request 755, ros2controlcli; gazebo_ros2_control pull 
 
 from collections.abc import Mapping
 
-from checker.expand.ros2_launch.graph import Process, Ros2Launch
+from checker.launch.ros2.graph import Process, Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -13,7 +13,7 @@ Source: ros2launch, `Node`: programs are looked up in `lib/<package>` of the ins
 import re
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import LaunchGraph, Node, NodeKind, Ros2Launch, is_known
+from checker.launch.ros2.graph import LaunchGraph, Node, NodeKind, Ros2Launch, is_known
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from html import escape
 
 from checker.finding import Fix
-from checker.model.sdf.document import parse_version
+from checker.formats.sdf.document import parse_version
 from checker.package.manifests import ModelConfig, Paperwork, SdfEntry
 from checker.package.model_file import own_model
 from checker.package.package import Package

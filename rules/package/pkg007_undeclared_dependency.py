@@ -21,10 +21,10 @@ import re
 from collections.abc import Iterator
 
 from checker.base.resources import table
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.ros2_launch.package_launch import built_by_ament
-from checker.expand.ros2_launch.used_packages import used_packages
 from checker.finding import Fix, Place
+from checker.launch.ros2.graph import Ros2Launch
+from checker.launch.ros2.package_launch import built_by_ament
+from checker.launch.ros2.used_packages import used_packages
 from checker.package.dependencies import Use, former_names, taken_in_vain, uses_in_ros2, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind

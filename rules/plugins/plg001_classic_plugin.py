@@ -19,8 +19,8 @@ from checker.finding import Fix
 from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import classic_plugin, library_stem, newer_name
-from checker.model.urdf.simulator import classic_by_default
 from checker.package.package import Package
+from checker.robots.simulator import classic_by_default
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 

@@ -10,8 +10,8 @@ this.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.reader import Spawner
 from checker.model.components import Plugin
 from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.robot import Robot

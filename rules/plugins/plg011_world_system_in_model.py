@@ -11,7 +11,7 @@ Source: systems of gz-sim, as listed in `gazebo_plugins.json`; tutorial "Sensors
 from checker.base.resources import table
 from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
-from checker.model.sdf.world import systems_of
+from checker.model.world import systems_of
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -20,8 +20,8 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
-from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.ros.topics import (

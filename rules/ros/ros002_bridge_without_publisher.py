@@ -20,12 +20,12 @@ assumed (`models_common.json`).
 from collections.abc import Callable
 
 from checker.base.words import Suggestions
-from checker.expand.launch.bridge import Bridge, SensorTopic
-from checker.expand.launch.graph import LaunchGraph
+from checker.formats.sdf.links import read_plugin
+from checker.launch.ros1.bridge import Bridge, SensorTopic
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Link, Plugin, Sensor
 from checker.model.plugin_library import gazebo_libraries, library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.model.sdf.links import read_plugin
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.ros.topics import comparable, sensor_channels

@@ -13,8 +13,8 @@ asked the author to replace the LaserScan of a lidar with 16 rows.
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
-from checker.expand.launch.bridge import Bridge, Direction
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.bridge import Bridge, Direction
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.ros.topics import Channel, by_topic, channels

@@ -12,8 +12,8 @@ Source: SubT reviews of launch files copied from other robots.
 from collections import defaultdict
 from collections.abc import Iterable
 
-from checker.expand.launch.bridge import Bridge, Direction
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.bridge import Bridge, Direction
+from checker.launch.ros1.graph import LaunchGraph
 from checker.ros.topics import comparable
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -20,9 +20,9 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.expand.launch.bridge import Bridge
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.spawner.reader import SAMPLE_NAME
+from checker.launch.ros1.bridge import Bridge
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.spawner.reader import SAMPLE_NAME
 from checker.model.components import Sensor
 from checker.model.devices.known import KnownDevices, spaced
 from checker.model.devices.lidar_class import LidarClass, class_of_sensor

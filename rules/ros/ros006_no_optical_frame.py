@@ -12,8 +12,8 @@ Source: SubT review findings about cameras without it; REP 103, suffix frames of
 
 from collections.abc import Iterator
 
-from checker.expand.launch.bridge import Bridge, Direction
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.bridge import Bridge, Direction
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.ros.topics import Channel, channels, comparable

@@ -12,9 +12,9 @@ packages.
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.expand.launch.bridge import Bridge, Direction
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.spawner.reader import SAMPLE_NAME
+from checker.launch.ros1.bridge import Bridge, Direction
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.spawner.reader import SAMPLE_NAME
 from checker.ros.transforms import OpticalFrame, optical_frames
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 

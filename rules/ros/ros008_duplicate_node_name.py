@@ -15,10 +15,10 @@ import posixpath
 from collections import defaultdict
 from collections.abc import Hashable, Iterator
 
-from checker.expand.launch.assumed_files import unknown_nodes
-from checker.expand.launch.graph import LaunchGraph, Node, UnresolvedInclude
-from checker.expand.launch.substitution import is_known
-from checker.expand.spawner.reader import SAMPLE_NAME
+from checker.launch.ros1.assumed_files import unknown_nodes
+from checker.launch.ros1.graph import LaunchGraph, Node, UnresolvedInclude
+from checker.launch.ros1.substitution import is_known
+from checker.launch.spawner.reader import SAMPLE_NAME
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 20

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
-from checker.expand.launch.attributes import LaunchTag, launch_tags, left_outside
+from checker.launch.ros1.attributes import LaunchTag, launch_tags, left_outside
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span

@@ -11,8 +11,8 @@ Source: roslaunch XML specification, substitution args and `<include>`.
 
 from collections.abc import Collection, Iterator, Mapping
 
-from checker.expand.launch.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
-from checker.expand.launch.launch_file import target_of
+from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
+from checker.launch.ros1.launch_file import target_of
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 

@@ -14,12 +14,12 @@ Source: a review that asked for `robot_state_publisher`; parameters of PosePubli
 
 from collections.abc import Iterator
 
-from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
+from checker.launch.ros1.graph import LaunchGraph
 from checker.model.robot import Robot
-from checker.model.urdf.files import UrdfFiles
 from checker.package.inheritance import Found
 from checker.package.package import Package
+from checker.robots.urdf_files import UrdfFiles
 from checker.ros.robot_description import fixed_frames, robot_descriptions
 from checker.ros.transforms import state_publishers, static_transforms
 from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked

@@ -13,8 +13,8 @@ drive. The content of the file is general knowledge: subt_ros is not available.
 
 import posixpath
 
-from checker.expand.launch.graph import Include, LaunchGraph, UnresolvedInclude
-from checker.expand.launch.substitution import is_known
+from checker.launch.ros1.graph import Include, LaunchGraph, UnresolvedInclude
+from checker.launch.ros1.substitution import is_known
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked

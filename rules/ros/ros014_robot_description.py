@@ -12,8 +12,8 @@ Source: Model Migration Guide, description.launch.
 
 from collections.abc import Iterator
 
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.launch.substitution import is_known
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.ros1.substitution import is_known
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.ros.description_script import DescriptionScript, read_description_script

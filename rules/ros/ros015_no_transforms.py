@@ -9,7 +9,7 @@ Source: Model Migration Guide, vehicle_topics.launch; all accepted packages star
 with the template all_robots.launch of subt_ros, whose content is assumed.
 """
 
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.ros.transforms import (

@@ -12,7 +12,7 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resour
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.expand.xacro.expanded import written_elements
+from checker.formats.xacro.expanded import written_elements
 from checker.ros.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,

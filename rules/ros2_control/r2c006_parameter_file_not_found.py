@@ -8,7 +8,7 @@ Fix: correct the path, and install the file: `$(find package)/config/controllers
 Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 """
 
-from checker.expand.xacro.files import ROOT
+from checker.formats.xacro.files import ROOT
 from checker.package.installed import left_out, listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package

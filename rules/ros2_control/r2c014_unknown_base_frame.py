@@ -9,7 +9,7 @@ Source: ros2_controllers, `base_frame_id` of diff_drive_controller, tricycle_con
 steering controllers; REP 105.
 """
 
-from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.launch.ros2.graph import Ros2Launch
 from checker.model.controllers import Controller
 from checker.ros.ros2_control.distributions import controller_types
 from checker.ros.ros2_control.robot_control import RobotControl

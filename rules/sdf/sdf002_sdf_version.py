@@ -15,8 +15,8 @@ Guide, step 5; SDFormat specification, the attribute `version`.
 from collections.abc import Iterator
 from posixpath import normpath
 
-from checker.model.sdf.document import SdfDocument, parse_version
-from checker.model.sdf.schema import VERSIONS
+from checker.formats.sdf.document import SdfDocument, parse_version
+from checker.formats.sdf.schema import VERSIONS
 from checker.package.manifests import Paperwork, SdfEntry
 from checker.rule import (
     Concern,

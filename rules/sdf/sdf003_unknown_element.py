@@ -17,9 +17,9 @@ from collections.abc import Iterator
 
 from checker.base.words import Suggestions
 from checker.finding import Fix
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import all_tags
-from checker.model.sdf.unread import is_appearance, is_unread
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.schema import all_tags
+from checker.formats.sdf.unread import is_appearance, is_unread
 from checker.model.sensing.kind import frame_ids
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element

@@ -11,8 +11,8 @@ Source: SDFormat specification, the version that the file states.
 """
 
 from checker.base.words import Suggestions
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import type_of
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.schema import type_of
 from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 
 ELSEWHERE = {("pose", "frame")}

@@ -11,8 +11,8 @@ Source: SDFormat specification, "Required: 1" at the element or attribute.
 
 from collections.abc import Iterator
 
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, type_of
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.schema import ElementType, type_of
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

@@ -14,15 +14,15 @@ Source: SDFormat specification, type, min and max of each element; what libsdfor
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.base.resources import table
-from checker.model.sdf.document import (
+from checker.formats.sdf.document import (
     QUATERNION_POSE,
     SdfDocument,
     misread,
     out_of_bounds,
     parse_version,
 )
-from checker.model.sdf.poses import in_degrees
-from checker.model.sdf.schema import ElementType, type_of
+from checker.formats.sdf.poses import in_degrees
+from checker.formats.sdf.schema import ElementType, type_of
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element

@@ -9,7 +9,7 @@ Source: SDFormat specification: elements hold either one value or other elements
 
 from collections.abc import Iterator
 
-from checker.model.sdf.document import SdfDocument
+from checker.formats.sdf.document import SdfDocument
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Span
 from checker.source.xml import Element

@@ -12,9 +12,9 @@ Source: SDFormat specification, the version that the file states.
 from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
-from checker.model.sdf.unread import is_appearance, is_unread
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.schema import ElementType, all_tags, holders_of, parents_of
+from checker.formats.sdf.unread import is_appearance, is_unread
 from checker.model.values import parse_number
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element

@@ -19,9 +19,9 @@ Source: SDFormat specification 1.7, "unique sibling names" and "reserved names";
 import re
 from collections.abc import Iterator
 
-from checker.model.sdf.document import SdfDocument, sdf_version
-from checker.model.sdf.names import KINDS, UNIQUE_SINCE, renamed
-from checker.model.sdf.schema import ElementType
+from checker.formats.sdf.document import SdfDocument, sdf_version
+from checker.formats.sdf.names import KINDS, UNIQUE_SINCE, renamed
+from checker.formats.sdf.schema import ElementType
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element

@@ -15,10 +15,10 @@ models are not yet supported."
 from collections.abc import Iterator
 
 from checker.finding import Edit, Fix
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.flattening.flatten import Flattening, obstacle
+from checker.formats.sdf.flattening.names import SUFFIXES, FlatNames, mentions
 from checker.model.robot import Robot
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.flattening.flatten import Flattening, obstacle
-from checker.model.sdf.flattening.names import SUFFIXES, FlatNames, mentions
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.text import SourceText

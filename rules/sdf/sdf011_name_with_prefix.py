@@ -16,10 +16,10 @@ from collections import Counter
 from collections.abc import Iterator
 
 from checker.finding import Fix
+from checker.formats.sdf.flattening.names import SUFFIXES, FlatNames, topic_mentions
+from checker.formats.sdf.flattening.renames import Renaming
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
-from checker.model.sdf.flattening.names import SUFFIXES, FlatNames, topic_mentions
-from checker.model.sdf.flattening.renames import Renaming
 from checker.package.package import Package
 from checker.package.renaming import is_mentioned_beside, leaves_mentions
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule

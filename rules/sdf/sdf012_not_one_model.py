@@ -12,8 +12,8 @@ libsdformat: "A model must have at least one link."
 
 from collections.abc import Iterator
 
+from checker.formats.sdf.document import SdfDocument, sdf_version
 from checker.model.robot import states_static
-from checker.model.sdf.document import SdfDocument, sdf_version
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule

@@ -6,8 +6,8 @@ Fix: remove the wrong one.
 Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
 """
 
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.schema import ElementType
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

@@ -10,8 +10,8 @@ Source: SDFormat specification, pose 1.5 to 1.7; how libsdformat 12 reads it. Th
 Guide's own example still has the empty attribute that Gazebo 9's converter wrote.
 """
 
-from checker.model.sdf.document import SdfDocument, sdf_version
-from checker.model.sdf.frame_faults import world_frame_faults
+from checker.formats.sdf.document import SdfDocument, sdf_version
+from checker.formats.sdf.frame_faults import world_frame_faults
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 

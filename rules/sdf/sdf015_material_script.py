@@ -14,7 +14,7 @@ gz-sim8, rendering/MaterialParser.
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.model.sdf.document import SdfDocument
+from checker.formats.sdf.document import SdfDocument
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import removal

@@ -8,7 +8,7 @@ Source: SDFormat specification, type color; libsdformat 11.4, Param.cc; ign-math
 """
 
 from checker.finding import Fix
-from checker.model.sdf.document import SdfDocument
+from checker.formats.sdf.document import SdfDocument
 from checker.model.values import ValueReader
 from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located

@@ -8,8 +8,8 @@ a world; let `placement_frame` name a frame of the model.
 Source: SDFormat specification 1.7, "Pose frame semantics", and 1.8, model/@placement_frame.
 """
 
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.frame_faults import world_frame_faults
+from checker.formats.sdf.document import SdfDocument
+from checker.formats.sdf.frame_faults import world_frame_faults
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -12,12 +12,12 @@ system of gz-sim simulates a lidar on the CPU (`gazebo_sensors.json`).
 from collections.abc import Iterator
 
 from checker.finding import Fix
+from checker.formats.sdf.document import sdf_version
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.document import sdf_version
 from checker.model.sensing.kind import SensorType
-from checker.model.urdf.simulator import classic_by_default
 from checker.package.package import Package
+from checker.robots.simulator import classic_by_default
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.text import Span
 

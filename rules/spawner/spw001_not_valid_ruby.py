@@ -11,7 +11,7 @@ errors.
 Source: Ruby's grammar. None of the accepted packages that we checked shows this.
 """
 
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -15,7 +15,7 @@ beyond it.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.reader import (
+from checker.launch.spawner.reader import (
     EXECUTABLES_ARGUMENTS,
     SPAWNER_ARGUMENTS,
     Spawner,

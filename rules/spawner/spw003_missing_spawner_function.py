@@ -11,8 +11,8 @@ this.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.reader import Spawner
-from checker.expand.spawner.scope import Function
+from checker.launch.spawner.reader import Spawner
+from checker.launch.spawner.scope import Function
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 EXPECTED = {

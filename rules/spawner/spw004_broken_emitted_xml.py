@@ -10,7 +10,7 @@ Source: XML specification; SubT spawner templates.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.reader import Spawner, Unread
+from checker.launch.spawner.reader import Spawner, Unread
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 from checker.source.xml import XmlDocument

@@ -11,8 +11,8 @@ Source: Model Migration Guide, example spawner.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

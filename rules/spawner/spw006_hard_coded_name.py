@@ -10,8 +10,8 @@ this.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml, models_of
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.emitted_xml import SpawnedXml, models_of
+from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import Element

@@ -8,7 +8,7 @@ Source: Model Migration Guide, example spawner. None of the accepted packages th
 this.
 """
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -13,9 +13,9 @@ packages that write `static_pose_publisher`.
 
 from collections.abc import Iterator, Sequence
 
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.expand.spawner.reader import GROUND_TRUTH, Spawner
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.reader import GROUND_TRUTH, Spawner
 from checker.model.components import Plugin
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule

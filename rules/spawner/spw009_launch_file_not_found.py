@@ -13,10 +13,10 @@ this.
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.launch.launch_file import LaunchCommand
-from checker.expand.spawner.emitted_xml import StartedXml
-from checker.expand.spawner.reader import Spawner
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.ros1.launch_file import LaunchCommand
+from checker.launch.spawner.emitted_xml import StartedXml
+from checker.launch.spawner.reader import Spawner
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.package.references import PROVIDED, ReferenceKind

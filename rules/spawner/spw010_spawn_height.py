@@ -12,8 +12,8 @@ Source: SubT review findings. Legged robots start high and lower themselves, so 
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.expand.spawner.reader import SPAWNER_ARGUMENTS
+from checker.launch.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.reader import SPAWNER_ARGUMENTS
 from checker.model.components import Collision, Link
 from checker.model.locomotion.drive import is_legged
 from checker.model.mesh import MeshFault

@@ -10,7 +10,7 @@ Source: SubT review findings. None of the accepted packages that we checked show
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.ruby import RubyNode
 

@@ -13,9 +13,9 @@ this.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml, models_of
-from checker.expand.spawner.launcher import WORLD as LAUNCHED_WORLD
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.emitted_xml import SpawnedXml, models_of
+from checker.launch.spawner.launcher import WORLD as LAUNCHED_WORLD
+from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
 

@@ -10,9 +10,9 @@ this.
 
 from itertools import zip_longest
 
-from checker.expand.launch.launch_file import LaunchCommand
-from checker.expand.spawner.emitted_xml import StartedXml
-from checker.expand.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
+from checker.launch.ros1.launch_file import LaunchCommand
+from checker.launch.spawner.emitted_xml import StartedXml
+from checker.launch.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 ARGUMENTS = (

@@ -9,7 +9,7 @@ Source: sdformat, `sdf::Element::Get`: a text that is not a number gives the def
 
 import re
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _TO_DO = re.compile(r"\s*TODO\b")

@@ -13,9 +13,9 @@ Source: xacro, "unknown macro name", "Undefined substitution argument".
 import re
 from collections.abc import Iterator
 
-from checker.expand.xacro.fault import XacroFault, XacroFaultKind
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.robots.urdf_files import UrdfFiles
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 

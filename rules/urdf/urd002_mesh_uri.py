@@ -15,7 +15,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator
 
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located

@@ -7,8 +7,8 @@ Fix: write `${name}/base_link`, in links and in the parents and children of join
 Source: Model Migration Guide: "Prefix each link in the xacro file with the robot's namespace".
 """
 
-from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
+from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -14,10 +14,10 @@ from collections import Counter
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.specification import has_version
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import has_version
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 TYPES = ("continuous", "fixed", "floating", "planar", "prismatic", "revolute")

@@ -10,8 +10,8 @@ Source: Model Migration Guide: the URDF file is converted from the SDF model, so
 
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 5

@@ -13,9 +13,9 @@ ros2_control, hardware_interface/src/component_parser.cpp: tags directly below `
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
+from checker.formats.urdf.description import GazeboTag, UrdfDescription
+from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.model.robot import Robot
-from checker.model.urdf.description import GazeboTag, UrdfDescription
-from checker.model.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _WITHOUT_EFFECT = frozenset(

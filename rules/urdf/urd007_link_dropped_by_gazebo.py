@@ -11,9 +11,9 @@ Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children
 
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"

@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from checker.base.words import Suggestions
+from checker.formats.urdf.description import Transmission, TransmissionEnd, UrdfDescription
 from checker.model.robot import Robot
-from checker.model.urdf.description import Transmission, TransmissionEnd, UrdfDescription
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -14,9 +14,9 @@ and `frameName`; plugins look up `linkName` and `jointName` in the model.
 
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Plugin, Sensor
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")

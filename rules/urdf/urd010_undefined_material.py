@@ -8,7 +8,7 @@ Source: URDF specification, visual/material.
 """
 
 from checker.base.words import Suggestions
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

@@ -8,8 +8,8 @@ Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/
 Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.
 """
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.extensions import extension_text
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.extensions import extension_text
 from checker.model.values import parse_number
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -12,8 +12,8 @@ Source: urdfdom, `strToDouble`: nothing may follow the number; tried with check_
 
 from collections.abc import Iterator
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import (
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.specification import (
     AttributeSpec,
     lacking_elements,
     specified_elements,

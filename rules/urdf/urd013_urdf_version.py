@@ -10,8 +10,8 @@ Source: urdfdom, changelog of 5.1 and 6.0.
 """
 
 from checker.base.resources import table
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import newer_parts, version_of
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.specification import newer_parts, version_of
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -10,7 +10,7 @@ with macros included outside of macros, and `xacro:` before each tag.
 Source: xacro 1.13 and 1.14 and later; "unknown macro name".
 """
 
-from checker.model.urdf.files import UrdfFiles
+from checker.robots.urdf_files import UrdfFiles
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

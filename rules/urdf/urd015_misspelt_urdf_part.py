@@ -8,8 +8,8 @@ Source: URDF specification; urdfdom reads elements and attributes by their names
 (`urdf_spec.json`).
 """
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import misspelt_parts
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.specification import misspelt_parts
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _ONLY_LOOKS = "link/visual"

@@ -10,8 +10,8 @@ Source: SDFormat 1.7, "unique sibling names"; tried with libsdformat 12: "Joint 
 detected in model".
 """
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.fixed_joints import Lumping
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

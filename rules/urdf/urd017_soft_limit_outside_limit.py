@@ -10,8 +10,8 @@ Source: URDF, joint/safety_controller; ROS wiki, pr2_controller_manager/safety_l
 
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.components import Axis, Joint
-from checker.model.urdf.description import UrdfDescription
 from checker.model.values import ValueReader
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located

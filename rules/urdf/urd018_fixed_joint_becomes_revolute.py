@@ -9,8 +9,8 @@ Source: libsdformat, parser_urdf.cc; sdformat issue 131; tried with libsdformat 
 """
 
 from checker.finding import Fix
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.extensions import extension_flag
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.extensions import extension_flag
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 

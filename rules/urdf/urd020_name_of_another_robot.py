@@ -11,8 +11,8 @@ import posixpath
 import re
 from collections.abc import Iterator
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles
+from checker.formats.urdf.description import UrdfDescription
+from checker.robots.urdf_files import UrdfFiles
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _NOT_WORDS = re.compile(r"[^a-z0-9]+")

@@ -9,7 +9,7 @@ and that no other file includes.
 Source: xacro, macros and their default values.
 """
 
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

@@ -9,8 +9,8 @@ Source: urdfdom, link.cpp and joint.cpp; sdformat's parser_urdf.cc, which takes 
 `<robot>` alone (`urdf_spec.json`).
 """
 
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import stray_parts
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.specification import stray_parts
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

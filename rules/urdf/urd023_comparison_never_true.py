@@ -11,7 +11,7 @@ Source: xacro, `Table._eval_literal`, since version 1.13 (ROS Noetic and ROS 2).
 import re
 from collections.abc import Iterator
 
-from checker.expand.xacro.names import EXPRESSION
+from checker.formats.xacro.names import EXPRESSION
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element, XmlDocument

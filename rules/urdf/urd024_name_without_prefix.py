@@ -11,7 +11,7 @@ Source: general knowledge; the value of `${prefix}` is not known until the file 
 import re
 from collections.abc import Iterator
 
-from checker.model.urdf.macro_calls import macro_around
+from checker.formats.urdf.macro_calls import macro_around
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located

@@ -10,8 +10,8 @@ as a parameter; or include the file with `ns="…"`.
 Source: xacro documentation, properties and `ns` of `<xacro:include>`; tried with xacro 2.
 """
 
-from checker.expand.xacro.shared_properties import shared_properties
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.shared_properties import shared_properties
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -16,9 +16,9 @@ import re
 from collections.abc import Iterable, Iterator
 
 from checker.base.words import Suggestions
-from checker.expand.xacro.files import local_path, named_path, path_of
-from checker.expand.xacro.names import EXPRESSION, names_in, parameters_of
-from checker.model.urdf.macro_calls import macro_around
+from checker.formats.urdf.macro_calls import macro_around
+from checker.formats.xacro.files import local_path, named_path, path_of
+from checker.formats.xacro.names import EXPRESSION, names_in, parameters_of
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element, XmlDocument

@@ -13,10 +13,10 @@ with such names.
 
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.extensions import extension_number
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.extensions import extension_number
-from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
 

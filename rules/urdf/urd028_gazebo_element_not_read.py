@@ -13,10 +13,10 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 
 from checker.base.words import Suggestions
+from checker.formats.sdf.schema import sdf_root
+from checker.formats.urdf.description import GazeboTag, UrdfDescription
+from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.model.robot import Robot
-from checker.model.sdf.schema import sdf_root
-from checker.model.urdf.description import GazeboTag, UrdfDescription
-from checker.model.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _ADVICE: Mapping[str, str] = {

@@ -11,7 +11,7 @@ such a joint.
 
 import math
 
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.values import parse_number
 from checker.rule import Concern, Findings, Severity, finding, rule
 

@@ -16,7 +16,7 @@ Source: ros_gz_sim, create.cpp; gazebo_ros, spawn_entity.py; robot_state_publish
 from collections.abc import Iterator
 from itertools import pairwise
 
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.graph import is_known
 from checker.ros.spawned import CLASSIC_SPAWNS, SPAWNS
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode

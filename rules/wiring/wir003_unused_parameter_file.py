@@ -15,7 +15,7 @@ Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`; ROS 2 design, "Para
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import NodeKind, is_known
+from checker.launch.ros2.graph import NodeKind, is_known
 from checker.model.ros_parameters import MANAGER, NodeBlock
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.parameters import LoadedFile

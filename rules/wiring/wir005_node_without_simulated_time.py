@@ -14,7 +14,7 @@ Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that fol
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
 
-from checker.expand.ros2_launch.graph import NodeKind
+from checker.launch.ros2.graph import NodeKind
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring

@@ -12,7 +12,7 @@ Fix: start the node that is missing, or correct its name or namespace.
 Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design, "Managed nodes".
 """
 
-from checker.expand.ros2_launch.graph import LaunchGraph, Node, Ros2Launch
+from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
 from checker.ros.wiring.services import Wanted, offered, wanted
 from checker.ros.wiring.wiring import Wiring

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.world import World, holds, sensor_system
+from checker.model.world import World, holds, sensor_system
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 

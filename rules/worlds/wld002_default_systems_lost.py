@@ -8,7 +8,7 @@ Fix: name the missing plugin as well.
 Source: gz-sim, `SimulationRunner::LoadServerPlugins` and server.config.
 """
 
-from checker.model.sdf.world import World, holds
+from checker.model.world import World, holds
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _DEFAULTS = {

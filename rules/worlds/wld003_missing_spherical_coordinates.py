@@ -7,7 +7,7 @@ Fix: add `<spherical_coordinates>` with latitude, longitude, elevation and headi
 Source: gz-sim, NavSat system; osrf/mbari_wec_gz issue 148.
 """
 
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _TYPES = ("navsat", "gps")

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.model.components import Sensor
-from checker.model.sdf.world import EMPTY_SYSTEMS, World, holds, sensor_system
+from checker.model.world import EMPTY_SYSTEMS, World, holds, sensor_system
 from checker.ros.servers import GazeboServer
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot

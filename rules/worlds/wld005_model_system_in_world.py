@@ -10,7 +10,7 @@ Source: `Configure` of these systems in gz-sim; which they are is listed in `gaz
 
 from checker.base.resources import table
 from checker.model.plugin_library import is_of_gazebo, library_stem
-from checker.model.sdf.world import World, systems_of
+from checker.model.world import World, systems_of
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 

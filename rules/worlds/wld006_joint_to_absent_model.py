@@ -9,7 +9,7 @@ Source: gz-sim, DetachableJoint system.
 """
 
 from checker.base.words import Suggestions
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _CLASS = "DetachableJoint"

@@ -8,8 +8,8 @@ Fix: state a step above zero, usually 0.001 to 0.004 s, and a factor above zero,
 Source: gz-sim, SimulationRunner (from memory).
 """
 
-from checker.model.sdf.world import World
 from checker.model.values import parse_number
+from checker.model.world import World
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

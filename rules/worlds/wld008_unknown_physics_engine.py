@@ -12,7 +12,7 @@ Source: gz-sim, Physics.cc; gz-physics, libraries of its releases (`physics_engi
 from checker.base.words import Suggestions
 from checker.model.physics_engine import engine_library, engine_name, libraries_of
 from checker.model.plugin_library import release_label
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule

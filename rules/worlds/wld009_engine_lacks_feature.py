@@ -13,9 +13,9 @@ Source: gz-physics, features of each engine, and gz-sim, Physics.cc (`physics_en
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.model.locomotion.friction import FrictionReader
+from checker.formats.friction import FrictionReader
 from checker.model.robot import Robot
-from checker.model.sdf.world import World, holds, systems_of
+from checker.model.world import World, holds, systems_of
 from checker.ros.engine_uses import EngineUse, engine_uses
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule

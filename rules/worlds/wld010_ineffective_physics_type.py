@@ -8,7 +8,7 @@ Source: gz-sim, SdfEntityCreator.cc and Physics.cc, which do not read the type.
 """
 
 from checker.model.physics_engine import engine_name
-from checker.model.sdf.world import World
+from checker.model.world import World
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _OTHERS = ("bullet", "simbody")

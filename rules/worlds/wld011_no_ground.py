@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
-from checker.model.sdf.world import World, holds
 from checker.model.tree import WORLD
 from checker.model.values import ValueReader
+from checker.model.world import World, holds
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
 

@@ -8,14 +8,14 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridges.entry import (
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.bridges.entry import (
     BridgeFault,
     BridgeFaultKind,
     Passed,
     read_argument,
 )
-from checker.expand.ros2_launch.bridges.file import read_bridge_file
+from checker.launch.ros2.bridges.file import read_bridge_file
 from checker.package.inputs import open_input
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule_testing import write_example

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.graph import LaunchGraph, Node
+from checker.launch.ros1.expansion import expand_launch
+from checker.launch.ros1.graph import LaunchGraph, Node
 from checker.ros.control.nodes import (
     Spawned,
     published_states,

@@ -10,7 +10,7 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inputs import open_input
 from checker.ros.control.controllers import ControlSystem
 from checker.rule_testing import URDF_NAME, write_example
@@ -136,7 +136,7 @@ def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.Mon
 def test_launch_files_are_followed_up_to_a_bound(
     part: Part, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("checker.expand.launch.package_launch.MAX_PARTS", 2)
+    monkeypatch.setattr("checker.launch.ros1.package_launch.MAX_PARTS", 2)
     control = part(ControlSystem)
     assert control.unread == (
         "launch/control.launch and the following files are too large to read",

@@ -15,8 +15,8 @@ from checker.cli.export import package_uris
 from checker.convert.sdf_to_urdf import xacro_of
 from checker.convert.xml_writer import document_text
 from checker.engine.subject import Subject
+from checker.formats.urdf.description import UrdfDescription
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
 from checker.package.inputs import open_input
 from checker.physics.mass.pinocchio_model import pin_model
 from checker.physics.trial.mjcf.scene import build_scene

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.convert.sdf_to_urdf import converted_to_urdf
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.urdf.second_opinion import disagreements
 from checker.model.robot import Robot
-from checker.model.sdf.reader import read_sdf
-from checker.model.urdf.second_opinion import disagreements
 from checker.physics.mass.pinocchio_model import pin_model
 from tests.convert.trees import absolute, assert_close, assert_same_links, back_to_urdf, read_back
 from tests.model.robots import as_matrix, document, sdf

@@ -11,10 +11,10 @@ from checker.convert.conversion import Conversion
 from checker.convert.sdf_to_urdf import converted_to_urdf
 from checker.convert.urdf_to_sdf import sdf_of
 from checker.convert.xml_writer import document_text
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.urdf.description import UrdfDescription, read_description
+from checker.formats.urdf.reader import read_urdf
 from checker.model.robot import Robot
-from checker.model.sdf.reader import read_sdf
-from checker.model.urdf.description import UrdfDescription, read_description
-from checker.model.urdf.reader import read_urdf
 from checker.physics.mass.inertia import inertial_pose, moments_of
 from tests.model.robots import Matrix, as_matrix, document
 from tests.model.test_one_robot_two_formats import POSES, Numbers, text

@@ -18,7 +18,7 @@ from checker.editor.completion.snippet import sdf_element
 from checker.editor.language import place_of
 from checker.editor.schema import schema_type
 from checker.engine.subject import Subject
-from checker.model.sdf.schema import VERSIONS, sdf_root
+from checker.formats.sdf.schema import VERSIONS, sdf_root
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument, parse_xml
 from tests.each import of_each

@@ -10,7 +10,7 @@ from checker.base.allowance import Allowance
 from checker.base.files import TooLarge
 from checker.base.parts import NotAvailable, type_name
 from checker.engine.subject import Subject
-from checker.expand.launch.graph import LaunchGraph
+from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inputs import open_input
 from checker.package.package import DOCUMENTS_FOR_ALL
 from checker.pipeline import check_package

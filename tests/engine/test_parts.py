@@ -13,7 +13,7 @@ from checker.base.cache import Cache
 from checker.base.parts import Ask, NotAvailable, Provider, part, providers_in, type_name
 from checker.base.record import Record
 from checker.engine.subject import PROVIDERS, Subject
-from checker.expand.spawner.reader import Spawner
+from checker.launch.spawner.reader import Spawner
 from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.rule import Context

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from checker.base.errors import InvalidSettings
-from checker.expand.launch.expansion import expand_launch
+from checker.launch.ros1.expansion import expand_launch
 from checker.model.values import ValueReader
 from checker.physics.mesh.appearance import picture
 from checker.settings import FILE_NAME, find_settings

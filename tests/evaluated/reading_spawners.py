@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from checker.expand.spawner.reader import read_spawner
-from checker.expand.spawner.signals import Unread
+from checker.launch.spawner.reader import read_spawner
+from checker.launch.spawner.signals import Unread
 from checker.source.ruby import parse_ruby
 from checker.source.text import SourceText
 from tests.evaluated.spawners import FILES, SPAWNERS

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from checker.finding import Fix, Safety
 from checker.fix.rounds import EditedText, take
+from checker.formats.sdf.flattening.flatten import Flattening, obstacle
+from checker.formats.sdf.flattening.names import FlatNames
+from checker.formats.sdf.reader import read_sdf
 from checker.model.robot import Robot
-from checker.model.sdf.flattening.flatten import Flattening, obstacle
-from checker.model.sdf.flattening.names import FlatNames
-from checker.model.sdf.reader import read_sdf
 from tests.dynamics.bodies import box, inertial, masses, poses, sizes, words
 from tests.model.robots import document
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 
+from checker.formats.sdf.document import sdf_version
+from checker.formats.sdf.flattening.names import FlatNames
 from checker.model.components import Frame, Link, Model
 from checker.model.robot import Robot
-from checker.model.sdf.document import sdf_version
-from checker.model.sdf.flattening.names import FlatNames
 from checker.physics.mass.pinocchio_model import pin_model
 from tests.effort import examples
 from tests.flattening.nested import flattened, nests, read

@@ -8,8 +8,8 @@ import pytest
 
 from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
-from checker.model.sdf.flattening.flatten import obstacle
-from checker.model.sdf.flattening.names import FlatNames, mentions
+from checker.formats.sdf.flattening.flatten import obstacle
+from checker.formats.sdf.flattening.names import FlatNames, mentions
 from checker.rule_testing import write_example
 from checker.source.text import SourceText
 from tests.flattening.nested import flattened, read

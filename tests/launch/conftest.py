@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 
 import pytest
 
-from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.graph import LaunchGraph
-from checker.expand.launch.launch_file import MissingLaunchFile
+from checker.launch.ros1.expansion import expand_launch
+from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.ros1.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.resources import table
-from checker.expand.launch.assumed_files import assumed_bridges, assumed_nodes
-from checker.expand.launch.bridge import PROGRAMS, BridgeKind
-from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.graph import LaunchGraph, UnresolvedInclude
+from checker.launch.ros1.assumed_files import assumed_bridges, assumed_nodes
+from checker.launch.ros1.bridge import PROGRAMS, BridgeKind
+from checker.launch.ros1.expansion import expand_launch
+from checker.launch.ros1.graph import LaunchGraph, UnresolvedInclude
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument
 from tests.launch.conftest import document

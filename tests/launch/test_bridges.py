@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.expand.launch.bridge import BridgeKind, Direction, SensorTopic
-from checker.expand.launch.graph import LaunchFaultKind as Kind
-from checker.expand.launch.launch_file import LaunchCommand
+from checker.launch.ros1.bridge import BridgeKind, Direction, SensorTopic
+from checker.launch.ros1.graph import LaunchFaultKind as Kind
+from checker.launch.ros1.launch_file import LaunchCommand
 
 PREFIX = '<arg name="p" value="/world/w/model/X1/link/base/sensor"/>'
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.graph import LaunchFaultKind, LaunchGraph
-from checker.expand.launch.launch_file import MissingLaunchFile
+from checker.launch.ros1.expansion import expand_launch
+from checker.launch.ros1.graph import LaunchFaultKind, LaunchGraph
+from checker.launch.ros1.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
 from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from checker.expand.launch.expansion import MAX_DEPTH
-from checker.expand.launch.graph import LaunchFaultKind as Kind
+from checker.launch.ros1.expansion import MAX_DEPTH
+from checker.launch.ros1.graph import LaunchFaultKind as Kind
 
 NODE = '<node pkg="p" type="t" name="n" args="{}"/>'
 

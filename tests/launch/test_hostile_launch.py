@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.expand.launch.attributes import MAX_STEPS, Reader
-from checker.expand.launch.expansion import MAX_DEPTH
-from checker.expand.launch.graph import LaunchFaultKind as Kind
+from checker.launch.ros1.attributes import MAX_STEPS, Reader
+from checker.launch.ros1.expansion import MAX_DEPTH
+from checker.launch.ros1.graph import LaunchFaultKind as Kind
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.ros.robot_description import robot_descriptions

@@ -11,8 +11,8 @@ from checker.base.parts import NotAvailable
 from checker.engine.judge import Judge
 from checker.engine.run import run_rules
 from checker.engine.subject import Subject
-from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Severity
+from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inputs import open_input
 from checker.rule_testing import NAME, write_example
 from checker.rulebook.discovery import all_rules

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.expand.launch.graph import LaunchFaultKind as Kind
-from checker.expand.launch.substitution import (
+from checker.launch.ros1.graph import LaunchFaultKind as Kind
+from checker.launch.ros1.substitution import (
     ExpressionFault,
     Unknown,
     evaluate,

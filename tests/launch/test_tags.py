@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.expand.launch.attributes import launch_tags, left_outside
+from checker.launch.ros1.attributes import launch_tags, left_outside
 from checker.ros.robot_description import fixed_frames
 from tests.launch.conftest import document
 

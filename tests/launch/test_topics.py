@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.resources import table
-from checker.expand.launch.bridge import Direction
+from checker.launch.ros1.bridge import Direction
 from checker.model.sensing.kind import SensorType
 from checker.ros.topics import (
     Channel,

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from checker.convert.conversion import Conversion, Lumped
+from checker.formats.sdf.reader import read_sdf
 from checker.migrate.bridges import sensor_bridges
 from checker.migrate.names import call_base_link, check_names
 from checker.migrate.options import NotMigrated
@@ -17,7 +18,6 @@ from checker.migrate.plugins import judge_plugins
 from checker.migrate.sensors import rewrite_sensors
 from checker.migrate.xml_parts import TOLERANCE, sharpen_angles
 from checker.model.geometry.transform import Transform
-from checker.model.sdf.reader import read_sdf
 from tests.convert.trees import converted
 from tests.model.robots import document
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.urdf.reader import read_urdf
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.sdf.reader import read_sdf
-from checker.model.urdf.reader import read_urdf
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 

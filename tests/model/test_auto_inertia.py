@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from checker.formats.sdf.reader import read_sdf
 from checker.model.components import Inertial
-from checker.model.sdf.reader import read_sdf
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.sdf.schema import walk
 from checker.model.robot import Robot
-from checker.model.sdf.reader import read_sdf
-from checker.model.sdf.schema import walk
 from checker.source.text_file import decode
 from tests.model.robots import document, messages
 

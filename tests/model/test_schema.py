@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.words import Suggestions
-from checker.model.sdf.schema import VERSIONS, ElementType, all_tags, sdf_root, walk
+from checker.formats.sdf.schema import VERSIONS, ElementType, all_tags, sdf_root, walk
 from tests.model.robots import document
 
 ANYTHING = "<p:q/><anything><at/></anything>"

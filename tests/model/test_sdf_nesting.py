@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from checker.formats.sdf.reader import MAX_INCLUDES
 from checker.model.faults import FaultKind
-from checker.model.sdf.reader import MAX_INCLUDES
 from tests.model.robots import assert_pose, messages, pose, sdf
 
 A_TEXT, A = "1 2 3 0.1 0.2 0.3", pose(1, 2, 3, 0.1, 0.2, 0.3)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from checker.model.sdf.document import sdf_version
-from checker.model.sdf.reader import read_sdf
-from checker.model.sdf.schema import VERSIONS, walk
+from checker.formats.sdf.document import sdf_version
+from checker.formats.sdf.reader import read_sdf
+from checker.formats.sdf.schema import VERSIONS, walk
 from tests.model.robots import Matrix, assert_pose, document, pose, sdf
 
 A, B = pose(1, 2, 3, 0.1, 0.2, 0.3), pose(-1, 0.5, 0, -0.4, 0.5, 0.6)

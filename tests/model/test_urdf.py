@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.formats.urdf.reader import read_urdf
+from checker.formats.urdf.second_opinion import disagreements
 from checker.model.robot import Robot
-from checker.model.urdf.reader import read_urdf
-from checker.model.urdf.second_opinion import disagreements
 from tests.model.robots import assert_pose, document, messages, pose, urdf
 
 A, B = pose(1, 2, 3, 0.1, 0.2, 0.3), pose(-1, 0.5, 0, -0.4, 0.5, 0.6)

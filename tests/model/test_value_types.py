@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.sdf.document import QUATERNION_POSE, Misread, misread, out_of_bounds
+from checker.formats.sdf.document import QUATERNION_POSE, Misread, misread, out_of_bounds
 from checker.source.text import Located, SourceText, Span
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)

@@ -8,9 +8,9 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE
 from checker.engine.review import findings_of
 from checker.finding import Severity
+from checker.formats.sdf.includes import ModelIncludes
+from checker.formats.sdf.reader import read_sdf
 from checker.model.robot import Robot
-from checker.model.sdf.includes import ModelIncludes
-from checker.model.sdf.reader import read_sdf
 from checker.package.inputs import open_input
 from checker.settings import Settings
 from checker.source.xml import XmlDocument

@@ -8,7 +8,7 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.model.urdf.description import UrdfDescription
+from checker.formats.urdf.description import UrdfDescription
 from checker.package.inputs import open_input
 from checker.package.installed import installed_as, left_out, source_of
 from tests.package.conftest import Write

@@ -9,8 +9,8 @@ from textwrap import dedent
 
 import pytest
 
-from checker.expand.ros2_launch.graph import LaunchGraph
-from checker.expand.ros2_launch.reader import read_launch
+from checker.launch.ros2.graph import LaunchGraph
+from checker.launch.ros2.reader import read_launch
 from checker.package.inputs import open_input
 
 NAME = "acme_bringup"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind
+from checker.launch.ros2.graph import LaunchFaultKind
 from tests.effort import limited
 from tests.ros2_launch.conftest import Read
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checker.expand.ros2_launch.graph import LaunchFaultKind, Parameter, shown
+from checker.launch.ros2.graph import LaunchFaultKind, Parameter, shown
 from tests.ros2_launch.conftest import NAME, Read
 
 XML = f"""\

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.expand.ros2_launch.graph import (
+from checker.launch.ros2.graph import (
     LaunchFaultKind,
     LaunchGraph,
     NodeKind,
@@ -14,7 +14,7 @@ from checker.expand.ros2_launch.graph import (
     ParameterFile,
     shown,
 )
-from checker.expand.ros2_launch.package_launch import launch_files
+from checker.launch.ros2.package_launch import launch_files
 from checker.package.inputs import open_input
 from tests.ros2_launch.conftest import NAME, PACKAGE_XML, Read, python
 

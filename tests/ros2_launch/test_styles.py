@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.expand.ros2_launch.graph import shown
+from checker.launch.ros2.graph import shown
 from tests.ros2_launch.conftest import NAME, Read
 
 SHARE = f"$(find-pkg-share {NAME})"

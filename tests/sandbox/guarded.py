@@ -12,7 +12,7 @@ import os
 from attempts import tried
 
 from checker.base.sandbox.files import Files
-from checker.expand.xacro import worker
+from checker.formats.xacro import worker
 
 
 def answer(request: bytes, _files: Files) -> bytes:

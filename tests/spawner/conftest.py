@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.expand.spawner.reader import Spawner, read_spawner
+from checker.launch.spawner.reader import Spawner, read_spawner
 from checker.source.text import SourceText
 from tests.real_packages import CORPUS, named_folder, needed_folder
 

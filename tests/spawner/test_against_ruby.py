@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from checker.expand.spawner.reader import (
+from checker.launch.spawner.reader import (
     EXECUTABLES_ARGUMENTS,
     SPAWNER_ARGUMENTS,
     Unread,

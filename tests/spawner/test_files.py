@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.expand.spawner.reader import Unread
+from checker.launch.spawner.reader import Unread
 
 COMMON = 'def g(a)\n  "<#{a}>"\nend\n'
 ROADS = {

@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.expand.spawner.reader import Unread
+from checker.launch.spawner.reader import Unread
 from checker.source.text import Span
 from checker.source.xml import XmlDocument, parse_xml
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from checker.expand.spawner.emitted import EmittedText
-from checker.expand.spawner.reader import Unread
+from checker.launch.spawner.reader import Unread
+from checker.source.emitted import EmittedText
 from tests.effort import examples, limited
 
 from .snippets import SNIPPETS

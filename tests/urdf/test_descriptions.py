@@ -7,9 +7,9 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE
 from checker.base.output import say_nothing
 from checker.engine.review import judged
-from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.fixed_joints import Lumping
+from checker.formats.urdf.fixed_joints import Lumping
 from checker.package.inputs import open_input
+from checker.robots.urdf_files import UrdfFiles
 from checker.settings import Settings
 from tests.urdf.conftest import NAME, Describe, robot
 

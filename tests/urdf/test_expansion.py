@@ -10,9 +10,9 @@ import pytest
 from checker.base.cache import Cache
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.expand.xacro.fault import XacroFaultKind
+from checker.formats.xacro.fault import XacroFaultKind
 from checker.model.robot import Robot
-from checker.model.urdf.files import UrdfFiles
+from checker.robots.urdf_files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"

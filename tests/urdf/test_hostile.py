@@ -10,10 +10,10 @@ import pytest
 
 from checker.base.forked_work import in_fork
 from checker.base.parts import NotAvailable, WorkerFailed
-from checker.expand.xacro import worker
-from checker.expand.xacro.fault import XacroFault, XacroFaultKind
+from checker.formats.xacro import worker
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.robot import Robot
-from checker.model.urdf.files import UrdfFiles
+from checker.robots.urdf_files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"

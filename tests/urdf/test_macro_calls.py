@@ -8,8 +8,8 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.macro_calls import MacroCall, minimal_call
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.macro_calls import MacroCall, minimal_call
 from checker.package.inputs import open_input
 from checker.rule_testing import write_example
 

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.base.cache import NO_CACHE
-from checker.expand.xacro.expanded import expanded_document
-from checker.expand.xacro.files import Gathered
+from checker.formats.xacro.expanded import expanded_document
+from checker.formats.xacro.files import Gathered
 from checker.model.components import Link
 from checker.model.robot import Robot
-from checker.model.urdf.files import UrdfFiles
+from checker.robots.urdf_files import UrdfFiles
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
 from tests.effort import examples

@@ -11,11 +11,11 @@ from typing import Any
 
 import xacro
 
-from checker.expand.xacro.expression.bounds import Budget
-from checker.expand.xacro.expression.builtins import FUNCTIONS
-from checker.expand.xacro.expression.evaluation import evaluate
-from checker.expand.xacro.symbols import global_symbols
-from checker.expand.xacro.yaml_values import read
+from checker.formats.xacro.expression.bounds import Budget
+from checker.formats.xacro.expression.builtins import FUNCTIONS
+from checker.formats.xacro.expression.evaluation import evaluate
+from checker.formats.xacro.symbols import global_symbols
+from checker.formats.xacro.yaml_values import read
 from tests.effort import slowness
 from tests.xacro import hostile_expressions as hostile
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from checker.base.forked_work import in_fork
 from checker.base.parts import WorkerFailed
-from checker.expand.xacro.files import Gathered, path_of
+from checker.formats.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
 from checker.package.package import Package
 
@@ -56,7 +56,7 @@ def compared(gathered: Gathered, path: str) -> dict[str, Any]:
 
 
 def _compare(request: Request, path: str) -> bytes:
-    from checker.expand.xacro import processor
+    from checker.formats.xacro import processor
     from tests.xacro import oracle
 
     native = processor.evaluate

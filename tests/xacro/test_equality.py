@@ -8,10 +8,10 @@ import pytest
 import xacro
 from hypothesis import HealthCheck, given, settings
 
-from checker.expand.xacro.expression.bounds import RefusedExpression
-from checker.expand.xacro.expression.builtins import FUNCTIONS
-from checker.expand.xacro.expression.evaluation import evaluate
-from checker.expand.xacro.symbols import global_symbols
+from checker.formats.xacro.expression.bounds import RefusedExpression
+from checker.formats.xacro.expression.builtins import FUNCTIONS
+from checker.formats.xacro.expression.evaluation import evaluate
+from checker.formats.xacro.symbols import global_symbols
 from tests.effort import examples
 from tests.xacro.grammar import EXPRESSIONS
 from tests.xacro.oracle import native_outcome, shown

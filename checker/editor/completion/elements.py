@@ -16,7 +16,7 @@ from checker.editor.meanings import (
 )
 from checker.editor.schema import schema_type
 from checker.editor.xml_context import tags_behind
-from checker.model.sdf.schema import ElementType
+from checker.formats.sdf.schema import ElementType
 from checker.model.sensing.kind import frame_ids, sensor_type
 
 _ONCE = ("0", "1")

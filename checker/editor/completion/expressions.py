@@ -10,7 +10,7 @@ from checker.editor.completion.item import Completion, CompletionKind, Request
 from checker.editor.completion.snippet import Snippet
 from checker.editor.xacro_names import PREFIX, Macro
 from checker.editor.xml_context import Where
-from checker.expand.xacro.names import MacroParameter, parameters_of
+from checker.formats.xacro.names import MacroParameter, parameters_of
 
 _OPEN = re.compile(r"\$(?:\{(?P<expression>[^}]*)|\((?P<command>[^)]*))\Z")
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")

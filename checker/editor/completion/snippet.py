@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checker.model.sdf.schema import ElementType
+from checker.formats.sdf.schema import ElementType
 
 _INDENT = "  "
 _NO_VALUE = "__"

@@ -17,7 +17,7 @@ from checker.editor.meanings import (
     words_of_urdf,
 )
 from checker.editor.schema import schema_type
-from checker.model.sdf.schema import NO_DEFAULT, ElementType
+from checker.formats.sdf.schema import NO_DEFAULT, ElementType
 from checker.rule import Context
 
 _OCCURS = {"0": "at most once", "1": "once", "*": "any number", "+": "at least once"}

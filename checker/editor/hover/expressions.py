@@ -13,7 +13,7 @@ from checker.editor.hover.pointed import Pointed
 from checker.editor.robot_parts import RobotParts
 from checker.editor.xacro_names import PREFIX, TAGS, Macro, XacroNames, macro_around
 from checker.editor.xml_context import Where
-from checker.expand.xacro.files import ROOT, local_path, path_of
+from checker.formats.xacro.files import ROOT, local_path, path_of
 from checker.package.package import Package
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument

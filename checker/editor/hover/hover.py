@@ -29,10 +29,10 @@ from checker.editor.target import schema_version, usual_target
 from checker.editor.xacro_names import PREFIX, XacroNames, xacro_names
 from checker.editor.xml_context import Where
 from checker.engine.subject import Subject
+from checker.formats.sdf.includes import ModelIncludes, included_model
+from checker.formats.sdf.reader import read_robot
 from checker.model.components import Joint, Link, Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.includes import ModelIncludes, included_model
-from checker.model.sdf.reader import read_robot
 from checker.rule import Context
 from checker.source.xml import Element, XmlDocument
 

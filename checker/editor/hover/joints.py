@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from checker.editor.card import card, code, words
 from checker.editor.figures import angle, limit, number, numbers, span_of
+from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Axis, Joint
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
-from checker.model.urdf.description import joints_with_motor
 
 _SLIDES = ("prismatic", "screw")
 _LIMITLESS = ("continuous",)

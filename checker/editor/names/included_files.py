@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from checker.base.record import Record
 from checker.editor.names.mention import FileNames, Included
 from checker.editor.names.readers.expressions import is_composed
-from checker.expand.xacro.files import ROOT, local_path, path_of
+from checker.formats.xacro.files import ROOT, local_path, path_of
 from checker.package.inheritance import Found
 from checker.package.model_file import own_model
 from checker.package.package import Package

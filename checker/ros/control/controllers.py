@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.launch.graph import resolve_name
+from checker.formats.urdf.description import Transmission
+from checker.launch.ros1.graph import resolve_name
 from checker.model.components import Joint, Plugin
-from checker.model.urdf.description import Transmission
 from checker.ros.control.nodes import Spawned, SpawnedModel, StateListener
 from checker.source.text import Located, Span
 

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from checker.expand.launch.graph import resolve_name
+from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import Controller, Gain, SimulatorGains
 from checker.source.text import Located, Span
 

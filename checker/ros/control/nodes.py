@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 from checker.base.record import Record
-from checker.expand.launch.graph import Node, resolve_name
-from checker.expand.launch.substitution import is_known
+from checker.launch.ros1.graph import Node, resolve_name
+from checker.launch.ros1.substitution import is_known
 from checker.source.text import Located, Span
 
 STATES = "joint_states"

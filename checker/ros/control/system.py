@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 from checker.base.files import NotReadable
 from checker.base.parts import NotAvailable
-from checker.expand.launch.graph import LaunchGraph, Node, Param, resolve_name
-from checker.expand.launch.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
-from checker.expand.launch.substitution import is_known
+from checker.formats.urdf.description import UrdfDescription
+from checker.launch.ros1.graph import LaunchGraph, Node, Param, resolve_name
+from checker.launch.ros1.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
+from checker.launch.ros1.substitution import is_known
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
 from checker.ros.control.controllers import (
     ControlLaunch,

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import LaunchGraph, Node, ParameterFile, is_known
-from checker.expand.ros2_launch.package_files import local_file
+from checker.launch.ros2.graph import LaunchGraph, Node, ParameterFile, is_known
+from checker.launch.ros2.package_files import local_file
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
-from checker.expand.ros2_launch.package_files import local_file
-from checker.expand.xacro.files import ROOT, local_path, package_in
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.files import ROOT, local_path, package_in
+from checker.launch.ros2.package_files import local_file
 from checker.model.components import Joint, Plugin
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.plugin_library import library_stem
@@ -21,7 +22,6 @@ from checker.model.ros_parameters import (
     read_blocks,
     refused_value,
 )
-from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
 from checker.source.text import Located, Span

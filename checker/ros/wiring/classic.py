@@ -9,7 +9,7 @@ from msgspec import convert
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.graph import remapped
+from checker.launch.ros1.graph import remapped
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot

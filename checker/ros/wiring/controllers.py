@@ -11,8 +11,8 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.graph import remapped
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros1.graph import remapped
+from checker.launch.ros2.graph import is_known
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
 from checker.ros.ros2_control.launched import MANAGER_NODE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.expand.launch.bridge import Direction
+from checker.launch.ros1.bridge import Direction
 from checker.ros.simulation import Simulation
 from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span

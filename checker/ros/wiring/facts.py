@@ -9,7 +9,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.ros2_launch.graph import Node, NodeKind
+from checker.launch.ros2.graph import Node, NodeKind
 
 TransformFact = tuple[str, str, Mapping[str, str]]
 """Parent, child, and the values that parameters must have; `{x}` is the value of parameter x."""

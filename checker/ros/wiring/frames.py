@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.graph import is_known
 from checker.model.robot import Robot
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.transforms import Transform

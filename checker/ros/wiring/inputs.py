@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import NodeKind
+from checker.launch.ros2.graph import NodeKind
 from checker.ros.wiring.parameters import Setting, settings_of
 
 if TYPE_CHECKING:

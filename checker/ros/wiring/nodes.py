@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.launch.graph import remapped, resolve_name
-from checker.expand.ros2_launch.graph import Node, NodeKind, ParameterFile, is_known
+from checker.launch.ros1.graph import remapped, resolve_name
+from checker.launch.ros2.graph import Node, NodeKind, ParameterFile, is_known
 from checker.model.ros_parameters import NodeBlock
 from checker.ros.ros2_control.launched import Spawner, spawner_of
 from checker.ros.ros2_control.robot_control import ControlReader

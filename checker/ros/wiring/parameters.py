@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import Node, NodeKind, Parameter, ParameterFile, is_known
+from checker.launch.ros2.graph import Node, NodeKind, Parameter, ParameterFile, is_known
 from checker.model.ros_parameters import NodeBlock
 from checker.source.text import Span
 

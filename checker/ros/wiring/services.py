@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import is_known
+from checker.launch.ros2.graph import is_known
 from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 

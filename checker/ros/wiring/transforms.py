@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.base.record import Record
-from checker.expand.launch.bridge import Direction
+from checker.launch.ros1.bridge import Direction
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot

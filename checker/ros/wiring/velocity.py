@@ -8,7 +8,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.expand.launch.bridge import Direction
+from checker.launch.ros1.bridge import Direction
 from checker.ros.wiring.controllers import RunController
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.expand.ros2_launch.graph import (
+from checker.launch.ros2.graph import (
     LaunchGraph,
     Node,
     Ros2Launch,

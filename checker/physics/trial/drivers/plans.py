@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
+from checker.formats.urdf.description import joints_with_motor
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import (
@@ -19,7 +20,6 @@ from checker.model.locomotion.locomotion import (
     TrackedDrive,
 )
 from checker.model.robot import Robot
-from checker.model.urdf.description import joints_with_motor
 from checker.model.values import parse_number
 from checker.physics.mass.mechanism import AXES
 from checker.physics.trial.course import (

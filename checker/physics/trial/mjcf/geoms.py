@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from checker.base.record import Record
+from checker.formats.friction import FrictionReader
 from checker.model.components import Collision, Link
 from checker.model.geometry.convex import support
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.locomotion.friction import FrictionReader
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.names import FAR, bounded, numbers, placed, usable, well_placed

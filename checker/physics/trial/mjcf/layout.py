@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
+from checker.formats.friction import FrictionReader
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform
-from checker.model.locomotion.friction import FrictionReader
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of

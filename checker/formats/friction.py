@@ -1,0 +1,49 @@
+"""The friction that a collision states."""
+
+from __future__ import annotations
+
+from checker.base.record import Record
+from checker.formats.urdf.extensions import extension_number
+from checker.model.components import Collision, Link
+from checker.model.robot import Robot
+from checker.model.values import stated_number
+from checker.source.text import Located
+from checker.source.xml import Element
+
+
+class Friction(Record, eq=False):
+    """Coefficients of sliding friction; None where they are left to the physics engine.
+
+    Attributes:
+        first: Along the first friction direction (`mu`, URDF `mu1`).
+        second: Across it (`mu2`).
+    """
+
+    first: Located[float] | None = None
+    second: Located[float] | None = None
+
+
+_SDF = (("ode", "mu", "mu2"), ("bullet", "friction", "friction2"))
+
+
+class FrictionReader:
+    """Reads friction: of SDF in `<surface>`, of URDF in `<gazebo reference="link">`."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.extensions: dict[str, list[Element]] = {}
+        if robot.format == "urdf":
+            for element in robot.element.all("gazebo"):
+                self.extensions.setdefault(element.get("reference") or "", []).append(element)
+
+    def of(self, link: Link, collision: Collision) -> Friction:
+        """Return what is stated for a collision; the first engine that says anything counts."""
+        stated = collision.element.child("surface", "friction")
+        for engine, first, second in _SDF:
+            element = stated.child(engine) if stated is not None else None
+            if element is not None:
+                return Friction(stated_number(element, first), stated_number(element, second))
+        for element in self.extensions.get(link.scoped_name, ()):
+            first_number = extension_number(element, "mu1")
+            if first_number is not None:
+                return Friction(first_number, extension_number(element, "mu2"))
+        return Friction()

@@ -1,0 +1,146 @@
+"""What a URDF file says beside links and joints: transmissions and `<gazebo>` tags."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.formats.urdf.macro_calls import MacroCall
+from checker.formats.urdf.reader import read_urdf
+from checker.model.robot import Robot
+from checker.source.text import Located, Span
+from checker.source.xml import Element, XmlDocument
+
+
+class TransmissionEnd(Record, eq=False):
+    """A `<joint>` or `<actuator>` of a transmission.
+
+    Attributes:
+        name: Of the joint or actuator.
+        interfaces: Its `<hardwareInterface>`s as written, `hardware_interface/` in front or not.
+        span: The start tag.
+    """
+
+    name: Located[str]
+    interfaces: tuple[Located[str], ...]
+    span: Span
+
+
+class Transmission(Record, eq=False):
+    """A `<transmission>`."""
+
+    name: Located[str]
+    type: Located[str]
+    joints: tuple[TransmissionEnd, ...]
+    actuators: tuple[TransmissionEnd, ...]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
+class GazeboTag(Record, eq=False):
+    """A `<gazebo>` tag; `reference` is empty for one that is meant for the whole robot."""
+
+    reference: Located[str]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
+class UrdfDescription(Record, eq=False, dict=True):
+    """One URDF file, after xacro where it is one.
+
+    Attributes:
+        file: Path of the file as the package lists it.
+        document: The expanded document; places are those of the files that a person wrote.
+        transmissions: In order.
+        gazebo: In order.
+        for_rviz: Whether it accompanies an SDF model, only to be looked at.
+        call: Of the macro that makes the robot, where the file itself makes none.
+        values: Of arguments, where they are others than the file is read with: `model:=waffle`.
+    """
+
+    file: str
+    document: XmlDocument
+    transmissions: tuple[Transmission, ...]
+    gazebo: tuple[GazeboTag, ...]
+    for_rviz: bool
+    call: MacroCall | None = None
+    values: str = ""
+
+    @cached_property
+    def robot(self) -> Robot:
+        """The robot, without its meshes."""
+        return read_urdf(self.document)
+
+
+# Transmissions and `<gazebo>` tags of a URDF document.
+
+
+def read_description(document: XmlDocument, file: str, *, for_rviz: bool) -> UrdfDescription:
+    """Read what a URDF document says beside links and joints.
+
+    Args:
+        document: The document, expanded.
+        file: Path of the file that was expanded.
+        for_rviz: Whether it accompanies an SDF model, only to be looked at.
+    """
+    root = document.root
+    return UrdfDescription(
+        file,
+        document,
+        tuple(_read_transmission(element) for element in root.all("transmission")),
+        tuple(_read_gazebo(element) for element in root.all("gazebo")),
+        for_rviz,
+    )
+
+
+def _read_transmission(element: Element) -> Transmission:
+    return Transmission(
+        _attribute(element, "name"),
+        _type(element),
+        tuple(_read_end(joint) for joint in element.all("joint")),
+        tuple(_read_end(actuator) for actuator in element.all("actuator")),
+        element,
+    )
+
+
+def _type(transmission: Element) -> Located[str]:
+    """Return the type: an element, or an attribute as the PR2 wrote it."""
+    element = transmission.child("type")
+    return element.text if element is not None else _attribute(transmission, "type")
+
+
+def _read_end(element: Element) -> TransmissionEnd:
+    interfaces = (item.text for item in element.all("hardwareInterface"))
+    return TransmissionEnd(
+        _attribute(element, "name"),
+        tuple(interface for interface in interfaces if interface.stated),
+        element.span,
+    )
+
+
+def _read_gazebo(element: Element) -> GazeboTag:
+    return GazeboTag(_attribute(element, "reference"), element)
+
+
+def _attribute(element: Element, name: str) -> Located[str]:
+    return element.attribute(name) or Located("", element.span, stated=False)
+
+
+def joints_with_motor(robot: Robot) -> Iterator[str]:
+    """Yield the names of joints that transmissions and ros2_control let a controller move."""
+    root = robot.element
+    for transmission in root.all("transmission"):
+        yield from (joint.get("name") or "" for joint in transmission.all("joint"))
+    for control in root.all("ros2_control"):
+        for joint in control.all("joint"):
+            if joint.child("command_interface") is not None:
+                yield joint.get("name") or ""

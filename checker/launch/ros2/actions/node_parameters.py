@@ -1,0 +1,128 @@
+"""Parameters of nodes: mappings, files, and values that substitutions make."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from checker.launch.ros2.context import Context
+from checker.launch.ros2.graph import Parameter, ParameterFile, Plain, Unread
+from checker.launch.ros2.substitutions import perform
+from checker.launch.ros2.values import (
+    FilePath,
+    Guarded,
+    Made,
+    PlacedText,
+    Symbol,
+    Unknown,
+    Value,
+    chosen,
+    span_of,
+)
+from checker.source.text import Span
+
+UNKNOWN = "$(unknown)"
+"""Stands for a text that this reader cannot tell."""
+
+MOVEIT = "MoveItConfigsBuilder computes the parameters"
+"""Why some parameters of a node are not here; they concern no other part of the robot."""
+
+Item = Parameter | ParameterFile | Unread
+
+
+def read_parameters(value: Value, context: Context, span: Span) -> Iterator[Item]:
+    """Yield what the `parameters` of a node say.
+
+    Args:
+        value: A list of mappings and files.
+        context: Where the node stands.
+        span: The node.
+    """
+    value = chosen(value)
+    if isinstance(value, Unknown):
+        yield Unread(value.reason, value.span)
+        return
+    for entry in value if isinstance(value, list | tuple) else [value]:
+        context.allowance.spend()
+        if isinstance(entry, Guarded) and entry.holds is False:
+            continue
+        yield from _entry(chosen(entry), context, span)
+
+
+def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
+    match entry:
+        case None:
+            return
+        case dict():
+            yield from _mapping(entry, "", context, span)
+        case Unknown():
+            yield Unread(entry.reason, entry.span)
+        case Made(name="ParameterFile"):
+            substitutes = chosen(entry.values.get("allow_substs", False))
+            path = perform(entry.values.get("param_file"), context, entry.span)
+            yield _file(path, substitutes in (True, "true", "True"), entry.span)
+        case Made(name="Parameter", values=values) if "value" in values:
+            name = perform(values.get("name"), context, entry.span)
+            yield from _mapping({str(name): values["value"]}, "", context, entry.span)
+        case list() | tuple() if entry and all(isinstance(item, dict) for item in entry):
+            for item in entry:
+                yield from _mapping(item, "", context, span)
+        case Made() | str() | FilePath() | list() | tuple():
+            yield _file(perform(entry, context, span), False, span)
+        case _:
+            yield Unread("the parameters are not evaluated", span)
+
+
+def _file(path: PlacedText | Unknown, substitutes: bool, span: Span) -> Item:
+    if isinstance(path, Unknown):
+        return Unread(path.reason, path.span)
+    return ParameterFile(str(path), substitutes, span_of(path, span))
+
+
+def _mapping(
+    entries: dict[Value, Value], prefix: str, context: Context, span: Span
+) -> Iterator[Item]:
+    for key, written in entries.items():
+        context.allowance.spend()
+        name = perform(key, context, span)
+        if isinstance(name, Unknown):
+            yield Unread(name.reason, name.span)
+            continue
+        where = span_of(name, span)
+        value = chosen(written)
+        if isinstance(value, dict):
+            with context.allowance:
+                yield from _mapping(value, f"{prefix}{name}.", context, where)
+        elif isinstance(value, Unknown):
+            yield Unread(value.reason, value.span)
+            if name != "moveit":
+                yield Parameter(f"{prefix}{name}", UNKNOWN, True, False, value.span)
+        else:
+            yield _parameter(f"{prefix}{name}", value, context, where)
+
+
+def _parameter(name: str, value: Value, context: Context, span: Span) -> Parameter:
+    as_text = False
+    if isinstance(value, Made) and value.name == "ParameterValue":
+        kind = chosen(value.values.get("value_type"))
+        as_text = (kind.last if isinstance(kind, Symbol) else kind) == "str"
+        span = value.span
+        value = chosen(value.values.get("value"))
+    substituted = _is_substitution(value)
+    return Parameter(name, _plain(value, context, span), substituted, as_text, span_of(value, span))
+
+
+def _is_substitution(value: Value) -> bool:
+    """Whether substitutions make a text: one, or a list of texts that holds one."""
+    if isinstance(value, Made):
+        return True
+    return isinstance(value, list | tuple) and any(isinstance(chosen(item), Made) for item in value)
+
+
+def _plain(value: Value, context: Context, span: Span) -> Plain:
+    value = chosen(value)
+    if value is None or isinstance(value, bool | int | float):
+        return value
+    if isinstance(value, list | tuple) and not _is_substitution(value):
+        return [_plain(item, context, span) for item in value]
+    text = perform(value, context, span)
+    return UNKNOWN if isinstance(text, Unknown) else str(text)

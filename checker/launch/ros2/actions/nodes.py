@@ -1,0 +1,179 @@
+"""Actions that start something: nodes, components and commands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from checker.launch.ros2.actions.conditions import read_conditions
+from checker.launch.ros2.actions.node_parameters import MOVEIT
+from checker.launch.ros2.actions.parts import (
+    namespace_of,
+    parameters_of,
+    remaps_of,
+    text_of,
+    texts_of,
+    words_of,
+)
+from checker.launch.ros2.context import Context
+from checker.launch.ros2.graph import (
+    LaunchFaultKind,
+    Node,
+    NodeKind,
+    Parameters,
+    Process,
+    Unread,
+)
+from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen, span_of
+from checker.source.text import Located
+
+if TYPE_CHECKING:
+    from checker.launch.ros2.actions.visitor import Visitor
+
+_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+"""Of `Node` until Foxy."""
+_NODES: Mapping[str, NodeKind] = MappingProxyType(
+    {
+        "Node": NodeKind.NODE,
+        "LifecycleNode": NodeKind.LIFECYCLE,
+        "ComposableNodeContainer": NodeKind.CONTAINER,
+    }
+)
+
+
+def node(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather a node or container."""
+    parameters, unread = _parameters(made, context)
+    arguments = [*words_of(made.values.get("arguments"), context, made.span, unread)]
+    rest = words_of(made.values.get("ros_arguments"), context, made.span, unread)
+    arguments += [Located("--ros-args", made.span, stated=False)] if (ros := [*rest]) else []
+    remaps = remaps_of(made, context, unread)
+    name = made.values.get("name")
+    environment = chosen(made.values.get("additional_env"))
+    components = tuple(_components(made, context, unread))
+    _gather(
+        visitor,
+        Node(
+            kind=_NODES[made.name],
+            package=text_of(made, "package", context, unread),
+            executable=text_of(made, "executable", context, unread),
+            name=text_of(made, "name", context, unread) if name is not None else None,
+            namespace=namespace_of(made, context),
+            arguments=(*arguments, *ros),
+            parameters=(*context.state.parameters, *parameters),
+            remaps=remaps,
+            environment=texts_of(environment, context, made.span),
+            unread=tuple(unread),
+            conditions=context.conditions,
+            after=context.after,
+            span=made.span,
+        ),
+        *components,
+    )
+    _keywords(made, context)
+    visitor.later_events(made, context)
+
+
+def load(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather components that are loaded into a container which something else starts."""
+    unread: list[Unread] = []
+    _gather(visitor, *_components(made, context, unread))
+    visitor.found.unread += unread
+
+
+def process(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather a command."""
+    unread: list[Unread] = []
+    words = tuple(words_of(made.values.get("cmd"), context, made.span, unread))
+    visitor.found.processes.append(
+        Process(
+            words=words,
+            conditions=context.conditions,
+            after=context.after,
+            span=made.span,
+        )
+    )
+    visitor.found.unread += unread
+    visitor.later_events(made, context)
+
+
+def bridge(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather the node that a special action starts."""
+    package, executable, file = (
+        ("ros_gz_bridge", "bridge_node", "config_file")
+        if made.name == "RosGzBridge"
+        else ("ros_gz_sim", "gzserver", "world_sdf_file")
+    )
+    parameters: list[Value] = [{file: made.values[file]}] if file in made.values else []
+    if "bridge_params" in made.values:
+        parameters.append(Unknown("the bridge gets its parameters from a string", made.span))
+    values: dict[str, Value] = {
+        "package": package,
+        "executable": executable,
+        "name": made.values.get("bridge_name"),
+        "namespace": made.values.get("namespace"),
+        "parameters": parameters,
+    }
+    node(visitor, Made("Node", values, made.span), context)
+
+
+def component_node(visitor: Visitor, made: Made, _: Context) -> None:
+    """Note a component that stands where an action is expected."""
+    visitor.unread("a ComposableNode is not an action of its own", made.span)
+
+
+def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Node]:
+    value = chosen(made.values.get("composable_node_descriptions"))
+    if isinstance(value, Unknown):
+        unread.append(Unread(value.reason, value.span))
+    for given in value if isinstance(value, list | tuple) else ():
+        guards = given.conditions if isinstance(given, Guarded) else ()
+        item = chosen(given.value if isinstance(given, Guarded) else given)
+        if not isinstance(item, Made):
+            reason = item.reason if isinstance(item, Unknown) else "it is not a component"
+            unread.append(Unread(reason, span_of(item, made.span)))
+            continue
+        yield _component(item, context.under(guards))
+
+
+def _component(made: Made, context: Context) -> Node:
+    if made.values.get("condition") is not None:
+        context = context.under(read_conditions(made, context))
+    parameters, unread = _parameters(made, context)
+    return Node(
+        kind=NodeKind.COMPONENT,
+        package=text_of(made, "package", context, unread),
+        executable=text_of(made, "plugin", context, unread),
+        name=text_of(made, "name", context, unread) if made.values.get("name") else None,
+        namespace=namespace_of(made, context),
+        parameters=(*context.state.parameters, *parameters),
+        remaps=remaps_of(made, context, unread),
+        unread=tuple(unread),
+        conditions=context.conditions,
+        after=context.after,
+        span=made.span,
+    )
+
+
+def _gather(visitor: Visitor, *nodes: Node) -> None:
+    visitor.found.nodes += nodes
+    visitor.found.unread += (u for node in nodes for u in node.unread if u.reason != MOVEIT)
+
+
+def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]:
+    unread: list[Unread] = []
+    value = made.values.get("parameters")
+    return parameters_of(value, context, made.span, unread), unread
+
+
+def _keywords(made: Made, context: Context) -> None:
+    for name in _OLD_KEYWORDS.intersection(made.values):
+        where = made.keywords.get(name, made.span)
+        message = f"{made.name} takes no keyword {name!r}"
+        context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
+    # Containers have a usual program in newer releases.
+    stated = {"executable", "node_executable"}.intersection(made.values)
+    if not stated and made.name != "ComposableNodeContainer":
+        message = f"{made.name} has no executable"
+        context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")

@@ -1,0 +1,159 @@
+"""One topic that a bridge of ROS 2 passes, and what can be wrong with how it is written."""
+
+from __future__ import annotations
+
+import enum
+import re
+
+from checker.base.record import Record
+from checker.launch.ros1.bridge import Direction
+from checker.launch.ros2.graph import Node
+from checker.source.text import Located, Span
+
+GZ_PREFIXES = ("gz.msgs.", "ignition.msgs.")
+_GRAMMAR = "<topic>@<ros type>@<gz type>, with [ or ] for the second @"
+_MARKS = {"@": Direction.BOTH, "[": Direction.TO_ROS, "]": Direction.TO_IGN}
+_SERVICE = re.compile(r"/srv/")
+
+
+class BridgeFaultKind(enum.Enum):
+    """What sort of fault it is."""
+
+    ARGUMENT = "the bridge ends at an argument that it cannot read"
+    UNREADABLE = "the file is not valid YAML"
+    NO_SEQUENCE = "the file is not a sequence"
+    DROPPED = "an entry is left out"
+    UNKNOWN_KEY = "a key is ignored"
+
+
+class BridgeFault(Record, eq=False):
+    """One fault of an argument or a file; the message is the whole sentence."""
+
+    kind: BridgeFaultKind
+    span: Span
+    message: str
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether it stands in another package than the one that is checked."""
+        return self.span.source.file.startswith("../")
+
+
+class Passed(Record, eq=False):
+    """One topic as an argument or an entry writes it.
+
+    Attributes:
+        gz_topic: On Gazebo's side.
+        ros_topic: On ROS's side, before remaps.
+        ros_type: Such as `sensor_msgs/msg/Imu`.
+        gz_type: Such as `gz.msgs.IMU`.
+        direction: Which way messages go.
+        way: Where the direction is written.
+        overrides_frame: Whether the bridge puts another frame into the messages.
+    """
+
+    gz_topic: Located[str]
+    ros_topic: Located[str]
+    ros_type: Located[str]
+    gz_type: Located[str]
+    direction: Direction
+    way: Span
+    overrides_frame: bool = False
+
+
+class BridgedService(Record, eq=False):
+    """One service as an argument or an entry writes it.
+
+    Attributes:
+        name: On both sides.
+        ros_type: Such as `ros_gz_interfaces/srv/ControlWorld`.
+        gz_types: Gazebo's messages of request and reply, as far as they are stated.
+    """
+
+    name: Located[str]
+    ros_type: Located[str]
+    gz_types: tuple[Located[str], ...] = ()
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is written in the package that is checked."""
+        return not self.ros_type.span.source.file.startswith("../")
+
+
+class BridgeEntry(Record, eq=False):
+    """One topic that a bridge passes.
+
+    Attributes:
+        passed: As it is written.
+        gz_topic: Absolute, on Gazebo's side; empty when it is not known before the launch.
+        ros_topic: Absolute, on ROS's side, after remaps; empty when it is not known.
+        remapped: Whether a remap gives it another name in ROS.
+        node: That bridges it; None for a file that no available launch file names.
+    """
+
+    passed: Passed
+    gz_topic: str
+    ros_topic: str
+    remapped: bool
+    node: Node | None
+
+    @property
+    def gz_name(self) -> str:
+        """The Gazebo message without its package: `IMU`."""
+        return gz_name(self.passed.gz_type.value)
+
+    @property
+    def direction(self) -> Direction:
+        """Which way messages go."""
+        return self.passed.direction
+
+    @property
+    def counts(self) -> bool:
+        """Whether it is bridged with the defaults of all arguments."""
+        return self.node is None or self.node.starts is True
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is written in the package that is checked."""
+        return not self.passed.gz_type.span.source.file.startswith("../")
+
+
+def gz_name(gz_type: str) -> str:
+    """Return a Gazebo message without its package; as it is where it has another one."""
+    prefix = next((p for p in GZ_PREFIXES if gz_type.startswith(p)), "")
+    return gz_type.removeprefix(prefix)
+
+
+def read_argument(word: Located[str]) -> Passed | BridgedService | BridgeFault:
+    """Read an argument of `parameter_bridge`."""
+
+    def fault(reason: str) -> BridgeFault:
+        return BridgeFault(
+            BridgeFaultKind.ARGUMENT,
+            word.span,
+            f"parameter_bridge ends at the argument {word.value!r:.200}: {reason}; "
+            f"expected {_GRAMMAR}",
+        )
+
+    topic, at, rest = word.value.partition("@")
+    if not at:
+        return fault("it has no '@'")
+    if not topic:
+        return fault("it names no topic")
+    if _SERVICE.search(rest):
+        kind, *messages = (Located(text, word.span) for text in rest.split("@"))
+        return BridgedService(Located(topic, word.span), kind, tuple(messages))
+    # The program looks for a second @ first, then for [, then for ].
+    mark = next((mark for mark in _MARKS if rest.find(mark) > 0), None)
+    if mark is None:
+        return fault("it has no second '@', '[' or ']' between the types")
+    ros_type, _, gz_type = rest.partition(mark)
+    if not gz_type or any(other in gz_type for other in _MARKS):
+        return fault("it names no message of Gazebo" if not gz_type else "it has too many marks")
+
+    def located(text: str) -> Located[str]:
+        return Located(text, word.span)
+
+    return Passed(
+        located(topic), located(topic), located(ros_type), located(gz_type), _MARKS[mark], word.span
+    )

@@ -1,0 +1,112 @@
+"""Which robots ROS 2 launch files load: the files, and the arguments that xacro is given."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+
+from msgspec.structs import replace
+
+from checker.base.record import Record
+from checker.formats.xacro.files import ROOT, path_of
+from checker.launch.ros1.launch_file import Load, read_command
+from checker.launch.ros2.graph import LaunchGraph, Node, Parameter, is_known
+from checker.launch.ros2.package_files import local_file
+from checker.package.package import Package
+from checker.source.text import Span
+
+_COMMAND, _CONTENT = "$(command ", "$(file-content "
+_VARIABLE = re.compile(r"\$\(var ([\w.-]{1,200})\)")
+_ONE_WORD = re.compile(r"\$\(var:([\w.-]{1,200})\)")
+_SUFFIXES = (".urdf", ".xacro", ".xml", ".sdf")
+
+
+class LoadedDescription(Record, eq=False):
+    """A robot that a node is given.
+
+    Attributes:
+        load: The file, and the arguments that are known.
+        unknown: Names of arguments whose values are only known at launch.
+        choices: Of these, the values that the launch file allows; none where any text will do.
+        offered: The same of arguments that have the default of one of its own, by name.
+        node: That is given it.
+        parameter: By which it is given; None where it stands among the arguments.
+        span: Where the file is named.
+    """
+
+    load: Load
+    unknown: tuple[str, ...]
+    choices: Mapping[str, tuple[str, ...]]
+    offered: Mapping[str, tuple[str, ...]]
+    node: Node
+    parameter: Parameter | None
+    span: Span
+
+
+def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[LoadedDescription]:
+    """Yield the robots that a launch file loads, those that start by default first.
+
+    Args:
+        package: That is checked.
+        graph: Of its launch file.
+    """
+    allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}
+    defaults = {a.name: a for a in graph.arguments if a.choices and a.default is not None}
+    for node in sorted(graph.nodes, key=lambda node: _RANKS[node.starts]):
+        for text, parameter, span in _texts(node):
+            for load, given in _described(package, text):
+                choices = {
+                    name: allowed[variable[1]]
+                    for name, value in given.items()
+                    if (variable := _ONE_WORD.fullmatch(value)) and variable[1] in allowed
+                }
+                offered = {
+                    name: own.choices
+                    for name, value in load.args.items()
+                    if (own := defaults.get(name)) and own.default and own.default.value == value
+                }
+                yield LoadedDescription(load, tuple(given), choices, offered, node, parameter, span)
+
+
+def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
+    """Yield the texts of a node that may hold a description, and where they stand."""
+    for parameter in node.parameters:
+        if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
+            yield parameter.value, parameter, parameter.span
+    for option, word in pairwise(node.arguments):
+        yield f"{_CONTENT}{word.value})" if option.value == "-file" else word.value, None, word.span
+
+
+_RANKS = {True: 0, None: 1, False: 2}
+
+
+def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, str]]]:
+    """Yield the file that a text comes from, and the arguments whose values are not known."""
+    if text.startswith(_COMMAND) and text.endswith(")"):
+        command = text.removeprefix(_COMMAND)[:-1]
+        for load in read_command(command):
+            path = _as_listed(package, load.path)
+            if path is not None:
+                yield replace(load, path=path), _unknown(command)
+    elif text.startswith(_CONTENT) and text.endswith(")"):
+        path = _as_listed(package, text.removeprefix(_CONTENT)[:-1])
+        if path is not None and path.lower().endswith(_SUFFIXES):
+            yield Load(path, {}, by_xacro=False), {}
+
+
+def _as_listed(package: Package, path: str) -> str | None:
+    """Return how xacro sees a file that is installed at a path; None when it is not available."""
+    local = local_file(package, path) if path.startswith(f"{ROOT}/") else None
+    return None if local is None else path_of(package, local)
+
+
+def _unknown(command: str) -> dict[str, str]:
+    """Return the arguments whose values hold substitutions; `$(var x)` as `$(var:x)`, one word."""
+    try:
+        words = shlex.split(_VARIABLE.sub(r"$(var:\1)", command))
+    except ValueError:  # a quotation mark that nothing closes
+        return {}
+    parts = (word.partition(":=") for word in words)
+    return {name: value for name, assigned, value in parts if assigned and not is_known(value)}

@@ -1,0 +1,378 @@
+"""The graph of ROS 2 launch files: all that they start, every item with its place.
+
+Texts hold what the launch system would put there. A share folder stands as a path below `ROOT`, so
+that paths can be joined and looked up; `share_path` takes them apart. What is only known when it is
+launched is kept as a substitution (`$(env HOME)`, `$(var ur_type)`, `$(command xacro …)`): a text
+that still holds `$(` is not known.
+"""
+
+from __future__ import annotations
+
+import enum
+import posixpath
+from collections.abc import Mapping
+
+from msgspec import field
+
+from checker.base.record import Record
+from checker.formats.xacro.files import ROOT
+from checker.launch.ros1.graph import Remap
+from checker.source.text import Located, Span
+
+SHARE = ROOT
+"""The folder above all share folders: what `package://` and `model://` start from."""
+
+
+def is_known(text: str) -> bool:
+    """Whether nothing in a text is left to the machine that launches."""
+    return "$(" not in text
+
+
+GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
+"""Packages that start Gazebo, and spawn models in it."""
+
+
+class SharePath(Record):
+    """A file or folder below the share folder of a package, as it is installed.
+
+    Attributes:
+        package: Name of the package.
+        path: Below its share folder, such as `urdf/arm.urdf`; empty for the folder itself.
+    """
+
+    package: str
+    path: str
+
+    @property
+    def whole(self) -> str:
+        """The path below `ROOT`, see `share_path`."""
+        return f"{ROOT}/{self.package}/{self.path}"
+
+    def __str__(self) -> str:
+        """Return it as a launch file in XML writes it."""
+        return f"$(find-pkg-share {self.package})/{self.path}".rstrip("/")
+
+
+def share_path(text: str) -> SharePath | None:
+    """Take a path below a share folder apart; None for any other text, or one that is not known."""
+    if not text.startswith(f"{ROOT}/") or not is_known(text):
+        return None
+    package, _, path = posixpath.normpath(text).removeprefix(f"{ROOT}/").partition("/")
+    return SharePath(package, path) if package and package != ".." else None
+
+
+def shown(text: str) -> str:
+    """Return a text for messages: share folders as a launch file in XML writes them."""
+    if text == SHARE:
+        return "share"
+    parts = text.split(f"{ROOT}/")
+    rest = (part.partition("/") for part in parts[1:])
+    return parts[0] + "".join(
+        f"$(find-pkg-share {name}){slash}{path}" for name, slash, path in rest
+    )
+
+
+class LaunchFaultKind(enum.Enum):
+    """What sort of fault stands in a launch file."""
+
+    SYNTAX = "the file cannot be parsed"
+    NO_DESCRIPTION = "the file describes no launch"
+    UNDEFINED_NAME = "a name of Python is not defined"
+    UNDECLARED_ARGUMENT = "an argument is used but not declared"
+    LATE_ARGUMENT = "an argument is used before it is declared"
+    UNKNOWN_CHOICE = "a value is not one of the choices"
+    SUBSTITUTION = "a substitution cannot be read"
+    ACTION = "an element is not an action"
+    ATTRIBUTE = "an attribute or keyword is not known, or missing"
+    CONDITION = "a condition is neither true nor false"
+    INCLUDE_LOOP = "a file includes itself"
+    LIMIT = "the launch file is larger than this reader supports"
+
+
+class LaunchFault(Record, eq=False):
+    """One fault of a launch file.
+
+    Attributes:
+        kind: What sort of fault it is.
+        span: Where it stands.
+        message: Present tense; the whole sentence.
+        name: The argument, substitution, keyword or tag that it is about.
+    """
+
+    kind: LaunchFaultKind
+    span: Span
+    message: str
+    name: str = ""
+
+
+class Unread(Record, eq=False):
+    """An action, or a part of one, that this reader cannot tell.
+
+    Attributes:
+        reason: The end of a sentence.
+        span: Where it stands.
+    """
+
+    reason: str
+    span: Span
+
+
+class Condition(Record, eq=False):
+    """An `IfCondition` or `UnlessCondition` around an action.
+
+    Attributes:
+        text: What is tested, substitutions made, with the defaults of arguments.
+        wanted: The truth value that lets the action count; False of `UnlessCondition`.
+        holds: Whether the action counts; None when that is not known before the launch.
+        written: Whether no substitution takes part, so that it is the same in every launch.
+    """
+
+    text: Located[str]
+    wanted: bool
+    holds: bool | None
+    written: bool = False
+
+
+class Argument(Record, eq=False):
+    """A declared argument.
+
+    Attributes:
+        name: As `name:=value` gives it.
+        default: With the substitutions made; None when it must be given.
+        choices: Values that are allowed; empty for all.
+        description: For `ros2 launch --show-args`.
+        conditions: Those around the declaration.
+        span: The declaration.
+    """
+
+    name: str
+    default: Located[str] | None
+    choices: tuple[str, ...]
+    description: str
+    conditions: tuple[Condition, ...]
+    span: Span
+
+
+Plain = str | int | float | bool | None | list["Plain"] | dict[str, "Plain"]
+
+
+class Parameter(Record, eq=False):
+    """One parameter of a node.
+
+    Attributes:
+        name: With dots for nested mappings.
+        value: Text, number, truth value or list; a text may hold `$(`.
+        substituted: Whether substitutions made the value: launch reads such a text as YAML.
+        as_text: Whether it is kept as a text (`ParameterValue(…, value_type=str)`).
+        span: The value where it is written, else its name.
+    """
+
+    name: str
+    value: Plain
+    substituted: bool
+    as_text: bool
+    span: Span
+
+
+class ParameterFile(Record, eq=False):
+    """A YAML file of parameters.
+
+    Attributes:
+        path: Its path; see `share_path`.
+        substitutes: Whether substitutions in the file are made (`allow_substs`).
+        span: Where the path is written.
+    """
+
+    path: str
+    substitutes: bool
+    span: Span
+
+
+Parameters = tuple[Parameter | ParameterFile, ...]
+"""Of a node, in order: later ones count."""
+
+
+class NodeKind(enum.StrEnum):
+    """What sort of node it is."""
+
+    NODE = "node"
+    LIFECYCLE = "lifecycle node"
+    CONTAINER = "container"
+    COMPONENT = "component"
+    INCLUDED = "node of an included file that is only known"
+
+
+class Started(Record, eq=False, kw_only=True):
+    """What stands around an action that starts something.
+
+    Attributes:
+        conditions: Its own and those around it.
+        certain: Whether it stands outside of tests and loops that could not be decided.
+        after: Whether an event or a timer starts it.
+        span: The call or start tag.
+    """
+
+    conditions: tuple[Condition, ...] = ()
+    certain: bool = True
+    after: bool = False
+    span: Span
+
+    @property
+    def file(self) -> str:
+        """The launch file in which it stands."""
+        return self.span.source.file
+
+    @property
+    def starts(self) -> bool | None:
+        """Whether it counts with the defaults of all arguments; None when that is not known."""
+        if any(condition.holds is False for condition in self.conditions):
+            return False
+        unsure = not self.certain or any(c.holds is None for c in self.conditions)
+        return None if unsure else True
+
+
+class Node(Started, eq=False, kw_only=True):
+    """A node, container, lifecycle node, or a component that is loaded into a container.
+
+    Attributes:
+        kind: What sort of node it is.
+        package: Package that holds the program.
+        executable: The program; of a component, its class.
+        name: Of the node; None for the program's own.
+        namespace: Absolute, `/` or `/r1`; it may hold `$(`.
+        arguments: Words of the command line, `--ros-args` and what follows among them.
+        parameters: Those in force: of scopes around it first, then its own.
+        remaps: Those in force; its own first.
+        environment: Variables set for it alone.
+        unread: Why its arguments, parameters or remaps may not be complete.
+    """
+
+    kind: NodeKind = NodeKind.NODE
+    package: Located[str]
+    executable: Located[str]
+    name: Located[str] | None = None
+    namespace: str = "/"
+    arguments: tuple[Located[str], ...] = ()
+    parameters: Parameters = ()
+    remaps: tuple[Remap, ...] = ()
+    environment: Mapping[str, str] = field(default_factory=dict)
+    unread: tuple[Unread, ...] = ()
+
+    def parameter(self, name: str) -> Parameter | None:
+        """Return the parameter of a name that counts, among those that stand in the launch file."""
+        named = (p for p in reversed(self.parameters) if isinstance(p, Parameter))
+        return next((p for p in named if p.name == name), None)
+
+    @property
+    def parameter_files(self) -> tuple[ParameterFile, ...]:
+        """YAML files of parameters, in order."""
+        return tuple(p for p in self.parameters if isinstance(p, ParameterFile))
+
+
+class Process(Started, eq=False, kw_only=True):
+    """A command that is no node.
+
+    Attributes:
+        words: The command line, taken apart as a shell does; a word may hold `$(`.
+    """
+
+    words: tuple[Located[str], ...]
+
+
+class Include(Started, eq=False, kw_only=True):
+    """An included launch file.
+
+    Attributes:
+        target: Its path; see `share_path`.
+        arguments: What is handed over, by name.
+        path: The file as the package lists it; empty when it is not available.
+        accepts: Names of arguments that the file, or one that it includes, declares or uses; None
+            when that is not known, as of a file that could not be read in full.
+        reason: Why the file is not read; empty when it is.
+        nodes: That the file starts, if it is not read but known.
+    """
+
+    target: Located[str]
+    arguments: Mapping[str, Located[str]] = field(default_factory=dict)
+    path: str = ""
+    accepts: frozenset[str] | None = None
+    reason: str = ""
+    nodes: tuple[Node, ...] = ()
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether the file is not read, and not known either."""
+        return bool(self.reason) and self.accepts is None
+
+
+class EnvironmentChange(Started, eq=False, kw_only=True):
+    """An environment variable that is set for what starts after it.
+
+    Attributes:
+        name: Of the variable.
+        value: What is set, or added; empty when it is removed.
+        mode: `set`, `append`, `prepend` or `unset`.
+    """
+
+    name: str
+    value: Located[str]
+    mode: str
+
+
+class FileUse(Record, eq=False):
+    """A path of a share folder that is named anywhere, in an action that counts or in none.
+
+    Attributes:
+        text: The path; see `share_path`.
+        certain: Whether it is used in every launch, as far as one can tell.
+    """
+
+    text: Located[str]
+    certain: bool = True
+
+
+class LaunchGraph(Record, eq=False, dict=True):
+    """All that a launch file starts with the defaults of its arguments, included files among it.
+
+    What a condition leaves out is here as well: `starts` of each item tells.
+
+    Attributes:
+        file: The launch file.
+        arguments: Arguments that it declares, those of included files after its own.
+        nodes: Nodes and components, in order.
+        processes: Commands.
+        includes: Files, whether they were read or not.
+        environment: Variables set.
+        files: Paths of share folders that are opened or read when the file is launched.
+        used: Names of arguments that it or an included file asks for.
+        faults: What is wrong.
+        unread: What could not be told, by place.
+    """
+
+    file: str
+    arguments: tuple[Argument, ...] = ()
+    nodes: tuple[Node, ...] = ()
+    processes: tuple[Process, ...] = ()
+    includes: tuple[Include, ...] = ()
+    environment: tuple[EnvironmentChange, ...] = ()
+    files: tuple[FileUse, ...] = ()
+    used: frozenset[str] = frozenset()
+    faults: tuple[LaunchFault, ...] = ()
+    unread: tuple[Unread, ...] = ()
+
+
+class Ros2Launch(Record, eq=False):
+    """The ROS 2 launch files of a package that no other of its files includes.
+
+    Attributes:
+        entries: A graph each.
+        unread: Why launch files are left out.
+    """
+
+    entries: tuple[LaunchGraph, ...] = ()
+    unread: tuple[str, ...] = ()
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes of all files; one that several files start comes as often."""
+        return tuple(node for graph in self.entries for node in graph.nodes)

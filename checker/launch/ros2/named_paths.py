@@ -1,0 +1,149 @@
+"""Files in share folders that launch files name, and whether they are there when it is launched."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+from checker.base.record import Record
+from checker.base.resources import table
+from checker.launch.ros2.graph import (
+    GAZEBO,
+    Include,
+    LaunchGraph,
+    Parameter,
+    ParameterFile,
+    SharePath,
+    Started,
+    share_path,
+)
+from checker.launch.ros2.package_files import holder_of
+from checker.package.installed import may_be_made, source_of
+from checker.package.package import Package
+from checker.source.text import Located, Span
+
+_SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
+_OF_ROS = ("moveit_", "nav2_", "rviz")
+_INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
+"""A path below `ROOT`."""
+
+
+class NamedPath(Record, eq=False):
+    """A file in a share folder that a launch file names.
+
+    Attributes:
+        path: The file.
+        span: Where it is named.
+        needed: Whether what starts by default does not start, or not work, without it.
+        include: Whether it is a launch file that is included.
+    """
+
+    path: SharePath
+    span: Span
+    needed: bool
+    include: bool = False
+
+
+def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
+    """Yield the files in share folders that a launch file names; what has no suffix is none."""
+    for use in graph.files:
+        yield from _paths(use.text.value, use.text.span, needed=use.certain)
+    for include in graph.includes:
+        needed = include.starts is True
+        yield from _paths(include.target.value, include.target.span, needed=needed, include=True)
+        if include.reason:
+            yield from _handed_over(include)
+    for node in graph.nodes:
+        starts = node.starts is True
+        shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
+        yield from _in_words(node.arguments, needed=starts and not shows)
+        for parameter in node.parameters:
+            yield from _in_parameter(parameter, needed=starts)
+    for process in graph.processes:
+        yield from _in_words(process.words, needed=_starts(process))
+
+
+def _handed_over(include: Include) -> Iterator[NamedPath]:
+    """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
+    target = share_path(include.target.value)
+    needed = include.starts is True and target is not None and target.package in GAZEBO
+    for value in include.arguments.values():
+        for word in value.value.split():
+            yield from _paths(word, value.span, needed=needed)
+
+
+def _starts(started: Started) -> bool:
+    return started.starts is True
+
+
+def _in_words(words: Iterable[Located[str]], *, needed: bool) -> Iterator[NamedPath]:
+    for word in words:
+        yield from _paths(word.value, word.span, needed=needed)
+
+
+def _in_parameter(parameter: Parameter | ParameterFile, *, needed: bool) -> Iterator[NamedPath]:
+    if isinstance(parameter, ParameterFile):
+        yield from _paths(parameter.path, parameter.span, needed=needed)
+    elif isinstance(parameter.value, str):
+        yield from _paths(parameter.value, parameter.span, needed=needed)
+
+
+def _paths(text: str, span: Span, *, needed: bool, include: bool = False) -> Iterator[NamedPath]:
+    """Yield the path that a text is, or the one that a command reads."""
+    for opening in ("$(command ", "$(file-content "):
+        if text.startswith(opening) and text.endswith(")"):
+            for match in _INSIDE.finditer(text):
+                behind = text[match.end() : match.end() + 1]
+                if behind in (" ", ")"):
+                    yield from _paths(match.group(), span, needed=needed)
+            return
+    path = share_path(text.strip())
+    if path is not None and _SUFFIX.search(path.path):
+        yield NamedPath(path, span, needed, include)
+
+
+def is_missing(package: Package, path: SharePath) -> bool:
+    """Whether a available package has no such file, and does not make it either.
+
+    Args:
+        package: That is checked.
+        path: The file.
+    """
+    holder = holder_of(package, path.package)
+    if holder is None or not path.path or path.path.startswith(".."):
+        return False
+    there = holder.exists(path.path) or source_of(holder, path.path) is not None
+    return not there and not may_be_made(holder, path.path)
+
+
+def unavailable(package: Package, name: str) -> str:
+    """Return why a package cannot be read, and what helps; empty where that does not matter.
+
+    Packages of ROS whose nodes are known hold no part of the robot.
+
+    Args:
+        package: That is checked.
+        name: Of the other package.
+    """
+    if name.startswith(_OF_ROS) or name in _known_packages() or holder_of(package, name):
+        return ""
+    if package.workspace.ignores(name):
+        return f"a file such as COLCON_IGNORE keeps package {name} from being built"
+    return f"package {name} is not available; give its parent folder with --package-path DIR"
+
+
+@cache
+def _known_packages() -> frozenset[str]:
+    """Return the packages of ROS whose nodes, or launch files, start no robot of the user's."""
+    return frozenset((*GAZEBO, *(node.partition("/")[0] for node in table("ros_nodes")["nodes"])))
+
+
+def lies_elsewhere(package: Package, path: SharePath) -> str:
+    """Return where a package has a file of that name, if it has just one; else nothing."""
+    holder = holder_of(package, path.package)
+    name = posixpath.basename(path.path)
+    files = holder.index.files if holder is not None else ()
+    found = [file.path for file in files if posixpath.basename(file.path) == name]
+    return found[0] if len(found) == 1 else ""

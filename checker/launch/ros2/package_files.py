@@ -1,0 +1,79 @@
+"""Files of the available packages, by the paths that launch files give them."""
+
+from __future__ import annotations
+
+import posixpath
+
+from checker.base.files import NotReadable
+from checker.formats.xacro.files import ROOT, local_path
+from checker.launch.ros2.graph import SharePath, is_known, share_path
+from checker.package.installed import installed_as, source_of
+from checker.package.package import Package
+from checker.source.text import SourceText
+
+
+def holder_of(package: Package, name: str) -> Package | None:
+    """Return the available package of a name, the checked one among them.
+
+    Args:
+        package: That is checked.
+        name: As package.xml declares it, or that of its folder.
+    """
+    return package if name in own_names(package) else package.workspace.package(name)
+
+
+def own_names(package: Package) -> tuple[str, ...]:
+    """Return the names of a package: the declared one first, then that of its folder."""
+    return tuple(dict.fromkeys((package.declared_name, package.root.name)))
+
+
+def local_file(package: Package, path: str) -> str | None:
+    """Return a path below a share folder as the package lists it; None when it is not available."""
+    target = share_path(path)
+    if target is None:
+        return None
+    if target.package in own_names(package):
+        path = posixpath.normpath(f"{ROOT}/{package.root.name}/{target.path}")
+    local = local_path(package, path)
+    return local if local is not None and package.exists(local) else None
+
+
+def read_file(package: Package, path: str) -> SourceText | str:
+    """Return the text of a file below a share folder, or why it cannot be had."""
+    target = share_path(path)
+    if target is None:
+        return "which file is read is not known before the launch"
+    local = local_file(package, path)
+    if local is None:
+        if holder_of(package, target.package) is None:
+            return f"package {target.package} is not found"
+        return f"{target} does not exist"
+    source = package.read(local)
+    return f"{local} {source.reason}" if isinstance(source, NotReadable) else source
+
+
+def exists(package: Package, path: str) -> bool | None:
+    """Whether there is a file or folder at a path; None when that cannot be told."""
+    target = share_path(path)
+    if target is None or not is_known(path) or holder_of(package, target.package) is None:
+        return None
+    return local_file(package, path) is not None
+
+
+def installed_path(package: Package, file: str) -> str:
+    """Return the path of a file where it is installed.
+
+    Args:
+        package: That is checked.
+        file: As the package lists it.
+    """
+    holder, rest = package, file
+    if file.startswith("../"):
+        name, _, rest = file.removeprefix("../").partition("/")
+        holder = package.workspace.package(name) or package
+    return f"{ROOT}/{holder.declared_name}/{installed_as(holder, rest) or rest}"
+
+
+def installs(package: Package, target: SharePath) -> bool:
+    """Whether a package installs what lies at a path of its share folder."""
+    return source_of(package, target.path) is not None

@@ -1,0 +1,130 @@
+"""The ROS 2 launch files of a package."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from checker.base.parts import NotAvailable
+from checker.launch.ros2.graph import LaunchFaultKind, LaunchGraph, Ros2Launch
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+FILES_LIMIT = 150
+OTHERS_LIMIT = 20
+"""Launch files of other packages that are read for one that they name."""
+_PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
+_YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
+_ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
+_ROS_2 = re.compile(r"""\$\((?:find-pkg-share|var)\s|<node\b[^>]{0,1000}\sexec\s{0,8}=""")
+_WORD = re.compile(r"[\w-]+")
+_CATKIN = re.compile(r"\bcatkin\b")
+_BUILT_BY_AMENT = re.compile(r"\bament_(?:cmake|python)\b|<build_type>\s{0,20}(?:ament_|cmake)")
+
+
+def ros2_launch(
+    package: Package, arguments: Mapping[str, str] | None = None
+) -> Ros2Launch | NotAvailable:
+    """Read the launch files of a package that no other of its files includes.
+
+    Args:
+        package: That is checked.
+        arguments: That are given on the command line.
+    """
+    files = [*launch_files(package)]
+    if not files:
+        return NotAvailable("the package has no ROS 2 launch files", applicable=False)
+    unread = []
+    if len(files) > FILES_LIMIT:
+        unread.append(f"only {FILES_LIMIT} of {len(files)} launch files are read")
+    graphs: dict[str, LaunchGraph] = {}
+    for file in files[:FILES_LIMIT]:
+        graphs[file] = _read(package, file, arguments)
+        if any(fault.kind is LaunchFaultKind.LIMIT for fault in graphs[file].faults):
+            unread.append(f"{file} and the following files are too large to read")
+            break
+    return Ros2Launch(tuple(_outermost(graphs)), tuple(unread))
+
+
+def _outermost(graphs: Mapping[str, LaunchGraph]) -> list[LaunchGraph]:
+    """Return the graphs of files that no other one includes; of a circle all."""
+    included = {
+        include.path
+        for file, graph in graphs.items()
+        for include in graph.includes
+        if include.path != file
+    }
+    return [graphs[file] for file in graphs if file not in included] or [*graphs.values()]
+
+
+def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
+    """Yield the launch files of other available packages that name a package, each with its own.
+
+    Args:
+        package: That ought to be named, as in `FindPackageShare("arm_description")`.
+    """
+    left = OTHERS_LIMIT
+    others = package.others if built_by_ament(package) and not package.only else ()
+    for other in filter(built_by_ament, others):
+        files = [file for file in launch_files(other) if _names(other, file, package)][:left]
+        left -= len(files)
+        graphs = {file: _read(other, file) for file in files}
+        yield from ((other, graph) for graph in _outermost(graphs))
+
+
+def _names(holder: Package, file: str, package: Package) -> bool:
+    source, name = holder.read(file), package.declared_name
+    if not isinstance(source, SourceText) or name not in source.text:
+        return False
+    return name in _WORD.findall(source.text)
+
+
+def launch_files(package: Package) -> Iterator[str]:
+    """Yield the launch files of ROS 2."""
+    if package.only:
+        return
+    for entry in package.index.files:
+        path = entry.path
+        lower = path.lower()
+        if lower.endswith(".py") and "launch" in lower:
+            if _holds(package, path, _PYTHON):
+                yield path
+        elif lower.endswith((".launch.yaml", ".launch.yml", "_launch.yaml", "_launch.yml")):
+            if _holds(package, path, _YAML):
+                yield path
+        elif (
+            lower.endswith((".launch", ".xml")) and "launch" in lower and is_ros2_xml(package, path)
+        ):
+            yield path
+
+
+def _holds(package: Package, path: str, pattern: re.Pattern[str]) -> bool:
+    source = package.read(path)
+    return isinstance(source, SourceText) and pattern.search(source.text) is not None
+
+
+def is_ros2_xml(package: Package, path: str) -> bool:
+    """Whether an XML file is a launch file of ROS 2, and none of ROS 1."""
+    source = package.read(path)
+    if not isinstance(source, SourceText) or "<launch" not in source.text:
+        return False
+    document = package.xml(path)
+    if isinstance(document, XmlDocument) and document.root.tag != "launch":
+        return False
+    if _ROS_1.search(source.text) or not built_by_ament(package):
+        return False
+    # A package of both keeps the files of both.
+    return not _holds(package, "package.xml", _CATKIN) or _ROS_2.search(source.text) is not None
+
+
+def built_by_ament(package: Package) -> bool:
+    """Whether package.xml says that the package is one of ROS 2."""
+    return _holds(package, "package.xml", _BUILT_BY_AMENT)
+
+
+def _read(package: Package, file: str, arguments: Mapping[str, str] | None = None) -> LaunchGraph:
+    """Read a launch file; packages without any need not load what evaluates them."""
+    from checker.launch.ros2.reader import read_launch
+
+    return read_launch(package, file, arguments)

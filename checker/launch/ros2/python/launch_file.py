@@ -1,0 +1,137 @@
+"""Launch files in Python: what `generate_launch_description` returns."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+
+from checker.launch.ros2.actions.gathered import Gathered
+from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind, Unread
+from checker.launch.ros2.package_files import holder_of
+from checker.launch.ros2.python.expressions import evaluate
+from checker.launch.ros2.python.interpreter import Interpreter, World
+from checker.launch.ros2.python.scope import LocalFunction, Partial, Scope
+from checker.launch.ros2.python.undefined import undefined_names
+from checker.launch.ros2.values import Allowance, Made, Unknown, Value, chosen
+from checker.package.package import Package
+from checker.source.text import SourceText, Span
+
+ENTRY = "generate_launch_description"
+LENGTH_LIMIT = 300_000
+"""Characters of a launch file."""
+EXPRESSION_LIMIT = 2_000
+"""Characters of a `PythonExpression`."""
+
+
+def parsed(source: SourceText) -> ast.Module | str:
+    """Return the syntax tree of a file, or why there is none."""
+    if len(source.text) > LENGTH_LIMIT:
+        return f"is longer than {LENGTH_LIMIT} characters"
+    try:
+        return ast.parse(source.text)
+    except SyntaxError as error:
+        return f"line {error.lineno}: {error.msg}"
+    except (ValueError, RecursionError, MemoryError):
+        return "is nested too deeply, or holds characters that Python does not read"
+
+
+def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
+    """Return the launch description of a file."""
+    tree = parsed(source)
+    if isinstance(tree, str) and "f-string" in tree:
+        # Newer releases of Python read f-strings that this one does not.
+        return Unknown(f"the file is not read: {tree}", source.whole())
+    if isinstance(tree, str):
+        message = f"the launch file is not Python that can be read: {tree}"
+        found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))
+        return Unknown(message, source.whole())
+    run = Interpreter(source, allowance, world)
+    for name in undefined_names(tree, ENTRY):
+        message = f"name {name.id!r} is not defined in the launch file"
+        found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, run.span(name), message))
+    scope = run.module_scope(tree)
+    function = scope.values.get(ENTRY)
+    if not isinstance(function, LocalFunction):
+        if function is None:
+            message = f"the file defines no function {ENTRY}()"
+            found.faults.append(
+                LaunchFault(LaunchFaultKind.NO_DESCRIPTION, source.whole(), message)
+            )
+        return Unknown(f"{ENTRY}() is not read", source.whole())
+    value = run.called(function, [], {}, function.node)
+    _tell(run, found)
+    return value
+
+
+def _line(source: SourceText, reason: str) -> Span:
+    """Return the line of a syntax error."""
+    number = reason.removeprefix("line ").partition(":")[0]
+    start = source.offset_of(int(number), 1) if number.isdigit() else None
+    return source.whole() if start is None else Span(source, start, start)
+
+
+def _tell(run: Interpreter, found: Gathered) -> None:
+    found.unread += (Unread(note.reason, note.span) for note in run.notes)
+
+
+def function_call(
+    function: Value,
+    positional: Sequence[Value],
+    allowance: Allowance,
+    world: World,
+    found: Gathered,
+) -> Value:
+    """Return what a function returns that the launch system calls: also of an `OpaqueFunction`."""
+    named: dict[str, Value] = {}
+    span = None
+    if isinstance(function, Made):
+        given = chosen(function.values.get("kwargs"))
+        named = {str(k): v for k, v in given.items()} if isinstance(given, dict) else {}
+        span = function.span
+        function = chosen(function.values.get("function"))
+    inner = function
+    while isinstance(inner, Partial):
+        inner = inner.function
+    if not isinstance(inner, LocalFunction):
+        where = span or _span_of_unknown(function)
+        reason = function.reason if isinstance(function, Unknown) else "the function is not known"
+        return Unknown(reason, where) if where is not None else None
+    run = Interpreter(inner.source, allowance, world)
+    arguments = [*positional]
+    if isinstance(inner.node, ast.Lambda) or span is None:
+        # An event handler may take the event and the context, or neither.
+        arguments = arguments[: len(inner.node.args.args)]
+    value = run.called(function, arguments, named, inner.node)
+    _tell(run, found)
+    return value
+
+
+def _span_of_unknown(value: Value) -> Span | None:
+    return value.span if isinstance(value, Unknown | Made) else None
+
+
+def expression(text: str, span: Span, allowance: Allowance, world: World) -> Value:
+    """Evaluate a `PythonExpression`."""
+    if len(text) > EXPRESSION_LIMIT:
+        return Unknown(f"has more than {EXPRESSION_LIMIT} characters", span)
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return Unknown("is not an expression of Python", span)
+    run = Interpreter(SourceText(span.source.file, text.strip()), allowance, world)
+    value = chosen(evaluate(run, tree.body, Scope()))
+    return Unknown(value.reason, span) if isinstance(value, Unknown) else value
+
+
+def module_of(package: Package, path: str) -> SourceText | None:
+    """Return the source of a Python module that a available package holds."""
+    parts = path.strip(".").split(".")
+    holder = holder_of(package, parts[0])
+    if holder is None or path.startswith("."):
+        return None
+    for name in (f"{'/'.join(parts)}.py", f"{'/'.join(parts)}/__init__.py"):
+        if holder.exists(name):
+            local = name if holder is package else f"../{holder.name}/{name}"
+            source = package.read(local)
+            return source if isinstance(source, SourceText) else None
+    return None

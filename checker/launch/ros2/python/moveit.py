@@ -1,0 +1,104 @@
+"""`MoveItConfigsBuilder`: the robot description that it makes; other parameters are not known."""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from typing import TYPE_CHECKING
+
+from checker.formats.xacro.files import ROOT
+from checker.launch.ros2.actions.node_parameters import MOVEIT
+from checker.launch.ros2.graph import is_known
+from checker.launch.ros2.values import FileText, Made, Unknown, Value, chosen
+from checker.source.yaml import read_yaml
+
+if TYPE_CHECKING:
+    from checker.launch.ros2.python.interpreter import Interpreter
+
+_DESCRIPTIONS = ("robot_description", "robot_description_semantic")
+
+
+def builder(
+    run: Interpreter, node: ast.AST, positional: list[Value], named: dict[str, Value]
+) -> Value:
+    """Return a builder."""
+    values = dict(
+        zip(("robot_name", "robot_description", "package_name"), positional, strict=False)
+    )
+    values |= named
+    robot = chosen(values.get("robot_name"))
+    if not isinstance(robot, str) or not is_known(robot):
+        return run.unknown(node, "the robot name of MoveItConfigsBuilder is not known")
+    package = chosen(values.get("package_name", f"{robot}_moveit_config"))
+    if not isinstance(package, str) or not is_known(package):
+        return run.unknown(node, "the package of MoveItConfigsBuilder is not known")
+    return Made("MoveItConfigs", {"robot": str(robot), "package": str(package)}, run.span(node))
+
+
+def called(
+    run: Interpreter,
+    configs: Made,
+    name: str,
+    positional: list[Value],
+    named: dict[str, Value],
+    node: ast.AST,
+) -> Value:
+    """Return what a method of the builder returns: itself, or all parameters."""
+    if name == "to_dict":
+        return {**parameters(run, configs, "robot_description", node), **_rest(configs)}
+    if name in _DESCRIPTIONS:
+        given = dict(zip(("file_path", "mappings"), positional, strict=False)) | named
+        values = {**configs.values, name: given}
+        return Made("MoveItConfigs", values, configs.span)
+    return configs
+
+
+def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dict[str, Value]:
+    """Return what an attribute of the built configurations holds, as parameters of a node."""
+    given = configs.values.get(name)
+    given = given if isinstance(given, dict) else {}
+    file = chosen(given.get("file_path"))
+    package, robot = configs.values["package"], configs.values["robot"]
+    if isinstance(file, Unknown):
+        return {name: file}
+    if name == "robot_description":
+        path, mappings = _description(run, package, robot, node)
+        if file is not None:
+            path = posixpath.join(f"{ROOT}/{package}", str(file))
+        elif run.world.exists(path) is False:
+            return _rest(configs)  # MoveIt warns, and waits for the topic robot_description.
+        mappings = chosen(given.get("mappings")) or mappings
+        return {name: _command(path, mappings, configs)}
+    if name == "robot_description_semantic" and file is not None:
+        return {name: FileText.of(f"{ROOT}/{package}/{file}", configs.span)}
+    return _rest(configs)
+
+
+def _rest(configs: Made) -> dict[str, Value]:
+    """Return what stands for the parameters that the builder reads from its other files."""
+    return {"moveit": Unknown(MOVEIT, configs.span)}
+
+
+def _command(path: str, mappings: Value, configs: Made) -> Value:
+    words: list[Value] = [f"xacro {path}"]
+    if isinstance(mappings, dict):
+        for name, value in mappings.items():
+            words += [f" {name}:=", value]
+    return Made("Command", {"command": words}, configs.span)
+
+
+def _description(run: Interpreter, package: str, robot: str, node: ast.AST) -> tuple[str, Value]:
+    """Return the description that `.setup_assistant` names, else the usual one."""
+    usual = f"{ROOT}/{package}/config/{robot}.urdf.xacro"
+    source = run.world.read(f"{ROOT}/{package}/.setup_assistant", run.span(node))
+    if isinstance(source, str):
+        return usual, None
+    root = read_yaml(source).root
+    match root.plain() if root is not None else None:
+        case {
+            "moveit_setup_assistant_config": {
+                "urdf": {"package": str(holder), "relative_path": str(path)}
+            }
+        } if holder:
+            return f"{ROOT}/{holder}/{path}", None
+    return usual, None

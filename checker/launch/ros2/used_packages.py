@@ -1,0 +1,58 @@
+"""Packages that the ROS 2 launch files of a package use: each is needed where they are launched."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from checker.launch.ros2.graph import (
+    LaunchGraph,
+    NodeKind,
+    Parameter,
+    ParameterFile,
+    Ros2Launch,
+    is_known,
+    share_path,
+)
+from checker.package.dependencies import Use
+from checker.source.text import Span
+
+_COMMAND = "$(command xacro "
+_XACRO = re.compile(r"(?<![.\w])xacro\b")
+"""The program, and no suffix: what reads a MoveIt configuration runs xacro by itself."""
+
+
+def used_packages(launch: Ros2Launch) -> Iterator[Use]:
+    """Yield the packages of nodes, components, included files and paths, in the package's files.
+
+    What a condition leaves out is among them; what other packages' files use is theirs to declare.
+    """
+    for graph in launch.entries:
+        for name, span, how in _package_names(graph):
+            if name and is_known(name) and not span.source.file.startswith("../"):
+                yield Use(name, span.place(), how)
+
+
+def _package_names(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
+    for node in graph.nodes:
+        what = "component" if node.kind is NodeKind.COMPONENT else "node"
+        yield node.package.value, node.package.span, f"{what} {node.executable.value}"
+        for parameter in node.parameters:
+            yield from _of_parameter(parameter)
+    paths = [include.target for include in graph.includes] + [use.text for use in graph.files]
+    for text in paths:
+        yield from _of_path(text.value, text.span)
+
+
+def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, Span, str]]:
+    if isinstance(parameter, ParameterFile):
+        yield from _of_path(parameter.path, parameter.span)
+        return
+    text = parameter.value if isinstance(parameter.value, str) else ""
+    if text.startswith(_COMMAND) and _XACRO.search(parameter.span.source.text):
+        yield "xacro", parameter.span, "command xacro"
+
+
+def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str]]:
+    if (path := share_path(text)) is not None:
+        yield path.package, span, f"file {path.path}"

@@ -1,0 +1,217 @@
+"""What launch files work with: texts that know their place, substitutions, actions, and unknowns.
+
+Besides these, values are Python's own: numbers, truth values, None, lists, tuples, dictionaries.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from checker.base.record import Record
+from checker.launch.ros2.graph import Condition
+from checker.source.text import Span
+
+Value = Any
+"""A text, a number, a list …, or one of the classes below."""
+
+
+class LaunchLimit(Exception):
+    """A launch file that takes more than it may; what it takes, as a predicate."""
+
+
+MAX_STEPS = 200_000
+"""Nodes evaluated, items taken, actions visited: of one launch file and all that it includes."""
+MAX_TEXT = 100_000
+"""Characters of a text that is made."""
+MAX_DEPTH = 60
+"""Expressions, calls, groups and files within one another."""
+_CHARACTERS_A_STEP = 64
+
+
+class Allowance:
+    """Steps and levels that are left to one launch file and all that it includes."""
+
+    def __init__(self, steps: int = MAX_STEPS) -> None:
+        """Begin with so many steps."""
+        self._left = steps
+        self._depth = 0
+
+    def spend(self, steps: int = 1) -> None:
+        """Take steps.
+
+        Raises:
+            LaunchLimit: No steps are left.
+        """
+        self._left -= steps
+        if self._left < 0:
+            raise LaunchLimit(f"takes more than {MAX_STEPS} steps to evaluate")
+
+    def spend_on_text(self, length: int) -> None:
+        """Take the steps of making a text of so many characters.
+
+        Raises:
+            LaunchLimit: It is too long, or no steps are left.
+        """
+        if length > MAX_TEXT:
+            raise LaunchLimit(f"makes a text of more than {MAX_TEXT} characters")
+        self.spend(1 + length // _CHARACTERS_A_STEP)
+
+    def __enter__(self) -> None:
+        """Go one level down.
+
+        Raises:
+            LaunchLimit: That is too deep.
+        """
+        if self._depth >= MAX_DEPTH:
+            raise LaunchLimit(f"is nested more than {MAX_DEPTH} levels deep")
+        self._depth += 1
+
+    def __exit__(self, *_: object) -> None:
+        """Go up again."""
+        self._depth -= 1
+
+
+class PlacedText(str):
+    """A text and the place where it is written.
+
+    Attributes:
+        span: The literal, or the expression that makes it.
+    """
+
+    __slots__ = ("span",)
+    span: Span
+
+    def __new__(cls, text: str, span: Span) -> PlacedText:
+        """Place a text."""
+        self = super().__new__(cls, text)
+        self.span = span
+        return self
+
+
+class FileText(PlacedText):
+    """The whole text of a file: `$(file-content PATH)`.
+
+    Attributes:
+        path: Of the file.
+    """
+
+    __slots__ = ("path",)
+    path: str
+
+    @classmethod
+    def of(cls, path: str, span: Span) -> FileText:
+        """Return the text of a file."""
+        self = cls(f"$(file-content {path})", span)
+        self.path = path
+        return self
+
+
+class Unknown(Record, eq=False):
+    """A value that this reader cannot tell; the reason ends a sentence."""
+
+    reason: str
+    span: Span
+
+
+class Symbol(Record):
+    """What an import names, by its dotted path: `launch.actions.Node`."""
+
+    path: str
+
+    @property
+    def root(self) -> str:
+        """The package that it comes from."""
+        return self.path.partition(".")[0]
+
+    @property
+    def last(self) -> str:
+        """Its own name."""
+        return self.path.rpartition(".")[2]
+
+
+class FilePath(Record):
+    """A `pathlib.Path`."""
+
+    text: str
+
+
+class OpenFile(Record):
+    """What `open` returns."""
+
+    path: str
+
+
+@dataclass(eq=False)
+class Made:
+    """An object of the launch system: an action, a substitution, a condition, an event handler.
+
+    Attributes:
+        name: Of its class, such as `Node`.
+        values: Arguments by name.
+        span: The call, or the element.
+        keywords: Where each argument is written, if not in its value.
+        rest: Positional arguments that the class does not have.
+    """
+
+    name: str
+    values: dict[str, Value]
+    span: Span
+    keywords: dict[str, Span] = field(default_factory=dict)
+    rest: tuple[Value, ...] = ()
+
+
+class Guarded(Record, eq=False):
+    """A value that is there only if conditions hold that are tested while the file is read."""
+
+    value: Value
+    conditions: tuple[Condition, ...]
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether it is there with the defaults; None when that is not known."""
+        states = [condition.holds for condition in self.conditions]
+        if any(state is False for state in states):
+            return False
+        return None if any(state is None for state in states) else True
+
+
+class Choice(Record, eq=False):
+    """One of several values, by conditions that could not be decided."""
+
+    values: tuple[Guarded, ...]
+
+
+def chosen(value: Value) -> Value:
+    """Return the value that counts with the defaults, of one that is guarded or chosen."""
+    while isinstance(value, Guarded | Choice):
+        if isinstance(value, Guarded):
+            if value.holds is not True:
+                return Unknown(_undecided(value), value.conditions[0].text.span)
+            value = value.value
+        else:
+            standing = [item for item in value.values if item.holds is True]
+            if not standing:
+                first = value.values[0]
+                return Unknown(_undecided(first), first.conditions[0].text.span)
+            value = standing[0].value
+    return value
+
+
+def _undecided(value: Guarded) -> str:
+    condition = next((c for c in value.conditions if c.holds is not True), value.conditions[0])
+    return f"depends on {condition.text.value[:80]!r}"
+
+
+def placed(value: Value, span: Span) -> Value:
+    """Return a value; a text without a place is given one."""
+    return PlacedText(value, span) if type(value) is str else value
+
+
+def span_of(value: Value, default: Span) -> Span:
+    """Return the place of a value."""
+    if isinstance(value, PlacedText | Unknown | Made):
+        return value.span
+    if isinstance(value, list | tuple) and value:
+        return span_of(value[0], default)
+    return default

@@ -1,0 +1,202 @@
+"""From a receiver's class and a method's name to the function that answers; and Ruby's Kernel."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Mapping
+
+from checker.launch.spawner.files import FILE, YAML, absolute, folder_of, resolve, workspace_path
+from checker.launch.spawner.literals import TracedString
+from checker.launch.spawner.methods.call import Call, Method, Methods, check_arity
+from checker.launch.spawner.methods.collections import ARRAY, HASH, HASH_WITH_BLOCK
+from checker.launch.spawner.methods.enumerable import (
+    ENUMERABLE,
+    ENUMERABLE_WITH_BLOCK,
+    RANGE,
+)
+from checker.launch.spawner.methods.number import (
+    INTEGER,
+    INTEGER_WITH_BLOCK,
+    MATH,
+    NUMBER,
+)
+from checker.launch.spawner.methods.string import STRING
+from checker.launch.spawner.signals import ERROR_CLASSES, RubyError, Unreadable
+from checker.launch.spawner.value_text import formatted
+from checker.launch.spawner.values import (
+    NIL,
+    Constant,
+    RubyArray,
+    RubyHash,
+    RubyString,
+    Value,
+    class_name,
+)
+
+# Ruby's functions that need no receiver: files to load, messages, errors, formats.
+
+
+_LIBRARIES = frozenset(
+    {"yaml", "erb", "json", "set", "date", "time", "pathname", "fileutils", "ostruct", "pp"}
+    | {"matrix", "securerandom", "shellwords", "open3", "csv", "logger", "rexml/document"}
+)
+"""Loading them has no effect here; what calls one is refused where it stands."""
+
+
+def _puts(_call: Call, *_values: Value) -> Value:
+    """Ignore messages: they do not belong to what the spawner returns."""
+    return NIL
+
+
+def _raise(call: Call, error: Value | None = None, message: Value | None = None) -> Value:
+    if error is None:
+        raise RubyError("RuntimeError", "unhandled exception", call.span)
+    data = error.data
+    if isinstance(data, RubyString):
+        raise RubyError("RuntimeError", data.text, call.span)
+    if isinstance(data, Constant) and data.name in ERROR_CLASSES:
+        raise RubyError(data.name, call.text(message) if message else data.name, call.span)
+    raise call.refuse()
+
+
+def _require(call: Call, name: Value) -> Value:
+    text = call.text(name)
+    if text in _LIBRARIES:
+        return call.run.value(True)
+    if text.startswith("/"):
+        return _run_once(call, resolve(call, name))
+    raise Unreadable(call.span, f"requires '{text[:60]}', which is not available")
+
+
+def _require_relative(call: Call, name: Value) -> Value:
+    folder = folder_of(absolute(call.run.scope.path))
+    target = posixpath.normpath(posixpath.join(folder, call.text(name)))
+    path = workspace_path(target)
+    if path is None:
+        raise Unreadable(call.span, f"requires {target}, which is outside the workspace")
+    return _run_once(call, path)
+
+
+def _run_once(call: Call, path: str) -> Value:
+    if not path.endswith(".rb"):
+        path += ".rb"
+    if path in call.run.loaded:
+        return call.run.value(False)
+    return _run(call, path)
+
+
+def _load(call: Call, path: Value) -> Value:
+    return _run(call, resolve(call, path))
+
+
+def _run(call: Call, path: str) -> Value:
+    """Run a Ruby file; one that is missing is Ruby's LoadError, which `rescue` may catch."""
+    run = call.run
+    if not run.files.exists(path):
+        package, inside, _ = path.partition("/")
+        if inside and run.files.package_folder(package) is None and not run.files.exists(package):
+            raise Unreadable(call.span, f"package {package} is not available")
+        raise RubyError("LoadError", f"cannot load such file -- {absolute(path)}", call.span)
+    run.run_file(path, call.span)
+    return run.value(True)
+
+
+def _format(call: Call, template: Value, *values: Value) -> Value:
+    return formatted(call, template, list(values))
+
+
+KERNEL: Methods = {
+    "format": _format,
+    "load": _load,
+    "print": _puts,
+    "puts": _puts,
+    "raise": _raise,
+    "require": _require,
+    "require_relative": _require_relative,
+    "sprintf": _format,
+    "warn": _puts,
+}
+
+
+def invoke_method(call: Call) -> Value:
+    """Answer a method call.
+
+    Raises:
+        Unreadable: The method is not in the whitelist.
+        RubyError: Ruby refuses the call.
+    """
+    data, tables = call.receiver.data, _METHODS if call.block is None else _WITH_BLOCK
+    name = f"{data.name}." if isinstance(data, Constant) else class_name(data)
+    common = () if call.block or isinstance(data, Constant) else (_COMMON,)
+    for methods in (*tables.get(name, ()), *common):
+        method: Method | None = methods.get(call.name)
+        if method is not None:
+            check_arity(call, method)
+            return method(call, *call.arguments)
+    raise call.refuse()
+
+
+def _to_s(call: Call) -> Value:
+    if isinstance(call.receiver.data, RubyString):
+        return call.receiver
+    return call.run.string(call.run.written(call.receiver, call.span))
+
+
+def _dup(call: Call) -> Value:
+    data = call.receiver.data
+    if isinstance(data, RubyString):
+        return Value(RubyString(data.content), call.receiver.parameters)
+    if isinstance(data, RubyArray):
+        return call.run.array(list(data.items), call.receiver)
+    if isinstance(data, RubyHash):
+        call.run.budget.spend_items(len(data.entries))
+        return Value(RubyHash(dict(data.entries), data.default), call.receiver.parameters)
+    return call.receiver
+
+
+def _freeze(call: Call) -> Value:
+    data = call.receiver.data
+    if isinstance(data, (RubyString, RubyArray, RubyHash)):
+        data.frozen = True
+    return call.receiver
+
+
+def _is_a(call: Call, wanted: Value) -> Value:
+    if not isinstance(wanted.data, Constant) or wanted.data.name in ERROR_CLASSES:
+        raise call.refuse()
+    name, own = wanted.data.name, class_name(call.receiver.data)
+    return call.value(name == own or (name == "Numeric" and own in {"Integer", "Float"}))
+
+
+_COMMON: Methods = {
+    "dup": _dup,
+    "freeze": _freeze,
+    "is_a?": _is_a,
+    "nil?": lambda call: call.value(call.receiver.data is None),
+    "to_s": _to_s,
+}
+
+_METHODS: Mapping[str, tuple[Methods, ...]] = {
+    "String": (STRING,),
+    "Array": (ARRAY, ENUMERABLE),
+    "Hash": (HASH, ENUMERABLE),
+    "Range": (RANGE, ENUMERABLE),
+    "Integer": (INTEGER,),
+    "Float": (NUMBER,),
+    "Exception": ({"message": _to_s},),
+    "File.": (FILE,),
+    "YAML.": (YAML,),
+    "Math.": (MATH,),
+    "String.": ({"new": lambda call: call.run.string(TracedString())},),
+    "Array.": ({"new": lambda call: call.run.array([])},),
+    "Hash.": ({"new": lambda _call, default=None: Value(RubyHash(default=default))},),
+}
+"""A class with a dot stands for its own methods."""
+
+_WITH_BLOCK: Mapping[str, tuple[Methods, ...]] = {
+    "Array": (ENUMERABLE_WITH_BLOCK,),
+    "Hash": (HASH_WITH_BLOCK,),
+    "Range": (ENUMERABLE_WITH_BLOCK,),
+    "Integer": (INTEGER_WITH_BLOCK,),
+}
+"""Methods that take a block stand in tables of their own."""

@@ -1,0 +1,197 @@
+"""Methods of what can be walked through: arrays, hashes and ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from checker.launch.spawner.limits import CHARACTERS_PER_STEP
+from checker.launch.spawner.methods.call import Call, Method, Methods
+from checker.launch.spawner.methods.number import calculate
+from checker.launch.spawner.signals import Unreadable
+from checker.launch.spawner.values import (
+    NIL,
+    RubyArray,
+    RubyHash,
+    RubyRange,
+    RubyString,
+    Value,
+    class_name,
+    is_number,
+)
+from checker.source.ruby import RubyNode
+
+if TYPE_CHECKING:
+    from checker.launch.spawner.evaluator.interpreter import Interpreter
+
+
+def items_of(run: Interpreter, collection: Value, node: RubyNode) -> Iterator[Value]:
+    """Yield elements, numbers, or pairs of key and value, as `each` does.
+
+    An array that grows meanwhile is followed; a hash must not grow, as in Ruby.
+
+    Raises:
+        Unreadable: The value is no collection.
+    """
+    data, parameters = collection.data, collection.parameters
+    if isinstance(data, RubyArray):
+        at = 0
+        while at < len(data.items):
+            item = data.items[at]
+            yield Value(item.data, item.parameters | parameters) if parameters else item
+            at += 1
+    elif isinstance(data, RubyRange):
+        for number in data.numbers:
+            yield run.value(number, collection)
+    elif isinstance(data, RubyHash):
+        size = len(data.entries)
+        run.budget.spend_items(size)
+        for key, value in list(data.entries.values()):
+            yield run.array([key, value], collection)
+            if len(data.entries) > size:
+                raise Unreadable(node.span, "adds to a hash while walking through it")
+    else:
+        raise Unreadable(node.span, f"walks through {class_name(data)}")
+
+
+def _listed(call: Call, collection: Value) -> list[Value]:
+    """Return all elements at once."""
+    data = collection.data
+    if isinstance(data, RubyRange):
+        call.run.budget.spend(data.count)
+    elif isinstance(data, RubyArray):
+        call.run.budget.spend_items(len(data.items))
+    elif isinstance(data, RubyHash):
+        call.run.budget.spend(len(data.entries))
+    return list(items_of(call.run, collection, call.node))
+
+
+def _all(call: Call) -> list[Value]:
+    return _listed(call, call.receiver)
+
+
+def _each(call: Call) -> Value:
+    for item in items_of(call.run, call.receiver, call.node):
+        call.block_value(item)
+    return call.receiver
+
+
+def _each_with_index(call: Call) -> Value:
+    for index, item in enumerate(items_of(call.run, call.receiver, call.node)):
+        call.block_value(item, call.run.value(index))
+    return call.receiver
+
+
+def _answers(call: Call) -> Iterator[tuple[Value, Value]]:
+    """Yield each element, and what the block answers to it."""
+    for item in _all(call):
+        yield item, call.block_value(item)
+
+
+def _filtered(wanted: bool) -> Method:
+    def filtered(call: Call) -> Value:
+        if isinstance(call.receiver.data, RubyHash):
+            raise call.refuse()
+        kept = [item for item, value in _answers(call) if value.truthy is wanted]
+        return call.run.array(kept, call.receiver)
+
+    return filtered
+
+
+def _first(call: Call, count: Value | None = None) -> Value:
+    items = _all(call)
+    if count is not None:
+        return call.run.array(items[: max(0, call.integer(count))], call.receiver)
+    return items[0] if items else NIL
+
+
+def last(call: Call) -> Value:
+    """Return the last element, nil when there is none."""
+    items = _all(call)
+    return items[-1] if items else NIL
+
+
+def _sum(call: Call) -> Value:
+    items = _all(call)
+    numbers = [call.number(item) for item in items]
+    if any(isinstance(number, float) for number in numbers):
+        return call.value(_compensated(numbers), *items)
+    return call.value(calculate("+", 0, sum(numbers)), *items)
+
+
+def _compensated(numbers: list[int | float]) -> float:
+    """Add floats as `Array#sum` does: with Neumaier's (Kahan-Babuska) compensation."""
+    total, lost = 0.0, 0.0
+    for number in numbers:
+        after = total + number
+        if abs(total) >= abs(number):
+            lost += (total - after) + number
+        else:
+            lost += (number - after) + total
+        total = after
+    return total + lost
+
+
+def _extreme(choose: Callable[..., Any]) -> Method:
+    def extreme(call: Call) -> Value:
+        items = _all(call)
+        if not items:
+            return NIL
+        if not all(is_number(item) for item in items):
+            raise call.refuse("with something other than numbers")
+        chosen: Value = choose(items, key=lambda item: item.data)
+        return call.value(call.number(chosen), *items)
+
+    return extreme
+
+
+def _includes(call: Call, wanted: Value) -> Value:
+    contained = any(call.run.equal(item, wanted, call.span) for item in _all(call))
+    return call.value(contained, wanted)
+
+
+def _sort(call: Call) -> Value:
+    items = _all(call)
+    call.run.budget.spend(len(items))
+    if all(is_number(item) for item in items):
+        return call.run.array(sorted(items, key=call.number), call.receiver)
+    if not all(isinstance(item.data, RubyString) for item in items):
+        raise call.refuse("with mixed values")
+    texts = [call.text(item) for item in items]
+    call.run.budget.spend(sum(map(len, texts)) // CHARACTERS_PER_STEP)
+    return call.run.array(sorted(items, key=lambda item: call.string(item).text), call.receiver)
+
+
+def _zip(call: Call, *others: Value) -> Value:
+    items, columns = _all(call), [_listed(call, other) for other in others]
+    rows = [
+        call.run.array([item, *(col[i] if i < len(col) else NIL for col in columns)])
+        for i, item in enumerate(items)
+    ]
+    return call.run.array(rows, call.receiver)
+
+
+ENUMERABLE: Methods = {
+    "to_a": lambda call: call.run.array(_all(call), call.receiver),
+    "count": lambda call: call.value(len(_all(call))),
+    "first": _first,
+    "include?": _includes,
+    "max": _extreme(max),
+    "min": _extreme(min),
+    "sort": _sort,
+    "sum": _sum,
+    "zip": _zip,
+}
+
+ENUMERABLE_WITH_BLOCK: Methods = {
+    "all?": lambda call: call.value(all(value.truthy for _, value in _answers(call))),
+    "any?": lambda call: call.value(any(value.truthy for _, value in _answers(call))),
+    "each": _each,
+    "each_with_index": _each_with_index,
+    "find": lambda call: next((item for item, value in _answers(call) if value.truthy), NIL),
+    "map": lambda call: call.run.array([value for _, value in _answers(call)], call.receiver),
+    "reject": _filtered(False),
+    "select": _filtered(True),
+}
+
+RANGE: Methods = {"last": last, "size": ENUMERABLE["count"]}

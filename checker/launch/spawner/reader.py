@@ -1,0 +1,240 @@
+"""The spawner of a package: its functions, what they emit, and what could not be read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.launch.spawner.evaluator.calls import CALLS, entry_call
+from checker.launch.spawner.evaluator.expressions import EXPRESSIONS
+from checker.launch.spawner.evaluator.interpreter import Handler, Interpreter
+from checker.launch.spawner.evaluator.operators import OPERATORS
+from checker.launch.spawner.evaluator.statements import STATEMENTS, function_of
+from checker.launch.spawner.evaluator.variables import VARIABLES
+from checker.launch.spawner.files import SpawnerFiles
+from checker.launch.spawner.launcher import (
+    GROUND_TRUTH,
+    SAMPLE_NAME,
+    SAMPLE_WORLD,
+    launcher_globals,
+)
+from checker.launch.spawner.limits import MAX_FILE_LENGTH, LimitReached
+from checker.launch.spawner.literals import computed
+from checker.launch.spawner.scope import Function, Scope
+from checker.launch.spawner.signals import (
+    Broken,
+    Continued,
+    Returned,
+    RubyError,
+    Unread,
+    Unreadable,
+)
+from checker.launch.spawner.values import RubyString, Value, class_name
+from checker.source.emitted import EmittedText
+from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
+from checker.source.ruby_repairs import SyntaxFault
+from checker.source.ruby_syntax import not_understood, syntax_faults
+from checker.source.text import SourceText, Span
+
+Argument = str | int | float | bool | None
+
+SPAWNER_ARGUMENTS: tuple[Argument, ...] = (
+    *(SAMPLE_NAME, "model://robot_model", SAMPLE_WORLD),
+    *(1.25, 2.5, 3.75),
+    *(0.125, 0.25, 0.5),
+)
+"""`_name _modelURI _worldName _x _y _z _roll _pitch _yaw`; exact in binary, in m and rad."""
+EXECUTABLES_ARGUMENTS: tuple[Argument, ...] = (SAMPLE_NAME, SAMPLE_WORLD)
+"""`_name _worldName`."""
+
+_HANDLERS: Mapping[str, Handler] = {
+    **EXPRESSIONS,
+    **VARIABLES,
+    **OPERATORS,
+    **STATEMENTS,
+    **CALLS,
+}
+"""What each type of node means; any other is not read."""
+
+
+class Spawner(Record, eq=False):
+    """A `launch/spawner.rb`.
+
+    Attributes:
+        entry: Its text.
+        functions: Functions that it and the files it loads define, by name.
+        spawn: What `spawner` emits for `SPAWNER_ARGUMENTS` without ground truth.
+        executables: What `rosExecutables` emits for `EXECUTABLES_ARGUMENTS`.
+        sources: All files read for it, the entry first.
+        unread: What could not be read; empty when everything was.
+        syntax_faults: Syntax errors that are certain.
+        not_understood: Where a file first goes beyond the grammar, if it has no such error.
+    """
+
+    entry: SourceText
+    functions: dict[str, Function]
+    spawn: EmittedText | Unread
+    executables: EmittedText | Unread
+    sources: tuple[SourceText, ...]
+    unread: tuple[Unread, ...]
+    syntax_faults: tuple[SyntaxFault, ...]
+    not_understood: tuple[Span, ...]
+    _program: _Program
+
+    @property
+    def trees(self) -> tuple[RubyNode, ...]:
+        """The syntax trees of the Ruby files among the sources."""
+        return tuple(self._program.trees.values())
+
+    def lacks(self, function: str) -> bool:
+        """Whether the file was understood to its end and defines no such function.
+
+        Args:
+            function: `spawner` or `rosExecutables`.
+        """
+        result = self.spawn if function == "spawner" else self.executables
+        lacking = isinstance(result, Unread) and result.reason == _NO_FUNCTION.format(function)
+        return lacking and not (self.syntax_faults or self.not_understood)
+
+    def evaluate(
+        self, function: str, arguments: Sequence[Argument], *, ground_truth: bool = False
+    ) -> EmittedText | Unread:
+        """Call a function of the spawner.
+
+        Args:
+            function: `spawner` or `rosExecutables`, or any other it defines.
+            arguments: Positional arguments.
+            ground_truth: Value of `$enableGroundTruth`.
+        """
+        return self._program.call(function, arguments, ground_truth=ground_truth)
+
+
+_NO_FUNCTION = "defines no function {}"
+
+
+def read_spawner(files: SpawnerFiles, path: str, entry: SourceText) -> Spawner:
+    """Read a spawner without running Ruby.
+
+    Args:
+        files: The workspace.
+        path: Path of `launch/spawner.rb` relative to the workspace.
+        entry: Its text.
+    """
+    program = _Program(files, entry, path)
+    spawn = program.call("spawner", SPAWNER_ARGUMENTS)
+    executables = program.call("rosExecutables", EXECUTABLES_ARGUMENTS)
+    unread: dict[tuple[int, int, str], Unread] = {}
+    for result in (spawn, executables):
+        if isinstance(result, Unread):
+            unread.setdefault((result.span.start, result.span.end, result.reason), result)
+    faults = tuple(fault for tree in program.trees.values() for fault in syntax_faults(tree))
+    strange = () if faults else tuple(filter(None, map(not_understood, program.trees.values())))
+    sources = {path: entry, **program.sources}
+    return Spawner(
+        entry,
+        program.functions,
+        spawn,
+        executables,
+        tuple(sources.values()),
+        tuple(unread.values()),
+        faults,
+        strange,
+        program,
+    )
+
+
+@dataclass(eq=False)
+class _Program:
+    """A spawner's files, and what is known of them from the calls so far."""
+
+    files: SpawnerFiles
+    entry: SourceText
+    path: str
+    trees: dict[str, RubyNode] = field(default_factory=dict)
+    sources: dict[str, SourceText] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
+
+    @cached_property
+    def _tree(self) -> RubyNode | str:
+        """The entry's tree, or the reason why there is none."""
+        if len(self.entry.text) > MAX_FILE_LENGTH:
+            return f"is longer than {MAX_FILE_LENGTH} characters"
+        try:
+            tree = self.trees[self.path] = parse_ruby(self.entry)
+        except ParsesTooSlowly:
+            return "takes too long to parse"
+        for node in tree.parts:
+            if node.type == "method" and "name" in node.fields:
+                function = function_of(node, self.path)
+                self.functions[function.name] = function
+        return tree
+
+    def call(
+        self, name: str, arguments: Sequence[Argument], *, ground_truth: bool = False
+    ) -> EmittedText | Unread:
+        """Run the file, then one of its functions, from a clean start."""
+        whole = self.entry.whole()
+        if isinstance(self._tree, str):
+            return Unread(whole, self._tree)
+        run = Interpreter(self.files, _HANDLERS, self.trees)
+        run.globals.update(launcher_globals(self.files, self.path, ground_truth=ground_truth))
+        run.sources[self.path] = self.entry
+        try:
+            return self._emitted(run, name, arguments)
+        except Unreadable as stop:
+            return stop.unread
+        except RubyError as error:
+            return Unread(error.span, f"raises {error.kind}: {error.message[:200]}")
+        except (LimitReached, Broken, Continued, Returned, RecursionError) as stop:
+            return Unread(whole, _reason(stop))
+        finally:
+            self.sources.update(run.sources)
+            self.functions.update(run.functions)
+
+    def _emitted(
+        self, run: Interpreter, name: str, arguments: Sequence[Argument]
+    ) -> EmittedText | Unread:
+        run.run_file(self.path, self.entry.whole())
+        function = run.functions.get(name)
+        if function is None:
+            return Unread(self.entry.whole(), _NO_FUNCTION.format(name))
+        span = function.span
+        run.scope = Scope(self.path)
+        # With a parameter too few, the rest of what it emits is still worth a look.
+        values = [_ruby(argument) for argument in arguments[: function.most]]
+        result = entry_call(run, function, values, span)
+        if not isinstance(result.data, RubyString):
+            return Unread(span, f"returns {class_name(result.data)} instead of a string")
+        traced = run.traced(result, span)
+        pieces = tuple(piece.rooted(span) for piece in traced.pieces)
+        return EmittedText(span.source.file, traced.text, origin=span, pieces=pieces)
+
+
+def _reason(stop: Exception) -> str:
+    """Say why a run ended outside any construct that could be named."""
+    if isinstance(stop, LimitReached):
+        return str(stop)
+    if isinstance(stop, RecursionError):
+        # The depth limit leaves most of Python's stack to the caller; it may have had less.
+        return "is nested too deeply"
+    return "leaves a loop or a function that it is not in"
+
+
+def _ruby(argument: Argument) -> Value:
+    if isinstance(argument, str):
+        return Value(RubyString(computed(argument, None, frozenset())))
+    return Value(argument)
+
+
+__all__ = [
+    "EXECUTABLES_ARGUMENTS",
+    "GROUND_TRUTH",
+    "SAMPLE_NAME",
+    "SAMPLE_WORLD",
+    "SPAWNER_ARGUMENTS",
+    "Spawner",
+    "Unread",
+    "read_spawner",
+]

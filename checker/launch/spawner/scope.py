@@ -1,0 +1,125 @@
+"""Variables, functions, and who is calling whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from checker.base.record import Record
+from checker.launch.spawner.values import Block, Value
+from checker.source.ruby import RubyNode
+from checker.source.text import Span
+
+
+class Parameter(Record, eq=False):
+    """A parameter of a Ruby function.
+
+    Attributes:
+        name: As written: `_modelURI`.
+        kind: `required`, `optional`, `rest`, `keyword`, `required_keyword`, or `unknown` to the
+            evaluator.
+        default: The expression of the default.
+        span: The whole parameter.
+    """
+
+    name: str
+    kind: str
+    default: RubyNode | None
+    span: Span
+
+
+class Function(Record, eq=False):
+    """A function that a spawner defines.
+
+    Attributes:
+        name: Such as `spawner`.
+        parameters: In order.
+        span: From `def` to its parameters' end.
+        node: Its definition.
+        path: Path of its file in the workspace.
+    """
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    span: Span
+    node: RubyNode
+    path: str = ""
+
+    @property
+    def required(self) -> int:
+        """Number of positional parameters without default."""
+        return sum(parameter.kind == "required" for parameter in self.parameters)
+
+    @property
+    def most(self) -> int | None:
+        """Largest number of positional arguments; None when there is no limit."""
+        kinds = [parameter.kind for parameter in self.parameters]
+        return None if "rest" in kinds else sum(kind in _POSITIONAL for kind in kinds)
+
+
+@dataclass(eq=False, slots=True)
+class Scope:
+    """The variables that a piece of code sees.
+
+    Attributes:
+        path: Path of the file in the workspace, for `__FILE__`.
+        variables: By name.
+        parent: The scope around a block.
+        frame: The call that `return` leaves; the scope of the function itself.
+        running: The block whose code runs here.
+    """
+
+    path: str
+    variables: dict[str, Value] = field(default_factory=dict)
+    parent: Scope | None = None
+    frame: Scope | None = None
+    running: Block | None = None
+
+    def find(self, name: str) -> Value | None:
+        """Return a variable of this scope or of one around it."""
+        scope: Scope | None = self
+        while scope is not None:
+            if name in scope.variables:
+                return scope.variables[name]
+            scope = scope.parent
+        return None
+
+    def assign(self, name: str, value: Value) -> None:
+        """Set a variable where it is known, else here."""
+        scope: Scope | None = self
+        while scope is not None:
+            if name in scope.variables:
+                scope.variables[name] = value
+                return
+            scope = scope.parent
+        self.variables[name] = value
+
+    @property
+    def call(self) -> Scope:
+        """The scope of the function that this code belongs to."""
+        return self.frame or self
+
+
+def parameters_of(node: RubyNode | None) -> tuple[Parameter, ...]:
+    """Read the parameter list of a function or block."""
+    if node is None:
+        return ()
+    parameters = []
+    for part in node.parts:
+        kind = _KINDS.get(part.type, "unknown")
+        default = part.fields.get("value")
+        if part.type == "keyword_parameter" and default is None:
+            kind = "required_keyword"
+        name = part.fields.get("name")
+        text = part.text if part.type == "identifier" else name.text if name else ""
+        parameters.append(Parameter(text, kind, default, part.span))
+    return tuple(parameters)
+
+
+_POSITIONAL = ("required", "optional")
+
+_KINDS = {
+    "identifier": "required",
+    "optional_parameter": "optional",
+    "splat_parameter": "rest",
+    "keyword_parameter": "keyword",
+}

@@ -1,0 +1,1 @@
+"""The robots of a package: which files describe them, with which arguments, and their parts."""

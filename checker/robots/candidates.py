@@ -1,0 +1,244 @@
+"""Which files of a package are its URDF descriptions, and which may be and are not read."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from itertools import islice
+
+from msgspec import field
+
+from checker.base.files import NotReadable
+from checker.base.record import Record
+from checker.formats.xacro.files import local_path
+from checker.launch.ros1.launch_file import Load
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
+
+_SUFFIXES = (".urdf", ".xacro")
+_OF_MOVEIT = (".srdf", ".srdf.xacro")
+FOLDER_BESIDE_SDF = "urdf/"
+CANDIDATES_LIMIT = 50
+
+
+class Candidate(Record):
+    """A file that ought to hold a robot.
+
+    Attributes:
+        path: As the package lists it.
+        args: Arguments for xacro.
+        loaded: Whether a launch file loads it.
+        by_xacro: Whether xacro reads it, whatever it holds.
+        missing: Arguments that a launch file leaves to the user, and that launch file.
+        choices: The values that it allows for these, where it names them.
+        offered: The values that it allows for arguments to which it gives one of them.
+    """
+
+    path: str
+    args: Mapping[str, str] = field(default_factory=dict)
+    loaded: bool = False
+    by_xacro: bool = False
+    missing: Mapping[str, str] = field(default_factory=dict)
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def assumed(self, number: int, given: Collection[str]) -> dict[str, str]:
+        """Return the values that are taken for arguments which nobody gives.
+
+        Args:
+            number: Of the choice, the first one being 0; of fewer choices the last one.
+            given: Names of the arguments that are given.
+        """
+        return {
+            name: values[min(number, len(values) - 1)]
+            for name, values in self.choices.items()
+            if name not in given
+        }
+
+
+class StartedLoad(Record):
+    """What a launch file loads; see `Candidate`."""
+
+    load: Load
+    missing: Mapping[str, str] = field(default_factory=dict)
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+def may_hold_description(package: Package) -> bool:
+    """Say whether a package holds a file that could be a URDF description."""
+    return bool(_files(package))
+
+
+def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate]:
+    """Return the files that launch files load, and those that stand for a robot.
+
+    Beside an SDF model these count only where no launch file loads any.
+
+    Args:
+        package: To look into.
+        loads: What its launch files load.
+    """
+    if package.only:
+        return [Candidate(package.only)]
+    chosen: dict[str, Candidate] = {}
+    for started in loads:
+        load, missing = started.load, started.missing
+        path = local_path(package, load.path)
+        # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
+        if path is not None and not path.startswith("../") and package.exists(path):
+            allowed = started.choices, started.offered
+            candidate = Candidate(path, load.args, True, load.by_xacro, missing, *allowed)
+            before = chosen.get(path, candidate)
+            # Of several ways to start it, one that is known counts before one that is not.
+            chosen[path] = candidate if before.missing and not missing else before
+    if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
+        others = [path for path in _outermost(package) if path not in chosen]
+        chosen |= {path: Candidate(path) for path in others}
+    if not chosen and package.kind is PackageKind.URDF_DESCRIPTION:
+        chosen = {path: Candidate(path) for path in _made_of(package)}
+    return [*chosen.values()][:CANDIDATES_LIMIT]
+
+
+def _files(package: Package) -> list[str]:
+    if package.only:
+        return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
+    files = package.index.with_suffix(*_SUFFIXES)
+    paths = (file.path for file in files if not file.path.lower().endswith(_OF_MOVEIT))
+    if package.kind is PackageKind.URDF_DESCRIPTION:
+        return [*paths]
+    return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
+
+
+def _outermost(package: Package) -> Iterator[str]:
+    """Yield the files that call themselves a robot and that no other file includes."""
+    paths = [path for path in _files(package) if not _is_empty(package, path)]
+    documents = {path: package.xml(path) for path in paths}
+    roots = {
+        path: document.root
+        for path, document in documents.items()
+        if isinstance(document, XmlDocument)
+    }
+    included = {
+        posixpath.basename(descendant.get("filename") or "")
+        for path, root in roots.items()
+        for descendant in root.descendants("xacro:include")
+        if posixpath.basename(descendant.get("filename") or "") != posixpath.basename(path)
+    }
+    outermost = [path for path in paths if posixpath.basename(path) not in included]
+    # Files that include one another in a circle leave none.
+    for path in outermost or paths:
+        document, root = documents[path], roots.get(path)
+        named = root is not None and root.tag == "robot" and root.get("name")
+        alone = len(paths) == 1 and (root is None or root.tag == "robot")
+        if named or (alone and isinstance(document, XmlDocument | XmlFault)):
+            yield path
+
+
+def _is_empty(package: Package, path: str) -> bool:
+    """Say whether a file holds nothing; one that nobody loads is only a leftover."""
+    source = package.read(path)
+    return isinstance(source, SourceText) and not source.text.strip()
+
+
+_INCLUDING_LIMIT = 400
+"""Xacro files of other packages that are searched for includes."""
+_INCLUDED = re.compile(r"""filename\s{0,8}=\s{0,8}["'][^"'<>\n]{0,300}?([\w.-]{1,100})["']""")
+_PARTS = ("link", "joint", "xacro:macro")
+
+
+def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
+    """Yield why files that hold links, joints or macros are not read, each the end of a sentence.
+
+    Args:
+        package: To look into.
+        seen: Files that were read, or are parts of what was.
+    """
+    for path in _files(package):
+        if path not in seen and isinstance(source := package.read(path), NotReadable):
+            yield f"{path} {source.reason}"
+    for path in unused_parts(package, seen):
+        yield f"{path} is not read: no file of a robot includes it"
+
+
+def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:
+    """Yield the files that hold links, joints or macros and are part of no robot.
+
+    Args:
+        package: To look into.
+        seen: Files that were read, or are parts of what was.
+    """
+    left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]
+    if not left:
+        return
+    elsewhere = _with_their_parts(package, left, set(_included_elsewhere(package)))
+    yield from (path for path in left if posixpath.basename(path) not in elsewhere)
+
+
+def _made_of(package: Package) -> Iterator[str]:
+    """Yield the robots of sibling packages that include files of a package of macros alone."""
+    own = {posixpath.basename(path) for path in _files(package) if _holds_parts(package, path)}
+    for other, path in _xacro_elsewhere(package) if own else ():
+        text = _text(other, path)
+        if package.root.name in text and not own.isdisjoint(_INCLUDED.findall(text)):
+            document = other.xml(path)
+            root = document.root if isinstance(document, XmlDocument) else None
+            if root is not None and root.tag == "robot" and root.get("name"):
+                yield f"../{other.name}/{path}"
+
+
+def is_included(package: Package, path: str) -> bool:
+    """Say whether a file of this or another package includes a file, by a computed name or not."""
+    name = posixpath.basename(path)
+    own = (_text(package, other) for other in _files(package) if other != path)
+    others = (_text(*other) for other in _xacro_elsewhere(package))
+    # Of a computed name, such as `${kind}_arm.xacro`, the end is what was found.
+    return any(name.endswith(end) for text in (*own, *others) for end in _INCLUDED.findall(text))
+
+
+def _holds_parts(package: Package, path: str) -> bool:
+    document = package.xml(path)
+    if not isinstance(document, XmlDocument) or document.root.tag != "robot":
+        return False
+    return any(next(document.root.descendants(tag), None) is not None for tag in _PARTS)
+
+
+def _with_their_parts(package: Package, paths: list[str], names: set[str]) -> set[str]:
+    """Return names of files with those that such files of the package include, and so on."""
+    included = {path: _INCLUDED.findall(_text(package, path)) for path in paths}
+    for _ in paths:
+        found = {
+            name
+            for path, parts in included.items()
+            if posixpath.basename(path) in names
+            for name in parts
+        }
+        if found <= names:
+            break
+        names |= found
+    return names
+
+
+def _text(package: Package, path: str) -> str:
+    source = package.read(path)
+    return source.text if isinstance(source, SourceText) else ""
+
+
+def _included_elsewhere(package: Package) -> Iterator[str]:
+    """Yield the names of the files that the xacro files of other packages include."""
+    for other, path in _xacro_elsewhere(package):
+        yield from _INCLUDED.findall(_text(other, path))
+
+
+def _xacro_elsewhere(package: Package) -> Iterator[tuple[Package, str]]:
+    files = (
+        (other, file.path)
+        for other in package.workspace.packages.values()
+        if other is not package
+        for file in other.index.with_suffix(".xacro")
+    )
+    return islice(files, _INCLUDING_LIMIT)

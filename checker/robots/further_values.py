@@ -1,0 +1,109 @@
+"""Values of xacro's arguments that choose another robot than the defaults do.
+
+A file names them where it compares an argument, tests it, or includes a file whose name it is part
+of; a launch file where it lists the choices for one.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterable, Iterator, Mapping
+
+from checker.formats.xacro.files import named_path, path_of
+from checker.package.package import Package
+from checker.source.xml import Element, XmlDocument
+
+_VALUE = re.compile(r"[\w-]{1,100}")
+_ARGUMENT = re.compile(r"\$\(arg\s{1,8}([\w.-]{1,100})\s{0,8}\)")
+_WHOLE = re.compile(r"\$\{\s{0,8}(?:not\s{1,8})?([A-Za-z_]\w{0,100})\s{0,8}\}")
+_COMPARED = re.compile(
+    r"""\b([A-Za-z_]\w{0,100})['"]?\s{0,8}[=!]=\s{0,8}(?:['"]([\w./-]{1,100})['"]|(\d{1,9})\b)"""
+)
+_OPPOSITES = {
+    "true": "false",
+    "false": "true",
+    "True": "False",
+    "False": "True",
+    "0": "1",
+    "1": "0",
+}
+
+
+def further_values(
+    package: Package,
+    documents: Iterable[XmlDocument],
+    chosen: Mapping[str, str],
+    allowed: Mapping[str, Iterable[str]],
+) -> list[tuple[str, str]]:
+    """Return names of arguments with values that they do not have, in the order of the files.
+
+    Args:
+        package: That is checked.
+        documents: What is expanded, the robot's own file and all that it may include.
+        chosen: Values that are given, by name.
+        allowed: Values that a launch file allows, by name.
+    """
+    documents = [*documents]
+    elements = [
+        e for document in documents for e in document.elements if e.tag.startswith("xacro:")
+    ]
+    values = {**_defaults(elements), **chosen}
+    aliases = {name: name for name in values} | _aliases(elements)
+    listed = [(name, value) for name, options in allowed.items() for value in options]
+    found = [
+        (aliases[name], value)
+        for element in elements
+        for name, value in _compared_values(package, element, values, aliases)
+        if aliases.get(name) in values
+    ]
+    tried = dict.fromkeys((*listed, *found))
+    return [(name, value) for name, value in tried if value != values.get(name)]
+
+
+def _defaults(elements: Iterable[Element]) -> dict[str, str]:
+    args = (element for element in elements if element.tag == "xacro:arg")
+    return {arg.get("name") or "": arg.get("default") or "" for arg in args}
+
+
+def _aliases(elements: Iterable[Element]) -> dict[str, str]:
+    """Return the arguments whose values properties have, by the name of the property."""
+    properties = (element for element in elements if element.tag == "xacro:property")
+    found = (
+        (it.get("name") or "", _ARGUMENT.fullmatch(it.get("value") or "")) for it in properties
+    )
+    return {name: match[1] for name, match in found if match}
+
+
+def _compared_values(
+    package: Package, element: Element, values: Mapping[str, str], aliases: Mapping[str, str]
+) -> Iterator[tuple[str, str]]:
+    if element.tag in ("xacro:if", "xacro:unless"):
+        test = _ARGUMENT.sub(r"\1", element.get("value") or "")
+        yield from ((name, text or number) for name, text, number in _COMPARED.findall(test))
+        whole = _WHOLE.fullmatch(test)
+        flag = whole[1] if whole else test
+        value = values.get(aliases.get(flag, ""), "")
+        if value in _OPPOSITES:
+            yield flag, _OPPOSITES[value]
+    elif element.tag == "xacro:include":
+        yield from _of_file_name(package, element)
+
+
+def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str]]:
+    """Yield the values that lead to a file that is there, of a name with one argument in it."""
+    name = _WHOLE.sub(r"$(arg \1)", element.get("filename") or "")
+    arguments = set(_ARGUMENT.findall(name))
+    if len(arguments) != 1:
+        return
+    argument, mark = arguments.pop(), "@@"
+    folder = posixpath.dirname(path_of(package, element.source.file))
+    path = named_path(folder, _ARGUMENT.sub(mark, name))
+    if path is None:
+        return
+    before, after = path.partition(mark)[0], path.rpartition(mark)[2]
+    for file in package.index.with_suffix(".xacro", ".urdf"):
+        whole = path_of(package, file.path)
+        value = whole.removeprefix(before).removesuffix(after)
+        if whole == f"{before}{value}{after}" and _VALUE.fullmatch(value):
+            yield argument, value

@@ -1,0 +1,75 @@
+"""The robots that a xacro file makes with other values of its arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from msgspec.structs import replace
+
+from checker.base.record import Record
+from checker.formats.urdf.description import UrdfDescription, read_description
+from checker.formats.xacro.expanded import ExpandedText
+from checker.formats.xacro.expansion import Expander, Expansions, Wanted
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.package.package import Package
+from checker.robots.further_values import further_values
+from checker.source.xml import XmlDocument
+
+TRIED_LIMIT = 8
+"""Values that are tried of one package: they take as long as the robots of the defaults."""
+_OF_THE_USER = (
+    *(XacroFaultKind.ARGUMENT, XacroFaultKind.ENVIRONMENT),
+    *(XacroFaultKind.RECURSION, XacroFaultKind.LIMIT),
+)
+"""Faults that need not be there when somebody chooses a value."""
+
+
+class Made(Record, eq=False):
+    """A robot that a file makes.
+
+    Attributes:
+        wish: What was expanded.
+        document: The result.
+        allowed: Values that a launch file allows for arguments, by name.
+    """
+
+    wish: Wanted
+    document: XmlDocument
+    allowed: Mapping[str, tuple[str, ...]]
+
+
+def other_robots(
+    package: Package, expander: Expander, made: Sequence[Made], given: Collection[str]
+) -> Iterator[UrdfDescription | XacroFault]:
+    """Yield the robots that another value of one argument makes, and the faults that it meets.
+
+    Args:
+        package: That is checked.
+        expander: Expands the files.
+        made: The robots that are judged.
+        given: Names of the arguments that the user gives: these have one value.
+    """
+    tried = [
+        (replace(robot.wish, args={**robot.wish.args, name: value}), f"{name}:={value}")
+        for robot in made
+        for name, value in _further_values(package, robot)
+        if name not in given
+    ][:TRIED_LIMIT]
+    wanted = [wish for wish, _ in tried]
+    outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
+    known = {(robot.wish.path, robot.document.source.text) for robot in made}
+    for (wish, values), outcome in zip(tried, outcomes, strict=True):
+        if isinstance(outcome, XacroFault) and outcome.kind not in _OF_THE_USER:
+            yield replace(outcome, message=f"{outcome.message} (with {values})")
+        elif isinstance(outcome, XmlDocument) and outcome.root.child("link"):
+            told = wish.path, outcome.source.text
+            if told in known:
+                continue
+            known.add(told)
+            yield replace(read_description(outcome, wish.path, for_rviz=False), values=values)
+
+
+def _further_values(package: Package, robot: Made) -> list[tuple[str, str]]:
+    source = robot.document.source
+    read = source.read if isinstance(source, ExpandedText) else ()
+    return further_values(package, read, robot.wish.args, robot.allowed)

@@ -1,0 +1,33 @@
+"""The URDF files of a package that stand for a robot, and what is wrong with those that cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from msgspec import field
+
+from checker.base.record import Record
+from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.fault import XacroFault
+
+
+class UrdfFiles(Record, eq=False):
+    """What became of the URDF files of a package.
+
+    Attributes:
+        descriptions: Of the files that hold a robot.
+        faults: Of files that hold none because something is wrong with them.
+        unread: Why files could not be looked at, each the end of a sentence.
+        set_aside: The same of files beside an SDF model that no launch file loads.
+        old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
+        assumed: Arguments that nobody gives, with the choice that is taken, by file.
+        others: Of the files that make another robot with another value of an argument.
+    """
+
+    descriptions: tuple[UrdfDescription, ...] = ()
+    faults: tuple[XacroFault, ...] = ()
+    unread: tuple[str, ...] = ()
+    set_aside: tuple[str, ...] = ()
+    old: tuple[XacroFault, ...] = ()
+    assumed: Mapping[str, str] = field(default_factory=dict)
+    others: tuple[UrdfDescription, ...] = ()
