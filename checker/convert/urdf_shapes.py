@@ -177,7 +177,7 @@ class LinkWriter:
         if visual.material is None or not visual.material.textures:
             return False
         tag = visual.material.textures[0].span.element.rpartition("/")[2]
-        return self.robot.format == "urdf" or tag.startswith("albedo_map")
+        return tag.startswith(("texture", "albedo_map"))
 
 
 def add_origin(element: etree._Element, pose: Transform, stated: Pose | None = None) -> None:

@@ -130,7 +130,7 @@ def package_robots(subject: Subject) -> Iterator[Robot]:
     yield from () if isinstance(robots, NotAvailable) else robots
     for world in () if isinstance(worlds, NotAvailable) else worlds:
         yield from world.models
-    if isinstance(robots, NotAvailable) or robots[0].format == "sdf":
+    if isinstance(robots, NotAvailable) or robots[0].conventions.read_by_gazebo:
         descriptions = subject.all(UrdfDescription)
         if not isinstance(descriptions, NotAvailable):
             yield from (description.robot for description in descriptions)

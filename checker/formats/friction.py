@@ -31,9 +31,9 @@ class FrictionReader:
 
     def __init__(self, robot: Robot) -> None:
         self.extensions: dict[str, list[Element]] = {}
-        if robot.format == "urdf":
-            for element in robot.element.all("gazebo"):
-                self.extensions.setdefault(element.get("reference") or "", []).append(element)
+        tag = robot.conventions.extension_tag
+        for element in robot.element.all(tag) if tag else ():
+            self.extensions.setdefault(element.get("reference") or "", []).append(element)
 
     def of(self, link: Link, collision: Collision) -> Friction:
         """Return what is stated for a collision; the first engine that says anything counts."""

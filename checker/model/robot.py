@@ -21,6 +21,7 @@ from checker.model.components import (
     Visual,
 )
 from checker.model.controllers import Controller
+from checker.model.conventions import Conventions
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
@@ -51,7 +52,8 @@ class Robot(Part, dict=True):
 
     Attributes:
         document: The file it was read from.
-        format: `sdf` or `urdf`.
+        format: Of the file, such as `sdf`; facts in tables are listed by it.
+        conventions: What this format states, and what it leaves to others.
         version: SDF version as written.
         plugins: Of the model file and, in a package, of what the spawner emits.
         frame_graph: Where everything is.
@@ -65,6 +67,7 @@ class Robot(Part, dict=True):
 
     document: XmlDocument
     format: str
+    conventions: Conventions
     version: str
     pose: Pose
     links: tuple[Link, ...]
@@ -108,8 +111,10 @@ class Robot(Part, dict=True):
 
     @property
     def is_for_gazebo(self) -> bool:
-        """Whether it is written for Gazebo: as SDF, or as URDF with a `<gazebo>` element."""
-        return self.format == "sdf" or self.element.child("gazebo") is not None
+        """Whether it is written for Gazebo: by its format, or by an element with settings of it."""
+        tag = self.conventions.extension_tag
+        marked = bool(tag) and self.element.child(tag) is not None
+        return marked or self.conventions.read_by_gazebo
 
     @property
     def is_static(self) -> bool:
@@ -151,11 +156,10 @@ class Robot(Part, dict=True):
     def stands_alone(self) -> bool:
         """Whether it stands on the ground by what its file says.
 
-        A simulator puts a model of SDF on the ground as it is. A URDF says nothing about that: arms
-        and hands are mounted on something, and legs fall without their controllers. So it needs
-        wheels, or a plugin that drives it.
+        Where the format does not say so (URDF), arms and hands are mounted on something, and legs
+        fall without their controllers. So it needs wheels, or a plugin that drives it.
         """
-        return self.format == "sdf" or self.drives
+        return self.conventions.states_start or self.drives
 
     def is_mounted(self, name: str) -> bool:
         """Say whether a link is of the base of a robot that does not stand alone."""
@@ -184,10 +188,10 @@ class Robot(Part, dict=True):
 
     @cached_property
     def attachable_names(self) -> frozenset[str]:
-        """Scoped names that a joint may tie: links, and in SDF any frame."""
+        """Scoped names that a joint may connect: links, and frames where the format has any."""
         names = {link.scoped_name for link in self.links}
         names |= {frame.scoped_name for frame in self.frames}
-        if self.format == "sdf":
+        if self.conventions.has_frames:
             names |= {model.scoped_name for model in self.models}
             names |= {f"{model.scoped_name}::{MODEL_FRAME}" for model in self.models}
             names.add(MODEL_FRAME)
@@ -274,11 +278,9 @@ class Robot(Part, dict=True):
         return self.frame_graph.pose(name)
 
     def pose_of_joint(self, joint: Joint) -> Transform | None:
-        """Return the pose of a joint's frame in the robot's frame; None if unknown.
-
-        SDF poses a joint in its child by default, URDF always in its parent.
-        """
-        end = (joint.parent if self.format == "urdf" else joint.child).value
+        """Return the pose of a joint's frame in the robot's frame; None if unknown."""
+        in_parent = self.conventions.joint_posed_in == "parent"
+        end = (joint.parent if in_parent else joint.child).value
         if end == MODEL_FRAME:
             base = joint.scope.removesuffix("::") or MODEL_FRAME
         else:

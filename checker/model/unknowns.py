@@ -153,12 +153,13 @@ def unknown_masses(robot: Robot) -> dict[str, str]:
     """
     misread = {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
     unknown = {}
+    is_body = not robot.conventions.has_massless_links
     for link in robot.links:
         mass = link.inertial.mass if link.inertial is not None else None
         if mass is None or not mass.stated:
             continue
         if mass.span in misread or not math.isfinite(mass.value):
             unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not known"
-        elif mass.value < 0.0 or (mass.value == 0.0 and link.collisions and robot.format != "urdf"):
+        elif mass.value < 0.0 or (mass.value == 0.0 and link.collisions and is_body):
             unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not positive"
     return unknown

@@ -20,7 +20,7 @@ def classic_by_default(robot: Robot, package: Package) -> str:
     of the arguments it can be for Classic, and be right for both.
     """
     names = [plugin.filename.value for plugin in robot.all_plugins]
-    if robot.format != "urdf" or not any(classic_plugin(name) is not None for name in names):
+    if robot.conventions.read_by_gazebo or all(classic_plugin(name) is None for name in names):
         return ""
     if any(_LATER.search(name) for name in names):
         return ""

@@ -91,8 +91,8 @@ def _kind(sensor: Sensor) -> str:
 
 
 def _lumped_into(robot: Robot) -> dict[str, tuple[str, ...]]:
-    """Return each link of a URDF with the links that fixed joints may lump it into."""
-    if robot.format != "urdf":
+    """Return each link with the links that the simulator may merge it into."""
+    if not robot.conventions.merges_fixed_links:
         return {}
     parents = {
         joint.child.value: joint.parent.value

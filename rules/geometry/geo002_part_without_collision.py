@@ -49,7 +49,7 @@ def check(robot: Robot, context: Context, *, body_share: float = 0.25) -> Findin
 
 def _without_any(robot: Robot, context: Context) -> Finding:
     what = "no link of the robot has a collision"
-    if robot.format == "urdf" and not robot.mass:
+    if robot.conventions.has_massless_links and not robot.mass:
         message = f"{what}, and none has a mass: the model is only visible"
         return finding(robot, message, severity=Severity.INFO)
     if robot.drives or (robot.stands_alone and context.of_submissions):

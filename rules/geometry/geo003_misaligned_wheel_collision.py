@@ -40,7 +40,7 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
         rolls = tread(robot, wheel)
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
             continue
-        if robot.format == "urdf" and not wheel.joint.axes[0].xyz[0].stated:
+        if robot.conventions.has_default_axis and not wheel.joint.axes[0].xyz[0].stated:
             yield _without_axis(robot, wheel, rolls, severity)
             continue
         yield finding(

@@ -33,7 +33,7 @@ def check(masses: MassProperties, context: Context) -> Findings:
     Of an object that is no robot, such as a barrel, it is information.
     """
     robot = masses.robot
-    if robot.format == "urdf":
+    if robot.conventions.has_massless_links:
         return
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
     is_prop = robot.is_prop and not context.of_submissions

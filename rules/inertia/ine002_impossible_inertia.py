@@ -46,13 +46,14 @@ def check(
     readable = Severity.ERROR if context.release else Severity.WARNING
     robot = inertias.robot
     misread = _misread(robot)
-    share = rounding if robot.format == "urdf" else tolerance
+    massless, merges = robot.conventions.has_massless_links, robot.conventions.merges_fixed_links
+    share = rounding if merges else tolerance
     for inertia in inertias.links.values():
         inertial = inertia.link.inertial
         if inertial is None or _spans(inertial) & misread or _left_open(inertia.link, inertial):
             continue
         # Without mass it is a frame; without moments, INE003 reports it.
-        if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
+        if massless and (inertia.mass == 0.0 or not inertia.has_moments):
             # What Gazebo makes of a body without mass, URD007 reports.
             heavy = inertia.link.collisions and max(inertia.principal) > _OF_A_BODY
             if heavy and not robot.is_for_gazebo:
@@ -61,7 +62,7 @@ def check(
         if inertia.mass < 0.0 or not robot.is_static:
             yield from _mass(inertia, inertial, readable)
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
-        merged = robot.format == "urdf" and inertia.piece_eigenvalue >= -share
+        merged = merges and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR
         yield from _moments(inertia, inertial, possible, share)
 

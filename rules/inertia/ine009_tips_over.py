@@ -54,7 +54,7 @@ def check(
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
         return
-    if robot.format == "urdf" and _stands_on_legs(masses):
+    if not robot.conventions.states_start and _stands_on_legs(masses):
         return  # Its controller decides how it stands.
     angle, centre, ground = masses.tip_angle, masses.centre, masses.support_height
     if angle is None or centre is None or ground is None:

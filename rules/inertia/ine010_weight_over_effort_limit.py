@@ -37,8 +37,9 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
     if unknown:
         yield unchecked(unknown)
         return
+    stated = robot.conventions.states_devices
     for joint, torque, limit in _limited_joints(masses):
-        driven = robot.format == "urdf" or joint.scoped_name in robot.driven_joints
+        driven = not stated or joint.scoped_name in robot.driven_joints
         if driven and abs(torque) > max(factor * limit, _NOISE):
             unit = "N" if joint.type.value == "prismatic" else "N·m"
             yield finding(

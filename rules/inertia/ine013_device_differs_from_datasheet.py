@@ -65,8 +65,9 @@ def _device(robot: Robot, link: Link, known: KnownDevices) -> Device | None:
     text = " ".join(names)[:200]
     if _BESIDE.search(spaced(text)) or not solid((*link.collisions, *link.visuals)):
         return None
-    # URDF has its sensors elsewhere: there the name has to do.
-    types = None if robot.format == "urdf" else [sensor.type.value for sensor in link.sensors]
+    # Where sensors can be in other files, the name has to do.
+    stated = robot.conventions.states_devices
+    types = [sensor.type.value for sensor in link.sensors] if stated else None
     device = known.named(text, types)
     return device if device is not None and device.body else None
 

@@ -32,8 +32,8 @@ def check(robot: Robot) -> Findings:
 
 
 def _exists(robot: Robot, joint: Joint, role: str, end: Located[str]) -> bool:
-    # SDF knows the world; in URDF it is a link like any other.
-    if end.value == "world" and role == "parent" and robot.format == "sdf":
+    # Without frames, `world` is a link like any other.
+    if end.value == "world" and role == "parent" and robot.conventions.has_frames:
         return True
     return joint.scope + end.value in robot.attachable_names
 

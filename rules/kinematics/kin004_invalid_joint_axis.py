@@ -24,13 +24,12 @@ def check(robot: Robot, context: Context, *, tolerance: float = 1e-3) -> Finding
     Options:
         tolerance: Difference of the axis's length from 1, without unit; more is a warning.
     """
-    types = table("joint_types")["types"][robot.format]
+    types = table("joint_types")["types"][robot.conventions.joint_types]
     for joint in robot.joints:
         needed = types.get(joint.type.value.lower(), {"axes": 0})["axes"]
         if not needed:
             continue
-        # URDF has a default, x; SDF has none for the axis as a whole.
-        if robot.format == "sdf" and len(joint.axes) < needed:
+        if not robot.conventions.has_default_axis and len(joint.axes) < needed:
             tag = "axis2" if joint.axes else "axis"
             yield finding(
                 joint,

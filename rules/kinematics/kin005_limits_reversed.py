@@ -15,7 +15,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("KIN005", "limits-reversed", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report axes with a lower limit above the upper one."""
-    types = table("joint_types")["types"][robot.format]
+    types = table("joint_types")["types"][robot.conventions.joint_types]
     for joint in robot.joints:
         if not types.get(joint.type.value.lower(), {"limits": True})["limits"]:
             continue

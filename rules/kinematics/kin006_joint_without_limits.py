@@ -39,7 +39,7 @@ def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
         turning: Words in lower case; a joint may turn freely if its name, or that of its child
             link, contains one of them.
     """
-    if robot.format == "urdf":
+    if not robot.conventions.states_devices:
         return
     free = [tie for tie in robot.tree.ties if _is_free(tie, robot, turning)]
     left_out = [*_left_out(robot)]

@@ -54,7 +54,7 @@ def check(
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     highest = {"effort": highest_effort, "velocity": highest_velocity}
-    commanded = _commanded_joints(robot)
+    commanded, stated = _commanded_joints(robot), robot.conventions.states_devices
     limited = is_from(distribution_of(context), "kilted")
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
@@ -66,7 +66,7 @@ def check(
             elif (hardware := commanded.get(joint.scoped_name)) is not None:
                 yield from _missing(joint, axis)
                 yield from _zero_limits(joint, axis, hardware, limited=limited)
-            elif driver is None and robot.format == "urdf" and not joint.immovable:
+            elif driver is None and not stated and not joint.immovable:
                 held = context.of_gazebo_sim and robot.is_for_gazebo
                 yield from _still(joint, axis, held=held)
 
@@ -98,7 +98,7 @@ def _commanded_joints(robot: Robot) -> dict[str, Hardware]:
     """Return the joints that ros2_control commands, each with its hardware."""
     return {
         joint.name.value: hardware
-        for hardware in (read_hardware(robot.element) if robot.format == "urdf" else ())
+        for hardware in read_hardware(robot.element)
         for joint in hardware.joints
         if joint.commands
     }

@@ -25,8 +25,12 @@ _BECOMES = {
 @rule("KIN008", "joint-type-not-simulated", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report joint types that are unknown or not simulated by the target release."""
-    known = table("joint_types")["types"][robot.format]
-    lost = table("joint_types")["not_simulated"].get(context.release, {}).get(robot.format, {})
+    known = table("joint_types")["types"][robot.conventions.joint_types]
+    lost = (
+        table("joint_types")["not_simulated"]
+        .get(context.release, {})
+        .get(robot.conventions.joint_types, {})
+    )
     suggestions = Suggestions(known)
     for joint in robot.joints:
         # SDFormat reads the type in any case; a missing one is for SDF005.

@@ -17,8 +17,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 @rule("KIN010", "unknown-frame", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report unknown frames, and frames that refer to each other in a circle."""
-    # In URDF the joints are the frames: KIN001 and KIN002 speak of those.
-    if robot.format == "urdf":
+    if not robot.conventions.has_frames:
         return
     known = robot.frame_graph.nodes
     by_default = {

@@ -23,7 +23,7 @@ def check(robot: Robot, *, tolerance: float = 1e-6) -> Findings:
         tolerance: Radians (sliding joints: metres) that the first position may be outside the
             limits; more is reported.
     """
-    if robot.format == "urdf":
+    if not robot.conventions.states_start:
         return
     for joint in robot.joints:
         if joint.type.value not in ("revolute", "prismatic", "screw"):

@@ -24,7 +24,7 @@ def check(robot: Robot, context: Context) -> Findings:
     if not context.of_gazebo_sim or not robot.is_for_gazebo:
         return
     for kind, settings in table("physics_engines")["not_read"].items():
-        found = list(_elements_at(robot, settings[robot.format]))
+        found = list(_elements_at(robot, settings.get(robot.format, [])))
         if found:
             names = ", ".join(dict.fromkeys(f"<{element.tag}>" for element in found))
             yield finding(
@@ -40,7 +40,8 @@ def _elements_at(robot: Robot, paths: list[str]) -> Iterator[Element]:
     for path in paths:
         for element in robot.element.at(path):
             holder = element.parent
-            counts = robot.format == "sdf" or (holder is not None and holder.get("reference"))
+            tagged = bool(robot.conventions.extension_tag)
+            counts = not tagged or (holder is not None and holder.get("reference"))
             if counts and element.value.strip() not in _FALSE:
                 yield element
 

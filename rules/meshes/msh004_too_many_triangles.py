@@ -28,7 +28,7 @@ def check(
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
-    once = robot.format == "urdf" and not robot.sensors
+    once = not (robot.conventions.states_devices or robot.sensors)
     drawn = Severity.INFO if once else Severity.WARNING
     total = 0
     for use in robot.mesh_uses:

@@ -44,8 +44,8 @@ _LISTENS = ("LinearBatteryPlugin",)
 @rule("ROS001", "topic-not-bridged", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report topics of sensors and plugins that no node bridges between Gazebo and ROS."""
-    if robot.format == "urdf":
-        # Described for Gazebo Classic, whose sensors speak ROS themselves.
+    if not robot.conventions.read_by_gazebo:
+        # Described for Gazebo Classic, whose sensors publish to ROS themselves.
         return
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:

@@ -31,8 +31,8 @@ _NAMED = {Link: "link", Joint: "joint"}
 @rule("SDF011", "name-with-prefix", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, package: Package) -> Findings:
     """Report names with a slash in which the prefix stands for the robot."""
-    if robot.format != "sdf":
-        return  # In URDF files for RViz the prefix is asked for.
+    if not robot.conventions.read_by_gazebo:
+        return  # RViz needs the prefix in URDF files.
     prefixes = _of_robot(robot)
     everywhere = {_prefix(link) for link in robot.links} == prefixes
     fix = _fix(robot, package, prefixes)

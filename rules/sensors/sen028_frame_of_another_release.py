@@ -33,7 +33,7 @@ def check(robot: Robot, context: Context) -> Findings:
     for sensor in robot.sensors:
         stated = {element.tag: element for element in _frame_elements(sensor, frames)}
         yield from _frames_not_read(sensor, stated, frames, release)
-        if robot.format != "urdf":
+        if not robot.conventions.extension_tag:
             yield from _unknown_elements(stated, frames, release)
 
 

@@ -21,7 +21,8 @@ def check(driven: SettledTrial, *, warning_above: float = 0.1) -> Findings:
         warning_above: Energy gained, as a share of the energy that lifts the robot by 0.1 m; more
             is reported (0.1 means a lift of 10 mm).
     """
-    if driven.robot.format == "urdf" and any(it.starts_outside for it in driven.robot.joints):
+    robot = driven.robot
+    if not robot.conventions.states_start and any(it.starts_outside for it in robot.joints):
         return  # where it starts is the trial's choice, and its limits push it away
     gain = driven.trial.value("energy_gain")
     if gain is not None and gain > warning_above:

@@ -82,7 +82,8 @@ def _joints(model: Robot, lacking: list[str]) -> Iterator[_Loss]:
         kind = joint.type.value
         if joint.parent.value == "world" and kind == "fixed":
             continue
-        of_sdf = "revolute" if kind == "continuous" and model.format == "urdf" else kind
+        is_urdf = model.conventions.joint_types == "urdf"
+        of_sdf = "revolute" if kind == "continuous" and is_urdf else kind
         if "*" in lacking or of_sdf in lacking:
             effect = f"has no joint of type {kind!r}, such as {joint.name.value!r}: {_DART}"
             yield _Loss("joint", joint.type, effect)

@@ -65,7 +65,7 @@ def _driver(robot: Robot, joint: Joint) -> str:
         texts = (text for it in controller.parameters.values() for text in it.texts)
         if any(text.value == joint.name.value for text in texts):
             found.append(f"controller {code(controller.name)} ({code(controller.class_name)})")
-    if robot.format == "urdf" and joint.name.value in joints_with_motor(robot):
+    if joint.name.value in joints_with_motor(robot):
         found.append("hardware, by a transmission or ros2_control")
     if not found and not joint.immovable and joint.type.value:
         return "nothing that is known"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from msgspec.structs import replace
 
+from checker.formats.sdf.conventions import CONVENTIONS
 from checker.formats.sdf.document import sdf_version
 from checker.formats.sdf.frame_faults import unknown_frames
 from checker.formats.sdf.includes import IncludeReader, included_model, not_at_hand
@@ -67,6 +68,7 @@ def read_robot(
         element,
         document,
         "sdf",
+        CONVENTIONS,
         document.root.get("version") or "",
         pose,
         tuple(collected.links),

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from checker.formats.sdf.links import read_plugin, read_sensor
 from checker.formats.sdf.scope import Scope
+from checker.formats.urdf.conventions import CONVENTIONS
 from checker.formats.urdf.specification import has_version
 from checker.model.components import (
     Axis,
@@ -169,6 +170,7 @@ def read_urdf(document: XmlDocument) -> Robot:
         root,
         document,
         "urdf",
+        CONVENTIONS,
         root.get("version") or "1.0",
         Pose(Transform(), "", (), root.span),
         links,

@@ -172,7 +172,7 @@ def _leg_joints(robot: Robot) -> Iterator[Joint]:
 
 def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
     reader = WheelReader(robot)
-    if robot.format == "urdf":
+    if not robot.conventions.states_devices:
         yield from classic_drives(robot, reader)
         yield from controlled_drives(robot, reader)
     for plugin in _of_class(robot, *_WHEEL_CLASSES):

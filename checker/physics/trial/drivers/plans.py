@@ -213,7 +213,7 @@ def plan_of(robot: Robot) -> Plan:
 
 def _joints_with_motor(robot: Robot) -> Iterator[str]:
     wheels = {link.name.value for link in robot.wheels}
-    for name in joints_with_motor(robot) if robot.format == "urdf" else ():
+    for name in joints_with_motor(robot):
         joint = robot.joints_by_name.get(name)
         if joint is not None and joint.child.value not in wheels:
             yield name

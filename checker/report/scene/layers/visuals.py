@@ -79,7 +79,7 @@ class Paint:
         if material.textures and visual.geometry.shape == "mesh":
             # What the picture would cover is no better known than by the file's own colours.
             return None
-        if self._robot.format == "urdf":
+        if self._robot.conventions.has_named_materials:
             own = _rgba(_values(material, "diffuse"), bytes_too=True)
             return own or self._named.get(material.element.get("name") or "")
         stated = (_rgba(_values(material, fact)) for fact in _FACTS)
@@ -87,7 +87,7 @@ class Paint:
 
     @cached_property
     def _named(self) -> dict[str, Colour]:
-        """Materials that a URDF file defines, by name."""
+        """Materials that the file defines, by name."""
         visuals = (visual for link in self._robot.links for visual in link.visuals)
         inside = (visual.material.element for visual in visuals if visual.material is not None)
         named: dict[str, Colour] = {}
