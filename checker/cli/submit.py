@@ -26,7 +26,7 @@ from checker.base.output import (
 from checker.cli.arguments import FORMAT_NAMES, PROFILES, add_exit_codes
 from checker.cli.exit_code import exit_code
 from checker.finding import Severity
-from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.package.formats import single_file_suffixes
 from checker.report.files import INDEX, PAGE, STALE
 from checker.report.formats import FORMATS
 from checker.report.json_report import NoReport, report_from_json
@@ -122,7 +122,7 @@ def _seen_from_here(report: Report, path: Path) -> Report:
 
 
 def _package_path(path: str, name: str, source: Path) -> str:
-    if source.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+    if source.name.lower().endswith(single_file_suffixes()):
         return str(source.parent)
     is_itself = source.is_dir() and name == source.resolve().name
     return str(source if is_itself else source / _path_in_upload(path))

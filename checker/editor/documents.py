@@ -10,8 +10,8 @@ from urllib.request import url2pathname
 
 from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
+from checker.package.formats import xml_suffixes
 from checker.package.overlay import Overlay, OverlayText
-from checker.package.package import XML_SUFFIXES
 from checker.source.text import SourceText
 from checker.source.text_file import TEXT_LIMIT, encoding_of
 
@@ -42,7 +42,7 @@ class Document(Record, eq=False, dict=True):
     def is_xml(self) -> bool:
         """Whether the file is XML, by its name or else by its first characters."""
         name = self.path.name.lower()
-        return name.endswith(XML_SUFFIXES) or self.text.lstrip("\ufeff \t\r\n").startswith("<")
+        return name.endswith(xml_suffixes()) or self.text.lstrip("\ufeff \t\r\n").startswith("<")
 
     def with_text(self, text: str, version: int) -> Document:
         """Return the file with another text."""

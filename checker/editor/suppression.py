@@ -15,7 +15,7 @@ from checker.editor.changes import Changes
 from checker.editor.documents import Document
 from checker.editor.positions import Columns
 from checker.editor.session import State
-from checker.rulebook.suppression.comments import TEXT_SUFFIXES, XML_SUFFIXES, comments_of
+from checker.rulebook.suppression.comments import comments_of, has_comments, has_xml_comments
 from checker.settings import FILE_NAME, SHARED_FILE_NAME, SIZE_LIMIT
 from checker.source.text import SourceText
 from checker.source.text_file import read_text
@@ -44,11 +44,10 @@ def reason_comment(source: SourceText, rule: str, line: int) -> Insertion | None
         rule: Id of the rule.
         line: From 1.
     """
-    name = source.file.lower()
-    if not name.endswith(TEXT_SUFFIXES):
+    if not has_comments(source.file):
         return None
     mark = f"subt-check: ignore[{rule}] {REASON}"
-    comment = f"<!-- {mark} -->" if name.endswith(XML_SUFFIXES) else f"# {mark}"
+    comment = f"<!-- {mark} -->" if has_xml_comments(source.file) else f"# {mark}"
     start = source.offset_of(line, 1)
     if start is None:
         return None

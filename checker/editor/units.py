@@ -7,11 +7,11 @@ from pathlib import Path
 
 from checker.base.errors import UnreadableInput
 from checker.base.record import Record
-from checker.package.inputs import SINGLE_FILE_SUFFIXES, Opened, open_input
+from checker.package.formats import model_suffixes
+from checker.package.inputs import Opened, open_input
 from checker.package.kind import changed_packages
 from checker.package.package import Package
 
-_LONE = tuple(suffix for suffix in SINGLE_FILE_SUFFIXES if suffix != ".xml")
 """Of models outside of packages; XML may be anything."""
 
 
@@ -74,7 +74,7 @@ class Units:
             yield from (file.parent / each for each in changed_packages([file], file.parent))
         except UnreadableInput:  # a folder
             return
-        if file.name.lower().endswith(_LONE):
+        if file.name.lower().endswith(model_suffixes()):
             yield file
 
     def _open(self, path: Path) -> Opened | None:

@@ -20,6 +20,7 @@ import msgspec
 from msgspec.structs import replace
 
 from checker.base.cache import Cache, code_hash, key_of
+from checker.base.distributions import additions
 from checker.base.extras import PHYSICS
 from checker.base.resources import OWN_CODE, version_of
 from checker.package.kind import looks_like_package
@@ -27,7 +28,6 @@ from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
-from checker.rulebook.discovery import rules_of_others
 from checker.settings import Settings
 from checker.source.xml import elements_limit
 
@@ -73,7 +73,7 @@ def program_parts() -> list[str]:
     """Return what every report depends on, whatever is checked: the program, libraries, rules."""
     physics = f"physics {PHYSICS.is_installed}, {elements_limit()} elements"
     libraries = map(version_of, _LIBRARIES)
-    return [code_hash(*OWN_CODE), physics, *libraries, *rules_of_others()]
+    return [code_hash(*OWN_CODE), physics, *libraries, *additions()]
 
 
 def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:

@@ -10,13 +10,13 @@ from checker.engine.subject import Subject
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
+from checker.package.formats import model_suffixes
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.report.report import ROBOT, Cause, NotChecked
 from checker.ros.simulation import Simulations
 
 _NO_ROBOT = "no URDF, xacro or SDF file of it is a robot, and no launch file starts one"
-_MODELS = (".urdf", ".xacro", ".sdf")
 _TEMPLATE = re.compile(r"\.(?:sdf|urdf|xacro)\.(?:jinja2?|j2|em|erb)$")
 _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.WORLD)
 
@@ -58,7 +58,7 @@ def _of_launch_files(subject: Subject) -> Iterator[str]:
 def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
     """Yield what a launch file takes from packages that are not available."""
     for named in named_paths(graph):
-        concerns = named.needed and (named.include or named.path.path.endswith(_MODELS))
+        concerns = named.needed and (named.include or named.path.path.endswith(model_suffixes()))
         if concerns and (why := unavailable(package, named.path.package)):
             what = "includes" if named.include else "takes the robot from"
             yield f"{graph.file} {what} {named.path}: {why}"

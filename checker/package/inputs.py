@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.errors import UnreadableInput
 from checker.base.record import Record
+from checker.package.formats import single_file_suffixes
 from checker.package.kind import (
     enclosing_package,
     holds_loose_models,
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from checker.package.archives.index import ArchiveLimits
 
 ARCHIVE_SUFFIXES = (".zip", ".tar.gz", ".tgz")
-SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
 SUBMISSIONS = "submitted_models"
 # A file in a package may lie deep: `robots/NAME/urdf/NAME.urdf`.
 FILE_LEVELS = 6
@@ -84,7 +84,7 @@ def open_input(
             target.mkdir()
             _unpack(path, real, target, shown, limits)
             yield _open_folder(path, _unwrapped(target), target)
-    elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
+    elif real.is_file() and shown.lower().endswith(single_file_suffixes()):
         yield _open_single(path, real)
     else:
         raise UnreadableInput(path, *said_of_file(shown))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from checker.base.errors import UnreadableInput
+from checker.package.formats import model_suffixes
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.model_file import own_model
 from checker.source.text import SourceText
@@ -28,7 +29,6 @@ MODEL_MARKERS = frozenset({"model.config", "model.sdf"})
 MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
 IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 """Files that keep the build tools out of a folder; colcon puts one into what it builds."""
-MODEL_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro")
 
 
 def looks_like_package(folder: Path) -> bool:
@@ -46,7 +46,7 @@ def _is_file(path: Path) -> bool:
 def holds_loose_models(folder: Path) -> bool:
     """Say whether model files lie in a folder, or in its `urdf/`, without a package around."""
     return any(
-        name.lower().endswith(MODEL_SUFFIXES)
+        name.lower().endswith(model_suffixes())
         for place in (folder, folder / "urdf")
         for name in _names(place)
     )

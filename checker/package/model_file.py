@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from checker.package.formats import formats
 from checker.package.index import normal_path
 from checker.source.xml import XmlDocument
 
@@ -18,7 +19,7 @@ def own_model(package: Package) -> str | None:
     """Return the path of the model that a package itself holds, or None.
 
     The newest `<sdf>` that model.config names and that is there, else model.sdf, else the only
-    SDF file at the top of the package.
+    file of a robot at the top of the package.
     """
     if package.only:
         return package.only
@@ -26,8 +27,12 @@ def own_model(package: Package) -> str | None:
         entry = package.index.find(path)
         if entry is not None and entry.is_file:
             return path
-    at_top = [file.path for file in package.index.with_suffix(".sdf") if "/" not in file.path]
+    at_top = [file.path for file in package.index.with_suffix(*_suffixes()) if "/" not in file.path]
     return at_top[0] if len(at_top) == 1 else None
+
+
+def _suffixes() -> list[str]:
+    return [each.suffixes[0] for each in formats() if not each.is_grouped]
 
 
 def _named_in_config(package: Package) -> list[str]:

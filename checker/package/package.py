@@ -14,6 +14,7 @@ from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
 from checker.package.distribution_sign import DistributionSign, distribution_sign
+from checker.package.formats import xml_suffixes
 from checker.package.index import (
     EntryKind,
     FileEntry,
@@ -63,7 +64,6 @@ from checker.source.xml_positions import XmlFault
 if TYPE_CHECKING:
     from checker.package.workspace import Workspace
 
-XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro")
 BYTES_LIMIT = 200_000_000
 DOCUMENTS_FOR_ALL = 4
 """Documents with as many elements as one may have that a package may have; the largest real package
@@ -332,7 +332,7 @@ class Package(Record, eq=False, dict=True):
 
         Meshes are left out, and models and worlds that are checked by themselves.
         """
-        paths = (file.path for file in self.index.with_suffix(*XML_SUFFIXES))
+        paths = (file.path for file in self.index.with_suffix(*xml_suffixes()))
         return tuple(path for path in paths if not self._lies_in_unit(path))
 
     def _lies_in_unit(self, path: str) -> bool:

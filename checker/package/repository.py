@@ -8,14 +8,14 @@ from itertools import islice
 from pathlib import Path
 
 from checker.base.record import Record
+from checker.package.formats import is_checked_by_itself, model_suffixes
 from checker.package.inheritance import SPAWNER
-from checker.package.kind import IGNORED, MODEL_MARKERS, MODEL_SUFFIXES, looks_like_package
+from checker.package.kind import IGNORED, MODEL_MARKERS, looks_like_package
 
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
 _ITEMS = 5_000
 """Of one folder that are looked at."""
-_SDF_SUFFIXES = (".sdf", ".world", ".sdf.xacro", ".world.xacro")
 _URDF_FOLDER = "urdf"
 
 
@@ -112,7 +112,7 @@ class _Search:
         holds_urdf = not inside and _holds_urdf(folder, files, folders)
         if holds_urdf:
             yield Unit(folder)
-        yield from (Unit(folder, name) for name in files if name.lower().endswith(_SDF_SUFFIXES))
+        yield from (Unit(folder, name) for name in files if is_checked_by_itself(name))
         for name in folders:
             is_part = holds_urdf and name == _URDF_FOLDER
             yield from self.at(folder / name, inside=inside or is_part, depth=depth + 1)
@@ -121,7 +121,7 @@ class _Search:
 def _holds_urdf(folder: Path, files: list[str], folders: list[str]) -> bool:
     below = _content(folder / _URDF_FOLDER)[0] if _URDF_FOLDER in folders else []
     return any(
-        name.lower().endswith(MODEL_SUFFIXES) and not name.lower().endswith(_SDF_SUFFIXES)
+        name.lower().endswith(model_suffixes()) and not is_checked_by_itself(name)
         for name in (*files, *below)
     )
 

@@ -1,17 +1,17 @@
-"""The model file of a package, the robots and worlds in it, the specification, the devices."""
+"""The model file of a package, and the robots and worlds in it."""
 
 from __future__ import annotations
+
+from pkgutil import resolve_name
 
 from msgspec.structs import replace
 
 from checker.base.files import NotReadable
 from checker.base.parts import Ask, NotAvailable, part
 from checker.base.record import Record
+from checker.formats.content import Content, Reader
 from checker.formats.sdf.document import SdfDocument
-from checker.formats.sdf.includes import ModelIncludes, included_model
 from checker.formats.sdf.links import read_plugin
-from checker.formats.sdf.reader import read_sdf
-from checker.formats.sdf.world import read_worlds
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.expansion import Expander
 from checker.launch.spawner.emitted_xml import SpawnedXml
@@ -21,6 +21,7 @@ from checker.model.plugin_host import PluginHost, model_host, world_host
 from checker.model.robot import Robot
 from checker.model.world import World
 from checker.package.configuration import first_configuration
+from checker.package.formats import Format, format_of
 from checker.package.inheritance import Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -38,6 +39,11 @@ class ModelFile(Record, eq=False):
     """The model file; of a package whose robots URDF files describe, the first of these."""
 
     document: XmlDocument
+
+    @property
+    def format(self) -> Format:
+        """The format of the file."""
+        return format_of(self.document.root.tag)
 
 
 class PlainRobots(Record, eq=False):
@@ -71,8 +77,9 @@ def model_file(package: Package, expander: Expander, ask: Ask) -> ModelFile | No
     document = _document(package, path.path, expander)
     if isinstance(document, NotAvailable):
         return document
-    alone = document.root.tag == "robot" and package.only
-    return _first_description(ask) if alone else ModelFile(document)
+    model = ModelFile(document)
+    alone = model.format.is_grouped and package.only
+    return _first_description(ask) if alone else model
 
 
 def _first_description(ask: Ask) -> ModelFile | NotAvailable:
@@ -93,21 +100,32 @@ def _document(package: Package, path: str, expander: Expander) -> XmlDocument | 
 
 
 @part
-def sdf(model: ModelFile) -> SdfDocument | NotAvailable:
-    """Return the model file as SDF."""
-    root = model.document.root
-    if root.tag == "robot":
-        return NotAvailable("the model is a URDF file", applicable=False)
-    return SdfDocument(model.document, (root.get("version") or "").strip())
+def content(package: Package, model: ModelFile) -> Content:
+    """Return what the model file contains."""
+    read: Reader = resolve_name(model.format.reader)
+    return read(model.document, package)
 
 
 @part
-def worlds(package: Package, sdf: SdfDocument | NotAvailable) -> tuple[World, ...] | NotAvailable:
+def sdf(model: ModelFile) -> SdfDocument | NotAvailable:
+    """Return the model file as SDF."""
+    if model.format.name != "sdf":
+        reason = f"the model is a {model.format.name.upper()} file"
+        return NotAvailable(reason, applicable=False)
+    return SdfDocument(model.document, (model.document.root.get("version") or "").strip())
+
+
+@part
+def worlds(
+    package: Package, model: ModelFile | NotAvailable, ask: Ask
+) -> tuple[World, ...] | NotAvailable:
     """Return the worlds of the model file."""
-    if isinstance(sdf, NotAvailable):
-        return NotAvailable(sdf.reason, applicable=package.kind is PackageKind.WORLD)
-    worlds = read_worlds(sdf.document, ModelIncludes(package))
-    return worlds or NotAvailable("the file contains no world", applicable=False)
+    if isinstance(model, NotAvailable):
+        return NotAvailable(model.reason, applicable=package.kind is PackageKind.WORLD)
+    read = Content(()) if model.format.is_grouped else ask.one(Content)
+    if isinstance(read, NotAvailable):
+        return read
+    return read.worlds or NotAvailable("the file contains no world", applicable=False)
 
 
 @part
@@ -124,11 +142,12 @@ def plugin_hosts(
 @part
 def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | NotAvailable:
     """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
-    root = model.document.root
-    if root.tag == "robot":
+    if model.format.is_grouped:
         return _described(ask)
-    includes = ModelIncludes(package)
-    robots = read_sdf(model.document, includes)
+    read = ask.one(Content)
+    if isinstance(read, NotAvailable):
+        return read
+    robots = read.robots
     if package.kind is PackageKind.WORLD:
         robots = tuple(robot for robot in robots if not robot.is_static)
     if not package.only:
@@ -136,13 +155,9 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
     if robots:
         spawned = ask.one(SpawnedXml)
         return PlainRobots((_with_spawned_plugins(robots[0], spawned), *robots[1:]))
-    nothing_to_see = root.child("world") is not None
-    kind = "model that moves" if nothing_to_see else "model"
-    reason = f"{model.document.source.file} contains no {kind}"
-    if (placed := root.child("include")) is not None:
-        missing = included_model(placed, includes)
-        reason = missing if isinstance(missing, str) else reason
-    return NotAvailable(reason, applicable=not nothing_to_see)
+    kind = "model that moves" if read.worlds else "model"
+    reason = read.missing or f"{model.document.source.file} contains no {kind}"
+    return NotAvailable(reason, applicable=not read.worlds)
 
 
 def _described(ask: Ask) -> PlainRobots | NotAvailable:

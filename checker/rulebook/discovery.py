@@ -10,18 +10,17 @@ import gc
 import importlib
 import pkgutil
 from collections.abc import Iterator
-from contextlib import suppress
 from functools import cache
 from itertools import chain
 from types import ModuleType
+from typing import cast
 
 from msgspec.structs import replace
 
+from checker.base.distributions import added
 from checker.base.errors import CheckerError
-from checker.base.resources import RULES, metadata_folders
+from checker.base.resources import RULES
 from checker.rule import Rule
-
-ENTRY_POINT_GROUP = "subt_check.rules"
 
 
 @cache
@@ -46,30 +45,12 @@ def rules_in(package: str) -> tuple[Rule, ...]:
     return tuple(sorted(_rules_below(importlib.import_module(package)), key=lambda rule: rule.id))
 
 
-@cache
-def rules_of_others() -> tuple[str, ...]:
-    """Return the distributions that bring further rules, with what each says of itself."""
-    found = []
-    for folder in metadata_folders():
-        with suppress(OSError):
-            text = (folder / "entry_points.txt").read_text("utf-8", "replace")
-            if f"[{ENTRY_POINT_GROUP}]" in text:
-                found.append(f"{folder.name} {text}")
-    return tuple(sorted(found))
-
-
 def _registered_rules() -> Iterator[Rule]:
-    if not rules_of_others():
-        return
-    # Loaded where there are any: it takes as long as a small check.
-    from importlib.metadata import entry_points
-
-    for entry_point in entry_points(group=ENTRY_POINT_GROUP):
+    for module in added("rules"):
         try:
-            yield from list(_rules_below(entry_point.load()))
+            yield from list(_rules_below(cast("ModuleType", module)))
         except Exception as error:
-            problem = f"the rules of {entry_point.value} cannot be loaded: {error}"
-            raise CheckerError(problem) from error
+            raise CheckerError(f"the rules of {module} cannot be loaded: {error}") from error
 
 
 def _rules_below(package: ModuleType) -> Iterator[Rule]:

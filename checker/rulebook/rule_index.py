@@ -14,11 +14,12 @@ from typing import Any
 import msgspec
 
 from checker.base.cache import Cache, code_hash, key_of
+from checker.base.distributions import additions
 from checker.base.record import Record
 from checker.base.resources import OWN_CODE
 from checker.finding import Concern, Severity
 from checker.rule import Findings, Rule
-from checker.rulebook.discovery import all_rules, rules_of_others
+from checker.rulebook.discovery import all_rules
 
 _KIND = "rules"
 
@@ -56,7 +57,7 @@ def rules(cache: Cache) -> tuple[Rule, ...]:
     """
     if cache.folder is None:
         return all_rules()
-    key = key_of(sys.version, code_hash(*OWN_CODE), *rules_of_others())
+    key = key_of(sys.version, code_hash(*OWN_CODE), *additions())
     try:
         known = msgspec.convert(cache.get(_KIND, key), list[IndexedRule])
     except msgspec.ValidationError:

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from checker.rulebook.suppression.comments import (
     COMMENTS_LIMIT,
     NAMES_LIMIT,
-    TEXT_SUFFIXES,
     Comment,
     comments_of,
 )
@@ -137,9 +136,11 @@ _pieces = st.sampled_from(
 )
 
 
-@given(st.lists(_pieces, max_size=60).map("".join), st.sampled_from(TEXT_SUFFIXES))
+@given(
+    st.lists(_pieces, max_size=60).map("".join), st.sampled_from([".sdf", ".md", ".rb", ".yaml"])
+)
 def test_any_text_is_read_with_places_within_it(text: str, suffix: str) -> None:
-    source = SourceText(f"a{suffix}", text)
+    source = SourceText(f"a.{suffix}", text)
     for comment in comments_of(source):
         assert source.offset_of(comment.place.line, comment.place.column) is not None
         assert comment.place.line in comment.lines

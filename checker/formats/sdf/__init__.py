@@ -1,1 +1,10 @@
-"""SDF 1.4 to 1.12 → robots."""
+"""SDF 1.4 to 1.12."""
+
+from checker.package.formats import Format
+
+FORMAT = Format(
+    "sdf",
+    (".sdf", ".world", ".sdf.xacro", ".world.xacro"),
+    ("sdf", "world", "model"),
+    reader=f"{__name__}.content:read",
+)

@@ -12,20 +12,14 @@ from itertools import islice
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.finding import Place
+from checker.package.formats import xml_suffixes
 from checker.rulebook.suppression.entries import REASON_LIMIT
 from checker.source.text import SourceText
 
 STEM = "subt-check"
 """What every mark holds, in small letters or capitals."""
-XML_SUFFIXES = (
-    *(".sdf", ".urdf", ".xacro", ".xml", ".launch", ".config", ".world", ".gazebo", ".srdf"),
-    *(".ign", ".md"),
-)
-"""Where only the form of XML is a comment."""
-TEXT_SUFFIXES = (
-    *XML_SUFFIXES,
-    *(".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh"),
-)
+_XML_TOO = (".gazebo", ".srdf", ".ign", ".md")
+_WITH_HASH = (".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh")
 COMMENTS_LIMIT = 1_000
 """Of one file; the rest has no effect."""
 NAMES_LIMIT = 20
@@ -57,6 +51,16 @@ class Comment(Record):
     fault: str = ""
 
 
+def has_xml_comments(name: str) -> bool:
+    """Say whether only the form of XML is a comment in a file, by its name."""
+    return name.lower().endswith((*xml_suffixes(), *_XML_TOO))
+
+
+def has_comments(name: str) -> bool:
+    """Say whether comments in a file can set findings aside, by its name."""
+    return has_xml_comments(name) or name.lower().endswith(_WITH_HASH)
+
+
 def comments_of(source: SourceText) -> tuple[Comment, ...]:
     """Return the comments of a file, in their order."""
     marks = list(islice(_marks(source), COMMENTS_LIMIT))
@@ -66,7 +70,7 @@ def comments_of(source: SourceText) -> tuple[Comment, ...]:
 
 def _marks(source: SourceText) -> Iterator[tuple[re.Match[str], int]]:
     """Yield the beginning of each comment that carries the mark, and where the comment ends."""
-    only_xml = source.file.lower().endswith(XML_SUFFIXES)
+    only_xml = has_xml_comments(source.file)
     for match in _START.finditer(source.text):
         end = _end(source.text, match)
         if end > 0 and not (only_xml and match[0].startswith("#")):

@@ -17,9 +17,9 @@ from checker.rulebook.suppression.baseline import BaselineEntry
 from checker.rulebook.suppression.baseline_match import Held
 from checker.rulebook.suppression.comments import (
     STEM,
-    TEXT_SUFFIXES,
     Comment,
     comments_of,
+    has_comments,
 )
 from checker.rulebook.suppression.entries import SettingsEntry
 from checker.rulebook.suppression.finding_places import Spot
@@ -178,7 +178,7 @@ class SuppressionMatcher:
         """Find the comments in the package's own files; a file that has none costs a search."""
         budget = SEARCHED_LIMIT
         for entry in self._package.index.files:
-            if entry.target_state is not None or not entry.path.lower().endswith(TEXT_SUFFIXES):
+            if entry.target_state is not None or not has_comments(entry.path):
                 continue
             budget -= entry.size
             if budget < 0:
@@ -191,7 +191,7 @@ class SuppressionMatcher:
         return not isinstance(data, NotReadable) and any(stem in data.lower() for stem in _STEMS)
 
     def _comments_in(self, path: str) -> tuple[Comment, ...]:
-        if not path.lower().endswith(TEXT_SUFFIXES):
+        if not has_comments(path):
             return ()
         source = self._package.read(path)
         if isinstance(source, NotReadable) or STEM not in source.text.lower():

@@ -19,8 +19,9 @@ from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
 from checker.package.archives.index import ArchiveLimits
+from checker.package.formats import single_file_suffixes
 from checker.package.index import EntryKind, FileEntry, FileIndex
-from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
+from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.package.kind import enclosing_package
 from checker.package.no_package import said_of_file
 from checker.package.walk import MAX_ENTRIES, build_index
@@ -96,7 +97,7 @@ def file_to_send(path: Path, say: Say) -> Iterator[Path]:
     if not _is_folder(path):
         _refuse_file(path)
         around = enclosing_package(path.resolve().parent)
-        if around and path.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+        if around and path.name.lower().endswith(single_file_suffixes()):
             say(f"{path} is sent without its meshes; to include them, give the folder {around}")
         yield path
         return
@@ -120,7 +121,7 @@ def _refuse_file(path: Path) -> None:
     try:
         if not path.exists():
             raise UnreadableInput(path, "does not exist", "check the spelling")
-        known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
+        known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *single_file_suffixes()))
         if not known or not path.is_file():
             raise UnreadableInput(path, *said_of_file(path.name))
         with path.open("rb"):

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.base.words import count, plain
 from checker.package.archives.index import ArchiveLimits
-from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
+from checker.package.formats import single_file_suffixes
+from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import about, escaped, parse_page, told
 from checker.rulebook.profiles import profile, profile_names
@@ -157,9 +158,9 @@ class _Pages(Record):
             size=_megabytes(config.upload_limit),
             unpacked=_megabytes(limits.unpacked_bytes),
             limits=limits,
-            endings=(*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES),
+            endings=(*ARCHIVE_SUFFIXES, *single_file_suffixes()),
             archives=ARCHIVE_SUFFIXES,
-            single_files=SINGLE_FILE_SUFFIXES,
+            single_files=single_file_suffixes(),
             profiles=[profile(name) for name in profile_names()],
             needs_token=bool(config.tokens),
             kept=count(config.retention_days, "day"),

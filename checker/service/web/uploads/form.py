@@ -8,14 +8,15 @@ from unicodedata import normalize
 
 from multipart import MultipartError, MultipartSegment, PushMultipartParser, parse_options_header
 
-from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
+from checker.package.formats import single_file_suffixes
+from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.package.no_package import said_of_file
 from checker.service.web.answers.refusal import Refused, sentence
 
 # Names that clients send, made safe; they are shown and tell the kind, and never become paths.
 
 
-SUFFIXES = (*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES)
+SUFFIXES = (*ARCHIVE_SUFFIXES, *single_file_suffixes())
 LENGTH_LIMIT = 100
 _UNSAFE = re.compile(r"[^\w.-]+")
 _NAMELESS = "upload"

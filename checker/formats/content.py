@@ -1,0 +1,31 @@
+"""What a file contains, whatever its format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from checker.base.record import Record
+from checker.model.robot import Robot
+from checker.model.world import World
+from checker.package.package import Package
+from checker.source.xml import XmlDocument
+
+
+class Content(Record, eq=False):
+    """The robots and worlds of a file.
+
+    Attributes:
+        robots: Those that are not part of another one, in the order of the file.
+        worlds: In the order of the file.
+        missing: Why a robot is not among these although the file names it, as a sentence without
+            its full stop; else empty.
+    """
+
+    robots: tuple[Robot, ...]
+    worlds: tuple[World, ...] = ()
+    missing: str = ""
+
+
+Reader: TypeAlias = Callable[[XmlDocument, Package], Content]
+"""Returns the content of a file of a package. What cannot be read are faults of the robot."""

@@ -1,0 +1,74 @@
+"""The formats of robots: the files in each of them, and what reads these.
+
+A format is a folder of `checker/formats/` that defines `FORMAT`. Those of other distributions come
+through the entry-point group `subt_check.formats`; an entry point names a `Format`.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import cast
+
+from checker.base.distributions import added
+from checker.base.record import Record
+from checker.base.resources import PACKAGE
+
+FORMATS = ("sdf", "urdf")
+"""Folders of `checker/formats/`; the first one is that of files which no format knows."""
+
+
+class Format(Record):
+    """A format of robots, whose files are XML.
+
+    Attributes:
+        name: Such as `sdf`.
+        suffixes: Ends of the names of its files, in lower case; the first one is that of robots.
+        roots: Root elements of its files.
+        reader: Module and name of the function that returns what a file contains
+            (`checker.formats.content.Reader`), such as `acme.toy:read`.
+        is_grouped: Whether files beside each other, and launch files, describe a robot together;
+            otherwise each file outside of packages is checked by itself.
+    """
+
+    name: str
+    suffixes: tuple[str, ...]
+    roots: tuple[str, ...]
+    reader: str = ""
+    is_grouped: bool = False
+
+
+@cache
+def formats() -> tuple[Format, ...]:
+    """Return all formats, those of other distributions last."""
+    ours = (import_module(f"{PACKAGE}.formats.{name}").FORMAT for name in FORMATS)
+    return (*ours, *(cast("Format", each) for each in added("formats")))
+
+
+def format_of(root: str) -> Format:
+    """Return the format of a file by its root element; the first one where none has it."""
+    return next((each for each in formats() if root in each.roots), formats()[0])
+
+
+@cache
+def model_suffixes() -> tuple[str, ...]:
+    """Return the ends of the names of files in any format."""
+    return tuple(suffix for each in formats() for suffix in each.suffixes)
+
+
+@cache
+def xml_suffixes() -> tuple[str, ...]:
+    """Return the ends of the names of files that are XML."""
+    return (*single_file_suffixes(), ".config", ".launch")
+
+
+@cache
+def single_file_suffixes() -> tuple[str, ...]:
+    """Return the ends of the names of files that can be checked alone."""
+    return (*model_suffixes(), ".xml")
+
+
+def is_checked_by_itself(name: str) -> bool:
+    """Say whether a file outside of packages is checked by itself."""
+    suffixes = [suffix for each in formats() if not each.is_grouped for suffix in each.suffixes]
+    return name.lower().endswith(tuple(suffixes))
