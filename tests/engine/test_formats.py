@@ -8,7 +8,7 @@ import pytest
 
 from tests.engine.test_discovery import command
 
-TOY = '''
+TOY = """
 from subt_check.formats.content import Content
 from subt_check.model.components import Link, Pose
 from subt_check.model.conventions import Conventions
@@ -50,7 +50,7 @@ def read(document, package):
             ),
         )
     )
-'''
+"""
 ROBOT = '<toy name="duck">\n  <brick name="body"/>\n</toy>\n'
 
 
