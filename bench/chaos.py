@@ -47,7 +47,7 @@ SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 WHOLE = ["queued", "static", "trial", "done"]
 """Stages of the events of a check, each once."""
 PATIENCE = 1_800.0
-"""Seconds until the last check has to be over."""
+"""Seconds until an upload is taken, and until a hundred checks are over."""
 ANSWER_SECONDS = 30.0
 MINUTE = 60.0
 _AT_ONCE = 50
@@ -116,9 +116,9 @@ def _asked(groups: Sequence[Group], path: str) -> httpx.Response:
     raise SystemExit(f"{path} is never answered")
 
 
-def ended(groups: Sequence[Group], id: str) -> Mapping[str, Any]:
-    """Wait until a check is over, and return how it stands."""
-    ends = monotonic() + PATIENCE
+def ended(groups: Sequence[Group], id: str, patience: float) -> Mapping[str, Any]:
+    """Wait until a check is over, at most so many seconds, and return how it stands."""
+    ends = monotonic() + patience
     while monotonic() < ends:
         state: Mapping[str, Any] = _asked(groups, f"/api/checks/{id}").json()
         if state.get("final"):
@@ -282,7 +282,8 @@ def suffered(
         other = threads.submit(meanwhile)
         ids = dict(zip(numbers, threads.map(lambda n: uploaded(groups, n), numbers), strict=True))
         say(f"{len(ids)} uploads are taken after {monotonic() - begun:.0f} s")
-        ends = Counter(ended(groups, id)["stage"] for id in ids.values())
+        patience = PATIENCE * max(1, uploads // 100)
+        ends = Counter(ended(groups, id, patience)["stage"] for id in ids.values())
         over.set()
         murder.result()
         other.result()
