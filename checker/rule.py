@@ -163,6 +163,7 @@ class Rule(Record, dict=True):
         page: The module's docstring: what, why, how to fix, source.
         good: Examples in which the rule finds nothing.
         bad: Examples with a marker `^ SEN005` on each line that must be reported.
+        judges: Figures of the trial that it judges; each finding has those that it is about as key.
     """
 
     id: str
@@ -173,6 +174,7 @@ class Rule(Record, dict=True):
     page: str
     good: Sequence[Any] = ()
     bad: Sequence[Any] = ()
+    judges: tuple[str, ...] = ()
 
     @property
     def group(self) -> str:
@@ -220,7 +222,9 @@ class Rule(Record, dict=True):
         }
 
 
-def rule(id: str, name: str, severity: Severity, concern: Concern) -> Callable[[Check], Rule]:
+def rule(
+    id: str, name: str, severity: Severity, concern: Concern, *, judges: tuple[str, ...] = ()
+) -> Callable[[Check], Rule]:
     """Make a rule of a function; the page is the docstring of the module it stands in.
 
     Args:
@@ -228,10 +232,11 @@ def rule(id: str, name: str, severity: Severity, concern: Concern) -> Callable[[
         name: What is wrong, such as `lidar-scan-resolution`.
         severity: Unless a finding says otherwise.
         concern: What its findings are about.
+        judges: Figures of the trial that it judges.
     """
 
     def decorate(check: Check) -> Rule:
         page = inspect.getdoc(inspect.getmodule(check)) or ""
-        return Rule(id, name, severity, concern, check, page)
+        return Rule(id, name, severity, concern, check, page, judges=judges)
 
     return decorate

@@ -26,6 +26,13 @@ HEAVY = {
 }
 NOT_FOR_HELP = {"httpx", "lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
 MODULE = re.compile(r"(checker|rules)\.(?!html|j2)\w+(\.\w+)*\.?")
+FOR_RULES = (
+    *("rule", "finding", "model", "formats", "robots", "launch", "ros", "package", "source"),
+    *("physics.mass", "physics.trial", "rulebook.suppression.parts"),
+    *("base.words", "base.record", "base.resources", "base.files"),
+)
+"""What rules may import of the checker: the parts of a package and tables, nothing that reads
+files, starts processes, runs rules or reports."""
 LOOSE = {"__init__", "finding", "pipeline", "rule", "rule_testing", "settings"}
 
 
@@ -42,6 +49,11 @@ def imported(nodes: Iterator[ast.AST]) -> Iterator[str]:
             yield from (name.name for name in node.names)
 
 
+def imports_of(path: Path) -> Iterator[str]:
+    """Yield what a module imports, at any time."""
+    return imported(ast.walk(ast.parse(path.read_text("utf-8"))))
+
+
 def imports_when_loaded(path: Path) -> Iterator[str]:
     """Yield what a module imports as soon as it is imported itself."""
     waiting: list[ast.AST] = [ast.parse(path.read_text("utf-8"))]
@@ -52,6 +64,13 @@ def imports_when_loaded(path: Path) -> Iterator[str]:
             continue
         if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             waiting += ast.iter_child_nodes(node)
+
+
+def test_rules_import_parts_and_tables_alone() -> None:
+    allowed = tuple(f"checker.{name}." for name in FOR_RULES)
+    for path in modules("rules"):
+        ours = (name for name in imports_of(path) if name.startswith("checker"))
+        assert not [name for name in ours if not name.startswith(allowed)], path
 
 
 def test_imports_keep_to_the_layers() -> None:

@@ -23,37 +23,41 @@ from checker.physics.trial.run import RobotTrials
 from checker.physics.trial.trial import Measurement, Trial
 from checker.report.figures import NOT_JUDGED
 from checker.robots.urdf_files import UrdfFiles
+from checker.rule import Rule
 
 # A trial as the report shows it: every figure with its limits and a verdict.
 
 
-_JUDGES = frozenset(measure.rule for measure in MEASURES.values())
-"""Rules that judge figures. They key each finding with the figures it is about."""
-
 _SERIES_DIGITS = 6
 
 
-def trials_of(subject: Subject, outcome: Outcome) -> tuple[dict[str, Any], ...]:
+def trials_of(
+    subject: Subject, outcome: Outcome, known: Sequence[Rule]
+) -> tuple[dict[str, Any], ...]:
     """Return the trials of a package; of several robots, each says which one it is about."""
     driven, robots = subject.made(RobotTrial), subject.all(Robot)
     if isinstance(robots, NotAvailable) or len(robots) < 2:
-        return tuple(measured(each, outcome) for each in driven)
+        return tuple(measured(each, outcome, known) for each in driven)
     numbers = {id(robot): number for number, robot in enumerate(robots)}
     return tuple(
-        {"robot": numbers[id(each.robot)], **measured(each, outcome, alone=False)}
+        {"robot": numbers[id(each.robot)], **measured(each, outcome, known, alone=False)}
         for each in driven
     )
 
 
-def measured(driven: RobotTrial, outcome: Outcome, *, alone: bool = True) -> dict[str, Any]:
+def measured(
+    driven: RobotTrial, outcome: Outcome, known: Sequence[Rule], *, alone: bool = True
+) -> dict[str, Any]:
     """Return what JSON can express of a trial and of what the rules said about its figures.
 
     Args:
         driven: The robot and its trial.
         outcome: Of the rules.
+        known: All rules.
         alone: Whether all that they said is about this robot.
     """
-    verdicts = _verdicts(outcome)
+    judges = _judges(known)
+    verdicts = _verdicts(outcome, known)
     if not alone:
         verdicts = _about(driven, verdicts)
     trial = driven.trial
@@ -66,7 +70,7 @@ def measured(driven: RobotTrial, outcome: Outcome, *, alone: bool = True) -> dic
         "course": data["legs"],
         "refused": trial.refused,
         "refused_part": trial.refused_part,
-        "measurements": list(_measurements(driven, outcome, verdicts)),
+        "measurements": list(_measurements(driven, outcome, verdicts, judges)),
         "repairs": data["repairs"],
         "notes": list(trial.notes),
         "trouble": list(trial.trouble),
@@ -74,15 +78,22 @@ def measured(driven: RobotTrial, outcome: Outcome, *, alone: bool = True) -> dic
     }
 
 
+def _judges(known: Sequence[Rule]) -> dict[str, str]:
+    """Return the rule of each figure; of several that judge it, the first one."""
+    ordered = sorted(known, key=lambda rule: rule.id, reverse=True)
+    return {name: rule.id for rule in ordered for name in rule.judges}
+
+
 def _measurements(
-    driven: RobotTrial, outcome: Outcome, verdicts: _Verdicts
+    driven: RobotTrial, outcome: Outcome, verdicts: _Verdicts, judges: Mapping[str, str]
 ) -> Iterator[dict[str, Any]]:
     for measurement in driven.trial.measurements:
         measure = MEASURES.get(measurement.name, Measure(measurement.name.replace("_", " ")))
         if not math.isfinite(measurement.value):
             continue
-        options = outcome.looked.get(measure.rule, {})
-        looked = measure.rule in outcome.looked and not _is_excused(measurement, driven, options)
+        rule = judges.get(measurement.name, "")
+        options = outcome.looked.get(rule, {})
+        looked = rule in outcome.looked and not _is_excused(measurement, driven, options)
         yield {
             "name": measurement.name,
             "label": measure.label,
@@ -90,7 +101,7 @@ def _measurements(
             "unit": measure.unit,
             "part": measurement.part,
             "other": measurement.other,
-            "rule": measure.rule,
+            "rule": rule,
             "limits": _limits(measurement.name, options),
             "verdict": _verdict(measurement, driven, verdicts, looked),
         }
@@ -100,12 +111,13 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 """By the name of a figure: how grave each finding about it is, and where its places start."""
 
 
-def _verdicts(outcome: Outcome) -> _Verdicts:
+def _verdicts(outcome: Outcome, known: Sequence[Rule]) -> _Verdicts:
     verdicts: _Verdicts = {}
+    judging = {rule.id for rule in known if rule.judges}
     # A figure is out of its limits also where that does not count, or where its cause is told.
     aside = (item.finding for item in outcome.suppressed)
     for finding in (*outcome.findings, *aside, *outcome.covered):
-        if finding.rule in _JUDGES or finding.rule.startswith("TRI"):
+        if finding.rule in judging:
             places = frozenset(map(_start, finding.places))
             for name in finding.key.split():
                 verdicts.setdefault(name, []).append((finding.severity, places))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.report.launched import Launched, LaunchedNode, LaunchedTopic, LaunchedTransform
 from checker.ros.wiring.wiring import Wiring
@@ -17,9 +16,8 @@ _COMMON = ("/tf", "/tf_static", "/clock", "/diagnostics", "/parameter_events", "
 
 
 def launched_of(subject: Subject) -> tuple[Launched, ...]:
-    """Return the graph of each launch file of ROS 2 that starts a node."""
-    wirings = subject.all(Wiring)
-    return () if isinstance(wirings, NotAvailable) else tuple(map(_launched, wirings))
+    """Return the graph of each launch file of ROS 2 that starts a node, if a rule asked for it."""
+    return tuple(map(_launched, subject.made(Wiring)))
 
 
 def _launched(wiring: Wiring) -> Launched:

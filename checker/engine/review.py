@@ -34,6 +34,7 @@ from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
+    FILES,
     NO_PHYSICS,
     ROBOT,
     Cause,
@@ -185,16 +186,11 @@ def _report(
             if settings.display:
                 begin_display(subject)
         outcome = run_and_set_aside(known, known, subject, judge)
-    blind = (NotChecked("PKG003", reason, Cause.NOT_AT_HAND) for reason in _unread(package))
+    blind = (NotChecked(FILES, reason, Cause.NOT_AT_HAND) for reason in _unread(package))
     unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
     robots, trouble = _piece(subject, "facts", lambda: facts_of(subject))
-    trials = trials_of(subject, outcome)
-    looked_at_launches = any(rule.startswith("WIR") for rule in outcome.looked)
-    launched, unwired = (
-        _piece(subject, "launched", lambda: launched_of(subject))
-        if looked_at_launches
-        else ((), ())
-    )
+    trials = trials_of(subject, outcome, known)
+    launched, unwired = _piece(subject, "launched", lambda: launched_of(subject))
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,

@@ -17,6 +17,8 @@ SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
 NO_TRIAL = "trial not run (--no-trial)"
 """Why rules about the trial did not look when the user wants none."""
+FILES = "files"
+"""What `NotChecked.rule` says where files or folders could not be read."""
 ROBOT = "robot"
 """What `NotChecked.rule` says where a robot could not be read."""
 NO_PHYSICS = PHYSICS.missing

@@ -33,6 +33,7 @@ class IndexedRule(Record):
         needs: Names of the types of the parts that it asks for, by parameter.
         spares: Parameters for parts that it can do without.
         options: Their defaults; lists stand for tuples.
+        judges: Figures of the trial that it judges.
     """
 
     id: str
@@ -44,6 +45,7 @@ class IndexedRule(Record):
     needs: dict[str, str]
     spares: frozenset[str]
     options: dict[str, Any]
+    judges: tuple[str, ...]
 
 
 def rules(cache: Cache) -> tuple[Rule, ...]:
@@ -78,13 +80,22 @@ def _indexed(rule: Rule) -> IndexedRule:
         rule.needs,
         rule.spares,
         rule.options,
+        rule.judges,
     )
 
 
 def _rule(known: IndexedRule) -> Rule:
     """Return a rule that loads its module when it is run."""
     check = _later(known.module, known.id)
-    rule = Rule(known.id, known.name, known.severity, known.concern, check, known.page)
+    rule = Rule(
+        known.id,
+        known.name,
+        known.severity,
+        known.concern,
+        check,
+        known.page,
+        judges=known.judges,
+    )
     options = {name: _as_tuple(value) for name, value in known.options.items()}
     # What is otherwise read from the function's signature.
     vars(rule).update(needs=known.needs, spares=known.spares, options=options)

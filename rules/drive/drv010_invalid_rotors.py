@@ -32,7 +32,7 @@ _ALL_MOTIONS = 4
 """Climb, roll, pitch and yaw."""
 
 
-@rule("DRV010", "invalid-rotors", Severity.ERROR, Concern.ROBOT)
+@rule("DRV010", "invalid-rotors", Severity.ERROR, Concern.ROBOT, judges=("thrust_to_weight",))
 def check(
     robot: Robot,
     *,

@@ -14,7 +14,9 @@ from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO015", "overlapping-collisions", Severity.WARNING, Concern.ROBOT)
+@rule(
+    "GEO015", "overlapping-collisions", Severity.WARNING, Concern.ROBOT, judges=("start_overlap",)
+)
 def check(robot: Robot, *, depth: float = 0.01) -> Findings:
     """Report pairs of parts whose collisions are inside each other by more than `depth`.
 

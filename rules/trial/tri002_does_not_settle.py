@@ -14,7 +14,20 @@ from checker.physics.trial.settling import SETTLE_LIMITS, unrest
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI002", "does-not-settle", Severity.ERROR, Concern.ROBOT)
+@rule(
+    "TRI002",
+    "does-not-settle",
+    Severity.ERROR,
+    Concern.ROBOT,
+    judges=(
+        "settle_drop",
+        "settle_rise",
+        "settle_shift",
+        "settle_tilt",
+        "settle_speed",
+        "rest_penetration",
+    ),
+)
 def check(
     driven: RobotTrial,
     context: Context,

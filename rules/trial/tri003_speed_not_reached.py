@@ -13,7 +13,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI003", "speed-not-reached", Severity.ERROR, Concern.ROBOT)
+@rule("TRI003", "speed-not-reached", Severity.ERROR, Concern.ROBOT, judges=("speed_ratio",))
 def check(
     driven: SettledTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
 ) -> Findings:

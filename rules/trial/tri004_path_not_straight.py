@@ -13,7 +13,13 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI004", "path-not-straight", Severity.ERROR, Concern.ROBOT)
+@rule(
+    "TRI004",
+    "path-not-straight",
+    Severity.ERROR,
+    Concern.ROBOT,
+    judges=("path_sideways", "path_heading"),
+)
 def check(
     driven: SettledTrial,
     *,

@@ -16,7 +16,13 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI005", "moves-the-wrong-way", Severity.ERROR, Concern.ROBOT)
+@rule(
+    "TRI005",
+    "moves-the-wrong-way",
+    Severity.ERROR,
+    Concern.ROBOT,
+    judges=("yaw_rate", "speed_ratio"),
+)
 def check(driven: SettledTrial) -> Findings:
     """Report motion against the command."""
     symptoms = {}

@@ -13,7 +13,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI006", "turn-rate-too-low", Severity.WARNING, Concern.ROBOT)
+@rule("TRI006", "turn-rate-too-low", Severity.WARNING, Concern.ROBOT, judges=("yaw_of_predicted",))
 def check(
     driven: SettledTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
 ) -> Findings:

@@ -12,7 +12,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI007", "wheel-without-load", Severity.ERROR, Concern.ROBOT)
+@rule("TRI007", "wheel-without-load", Severity.ERROR, Concern.ROBOT, judges=("load_share",))
 def check(
     driven: SettledTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:

@@ -12,7 +12,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI008", "does-not-stop", Severity.ERROR, Concern.ROBOT)
+@rule("TRI008", "does-not-stop", Severity.ERROR, Concern.ROBOT, judges=("stop_speed",))
 def check(driven: SettledTrial, *, error_above: float = 0.05) -> Findings:
     """Report a speed above the command after a stop.
 

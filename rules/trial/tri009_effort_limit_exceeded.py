@@ -17,7 +17,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT)
+@rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT, judges=("torque",))
 def check(
     driven: SettledTrial, specification: Specification | None, *, warning_above: float = 1.0
 ) -> Findings:

@@ -15,7 +15,13 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI010", "does-not-fly", Severity.ERROR, Concern.ROBOT)
+@rule(
+    "TRI010",
+    "does-not-fly",
+    Severity.ERROR,
+    Concern.ROBOT,
+    judges=("hover_effort", "hover_sink", "hover_tilt", "climbed"),
+)
 def check(
     driven: SettledTrial,
     *,

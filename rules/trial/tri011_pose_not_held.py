@@ -14,7 +14,13 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI011", "pose-not-held", Severity.WARNING, Concern.ROBOT)
+@rule(
+    "TRI011",
+    "pose-not-held",
+    Severity.WARNING,
+    Concern.ROBOT,
+    judges=("hold_sag", "hold_sink", "hold_tilt"),
+)
 def check(
     driven: SettledTrial,
     *,

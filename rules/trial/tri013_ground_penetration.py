@@ -12,7 +12,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI013", "ground-penetration", Severity.WARNING, Concern.ROBOT)
+@rule("TRI013", "ground-penetration", Severity.WARNING, Concern.ROBOT, judges=("rest_penetration",))
 def check(
     driven: SettledTrial,
     *,

@@ -13,7 +13,13 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI014", "limits-exceeded", Severity.WARNING, Concern.ROBOT)
+@rule(
+    "TRI014",
+    "limits-exceeded",
+    Severity.WARNING,
+    Concern.ROBOT,
+    judges=("full_speed", "full_acceleration"),
+)
 def check(
     driven: SettledTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
 ) -> Findings:

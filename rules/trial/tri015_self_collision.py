@@ -12,7 +12,7 @@ from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI015", "self-collision", Severity.WARNING, Concern.ROBOT)
+@rule("TRI015", "self-collision", Severity.WARNING, Concern.ROBOT, judges=("sweep_overlap",))
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
     """Report parts that overlap when a joint moves through its range.
 

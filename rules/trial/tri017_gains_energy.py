@@ -13,7 +13,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI017", "gains-energy", Severity.WARNING, Concern.ROBOT)
+@rule("TRI017", "gains-energy", Severity.WARNING, Concern.ROBOT, judges=("energy_gain",))
 def check(driven: SettledTrial, *, warning_above: float = 0.1) -> Findings:
     """Report a gain of energy while nothing drives the robot.
 

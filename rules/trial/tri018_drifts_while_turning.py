@@ -13,7 +13,7 @@ from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI018", "drifts-while-turning", Severity.WARNING, Concern.ROBOT)
+@rule("TRI018", "drifts-while-turning", Severity.WARNING, Concern.ROBOT, judges=("turn_drift",))
 def check(driven: SettledTrial, *, warning_above: float = 0.5) -> Findings:
     """Report a robot that moves away while it turns in place.
 

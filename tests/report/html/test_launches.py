@@ -16,6 +16,7 @@ from checker.report.html.page import to_html
 from checker.report.launched import Launched, LaunchedNode, LaunchedTopic, LaunchedTransform
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, Report, ReportedFinding
+from checker.ros.wiring.wiring import Wiring
 from checker.rule_testing import write_example
 
 ODOMETRY = ("nav_msgs/msg/Odometry",)
@@ -117,6 +118,7 @@ def test_a_loop_of_frames_ends() -> None:
 def test_the_graph_is_that_of_the_launch_file(tmp_path: Path) -> None:
     with open_input(write_example({"@bridge": True}, tmp_path)) as opened:
         subject = Subject(opened.packages[0])
+        subject.all(Wiring)
         (launched,) = launched_of(subject)
         subject.close()
 
