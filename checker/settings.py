@@ -56,7 +56,8 @@ class Settings(Record):
         source: The file they were read from; None for the defaults.
         commanded: Fields that the command line sets, and no file.
         trial: Whether robots are driven.
-        thorough: Whether they are driven again at half the time step.
+        thorough: Whether they are driven again at half the time step, and URDF is read by a second
+            library.
         cache: Whether results are kept on disk, and taken from there.
         devices: Sensor devices of the user's, each in the form of `devices.json`.
         display: Whether the report contains the robot in 3D.

@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 29,
+    "URD": 30,
     "CTL": 8,
     "BRG": 11,
     "WIR": 8,

@@ -9,12 +9,14 @@ from msgspec.structs import asdict
 from checker.base.parts import type_name
 from checker.base.record import Record
 from checker.finding import Severity
+from checker.formats.urdf.second_reading import SecondReading
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
 from checker.rule import Finding, Rule
 from checker.rulebook.profiles import Profile, profile
 from checker.settings import Settings
 
+_THOROUGH = frozenset(map(type_name, (RepeatedTrial, SecondReading)))
 TRIALS = frozenset(map(type_name, (RobotTrial, SettledTrial, RepeatedTrial)))
 """Names of the types of parts for which the robot is driven."""
 
@@ -58,7 +60,7 @@ class Judge(Record):
 
     def _asked_for(self, rule: Rule) -> bool:
         settings = self.settings
-        if type_name(RepeatedTrial) in rule.needs.values() and not settings.thorough:
+        if not settings.thorough and not _THOROUGH.isdisjoint(rule.needs.values()):
             return False
         return settings.selects(rule) and (settings.names(rule) or self.profile.includes(rule))
 

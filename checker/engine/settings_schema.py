@@ -56,7 +56,10 @@ def _keys(rules: Sequence[Rule]) -> dict[str, _Json]:
         "severity": _severity(rules),
         "rules": _options(rules),
         "trial": _described({"type": "boolean"}, "whether robots are driven"),
-        "thorough": _described({"type": "boolean"}, "drive them again at half the time step"),
+        "thorough": _described(
+            {"type": "boolean"},
+            "drive them again at half the time step, and read URDF with a second library",
+        ),
         "devices": _described(
             {"type": "array", "maxItems": DEVICES_LIMIT, "items": {"type": "object"}},
             "sensor devices of your own, in the form of devices.json",

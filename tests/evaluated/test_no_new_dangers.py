@@ -28,6 +28,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/base/sandbox/launcher_process.py", BYTES): "a system call that hands orphans over",
     ("checker/base/sandbox/task.py", MODULE): "named by the parent, before anything is read",
     ("checker/engine/subject.py", MODULE): "our own, and those of the types that rules ask for",
+    ("checker/package/formats.py", MODULE): "a list of our own formats",
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/rulebook/rule_index.py", MODULE): "those that the index of installed rules names",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",

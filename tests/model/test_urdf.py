@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
+from checker.base.cache import NO_CACHE
+from checker.base.parts import WorkerFailed
 from checker.formats.urdf.reader import read_urdf
-from checker.formats.urdf.second_opinion import disagreements
+from checker.formats.urdf.second_reading import read_again
 from checker.model.robot import Robot
 from tests.model.robots import assert_pose, document, messages, pose, urdf
 
@@ -114,34 +117,34 @@ def test_limits() -> None:
     assert fixed == ()
 
 
-def agree(path: Path) -> None:
-    robot = read_urdf(document(path.read_text("utf-8"), path.name))
-    assert robot.links
-    assert disagreements(robot, path) == []
+def assert_agreed(paths: list[Path]) -> None:
+    robots = [read_urdf(document(path.read_text("utf-8"), path.name)) for path in paths]
+    readings = read_again(robots, NO_CACHE)
+    assert not isinstance(readings, WorkerFailed)
+    assert [(it.error, it.differences) for it in readings] == [("", ())] * len(paths)
 
 
 def test_yourdfpy_agrees_on_the_samples(samples: Path) -> None:
     sound = [path for path in samples.rglob("*.urdf") if "broken" not in str(path)]
     assert len(sound) > 1
-    paths = [path for path in sound if path.read_text("utf-8").strip()]
-    for path in paths:
-        agree(path)
+    assert_agreed([path for path in sound if path.read_text("utf-8").strip()])
 
 
 def test_yourdfpy_agrees_on_real_packages(corpus: Path) -> None:
     paths = [path for path in corpus.rglob("*.urdf") if path.read_text("utf-8").strip()]
     assert len(paths) == 3
-    for path in paths:
-        agree(path)
+    assert_agreed(paths)
 
 
-def test_a_disagreement_is_told(tmp_path: Path) -> None:
-    path = tmp_path / "r.urdf"
-    path.write_text(f'<robot name="r">{links("a", "b")}{joint("j", "a", "b", A_ORIGIN)}</robot>')
+def test_differences_between_readers_name_the_part() -> None:
+    whole = urdf(links("a", "b") + joint("j", "a", "b", A_ORIGIN))
     other = urdf(links("a", "b", "c") + joint("j", "a", "b", B_ORIGIN))
-    said = disagreements(other, path)
-    assert said[0] == "links ['c']"
-    assert said[1].startswith("pose of b is off by")
+    readings = read_again([replace(other, document=whole.document)], NO_CACHE)
+    assert not isinstance(readings, WorkerFailed)
+    missing, moved = readings[0].differences
+    assert (missing.part.name.value, missing.words) == ("c", "reads no such link")
+    assert moved.part.name.value == "b"
+    assert moved.words.startswith(("places it", "turns it"))
 
 
 TAGS = [

@@ -110,7 +110,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--no-trial", action="store_true", help="skip the trial")
     parser.add_argument(
-        "--thorough", action="store_true", help="repeat the trial at half the time step"
+        "--thorough",
+        action="store_true",
+        help="repeat the trial at half the time step, and read URDF with a second library",
     )
     parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
     parser.add_argument(
