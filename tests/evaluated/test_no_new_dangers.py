@@ -29,6 +29,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/base/sandbox/task.py", MODULE): "named by the parent, before anything is read",
     ("checker/engine/subject.py", MODULE): "our own, and those of the types that rules ask for",
     ("checker/package/formats.py", MODULE): "a list of our own formats",
+    ("checker/physics/mesh/trimesh_files.py", "a mesh by its suffix"): "one of four, named there",
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/rulebook/rule_index.py", MODULE): "those that the index of installed rules names",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from checker.physics.mesh.trimesh_files import SUFFIXES
 
 Point = tuple[float, float, float]
 Triangle = tuple[Point, Point, Point]
@@ -100,3 +103,20 @@ def dae(
 </node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#all"/></scene>
 </COLLADA>""".encode()
+
+
+def by_trimesh(triangles: list[Triangle], suffix: str) -> bytes:
+    import trimesh
+
+    parts = trimesh.triangles.to_kwargs(triangles)
+    written = trimesh.Trimesh(**parts).export(file_type=suffix)
+    return written if isinstance(written, bytes) else written.encode()
+
+
+WRITERS: dict[str, Callable[[list[Triangle]], bytes]] = {
+    "stl": binary_stl,
+    "obj": obj,
+    "dae": dae,
+    **{suffix: partial(by_trimesh, suffix=suffix) for suffix in SUFFIXES},
+}
+"""Of each format that is read."""

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.reader import read_mesh
 from tests.effort import examples
-from tests.mesh.files import binary_stl, box, dae, obj, text_stl
+from tests.mesh.files import WRITERS, binary_stl, box, dae, obj, text_stl
 
 CUBE = box(1, 1, 1)
 NOWHERE = [((0.0, 0.0, 0.0), (1.0, 0.0, float("nan")), (0.0, 1.0, 0.0))]
@@ -117,7 +117,7 @@ def test_another_format_of_that_name() -> None:
 
 
 def test_a_format_that_is_not_read() -> None:
-    assert ".glb" in fault(b"glTF", "a.glb", MeshTrouble.UNSUPPORTED)
+    assert ".fbx" in fault(b"Kaydara", "a.fbx", MeshTrouble.UNSUPPORTED)
 
 
 def test_brackets_in_an_id_are_a_defect() -> None:
@@ -162,7 +162,7 @@ def test_textures_are_those_that_an_effect_uses() -> None:
     assert read.textures == ("a.png",)
 
 
-WHOLE = {"stl": binary_stl(CUBE), "obj": obj(CUBE), "dae": dae(CUBE)}
+WHOLE = {suffix: write(CUBE) for suffix, write in WRITERS.items()}
 
 
 @pytest.mark.parametrize("suffix", WHOLE)

@@ -12,10 +12,9 @@ from checker.model.mesh import Mesh
 from checker.physics.mesh import measure
 from checker.physics.mesh.reader import read_mesh
 from tests.effort import examples
-from tests.mesh.files import Triangle, binary_stl, box, cylinder, dae, obj, text_stl
+from tests.mesh.files import WRITERS, Triangle, binary_stl, box, cylinder, dae, obj, text_stl
 
 lengths = st.floats(0.01, 10.0)
-WRITERS = {"stl": binary_stl, "obj": obj, "dae": dae}
 
 
 def mesh(data: bytes, name: str) -> Mesh:

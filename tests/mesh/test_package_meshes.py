@@ -128,7 +128,7 @@ def test_textures_come_from_the_material_file_beside_an_obj(tmp_path: Path) -> N
 
 def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
     good, bad, odd = read(
-        {"meshes/a.stl": CUBE, "meshes/b.stl": CUBE[:-1], "meshes/c.glb": b"glTF"}, tmp_path
+        {"meshes/a.stl": CUBE, "meshes/b.stl": CUBE[:-1], "meshes/c.fbx": b"Kaydara"}, tmp_path
     )
     assert isinstance(good, Mesh)
     assert isinstance(bad, MeshFault)

@@ -30,8 +30,8 @@ SECONDS_FOR_ALL = 90
 MEMORY = 1_000_000_000
 """Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""
 
-_LIBRARIES = ("lxml", "numpy", "pycollada", "scipy")
-_SUFFIXES = (".dae", ".stl", ".obj")
+_LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
+_SUFFIXES = (".dae", ".stl", ".obj", ".glb", ".ply", ".off", ".3mf")
 _LOOKED_AT = 20
 """Files; where none of these is known, the package is taken for one that is new."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,8 @@ from checker.physics.mesh.content import MeshContent, NoSurface, Piece
 from checker.physics.mesh.dae import read_dae
 from checker.physics.mesh.measure import measure
 from checker.physics.mesh.obj import read_obj
+from checker.physics.mesh.trimesh_files import SUFFIXES as TRIMESH_SUFFIXES
+from checker.physics.mesh.trimesh_files import read_with_trimesh
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -83,15 +86,23 @@ def _text(data: bytes) -> MeshContent:
 
 
 _Reader = Callable[[bytes, Iterable[bytes]], MeshContent]
-_READERS: dict[str, _Reader] = {"dae": read_dae, "stl": read_stl, "obj": read_obj}
+_READERS: dict[str, _Reader] = {
+    "dae": read_dae,
+    "stl": read_stl,
+    "obj": read_obj,
+    **{suffix: partial(read_with_trimesh, suffix=suffix) for suffix in TRIMESH_SUFFIXES},
+}
 
 _POINTER = b"version https://git-lfs"
 
 
 def load_libraries(names: Iterable[str]) -> None:
     """Import once what reads files of these names, before a process forks to read them."""
-    if any(name.lower().endswith(".dae") for name in names):
+    suffixes = {name.rpartition(".")[2].lower() for name in names}
+    if "dae" in suffixes:
         import_module("collada")
+    if not suffixes.isdisjoint(TRIMESH_SUFFIXES):
+        import_module("trimesh")
 
 
 def read_mesh(data: bytes, path: str, picked: Sequence[str] = ()) -> Mesh | MeshFault:

@@ -21,7 +21,7 @@ from checker.physics.mesh.uris import MeshFile
 from checker.physics.views.request import Content, ViewRequest, view_request
 from checker.source.text import Located
 
-_LIBRARIES = ("lxml", "numpy", "pycollada")
+_LIBRARIES = ("lxml", "numpy", "pycollada", "trimesh")
 _SMALL = 1500
 """Pairs of sensor and visual up to which solids are looked at without a child: some 50 ms."""
 _ROBOTS = 8

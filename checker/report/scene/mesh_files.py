@@ -92,7 +92,7 @@ PICTURE_LIMIT = 30_000_000
 """Bytes of a picture file."""
 _BESIDE = 40
 """Pictures, and material files, of one mesh."""
-_LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada")
+_LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada", "trimesh")
 
 
 class MeshFiles(Record, eq=False, dict=True):
