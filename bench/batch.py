@@ -31,8 +31,8 @@ import sqlalchemy as sa
 from bench.service import Client, other_robot, say, show
 from bench.static import ROOT, keep_bytecode, real_packages
 from checker.service.jobs.durable.database import open_database
-from tests.postgres import fresh_database, started
-from tests.web.service import service, zip_of
+from support.postgres import fresh_database, started
+from support.service import service, zip_of
 
 RATIO_LIMIT = 0.6
 """Of the time of one worker, that two need."""

@@ -39,9 +39,9 @@ from checker.base.sandbox.usage import below
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.store.locks import lock_of_dead
-from tests.bucket import bucket_of, server_of_s3
-from tests.jobs.disk import full, small_disk
-from tests.postgres import fresh_database
+from support.bucket import bucket_of, server_of_s3
+from support.disk import full, small_disk
+from support.postgres import fresh_database
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 WHOLE = ["queued", "static", "trial", "done"]

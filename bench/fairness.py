@@ -18,7 +18,7 @@ import httpx
 from bench.hostile import chain
 from bench.service import say, show
 from bench.static import ROOT, keep_bytecode
-from tests.web.service import service, zip_of
+from support.service import service, zip_of
 
 SMALL = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 HEAVY = 8

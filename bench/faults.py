@@ -27,7 +27,7 @@ from bench.planted import launch, model, paperwork, ros2, sensors, shapes, spawn
 from bench.planted.edits import Kind
 from checker.pipeline import check_package
 from checker.settings import Settings
-from tests.judged.judgements import folder_of
+from support.judgements import folder_of
 
 Found = frozenset[tuple[str, str, str, str]]
 """Rules, files, elements and messages of findings."""

@@ -18,7 +18,7 @@ from time import perf_counter, sleep
 from bench.machine import pace, undisturbed
 from bench.service import Client, show
 from bench.static import ROOT, keep_bytecode, real_packages
-from tests.web.service import service, zip_of
+from support.service import service, zip_of
 
 LIMIT = 2.0
 """Seconds."""

@@ -19,7 +19,7 @@ import httpx
 from bench.service import command_of, of_service
 from bench.static import ROOT
 from checker.base.sandbox.usage import below
-from tests.postgres import free_port
+from support.postgres import free_port
 
 
 @dataclass

@@ -2,7 +2,7 @@
 
 Run with `python -m bench.precision [--with-trial]` from the top folder. The variables
 SUBT_CHECK_CORPUS and SUBT_CHECK_MODERN name folders of packages; the URDF files come with PyPI's
-example-robot-data. What is judged stands in `tests/judged/`.
+example-robot-data. What is judged stands in `support/judged/`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator
 
 from checker.finding import Severity
-from tests.judged.judgements import HERE, by_check, findings, folder_of, judgements, places
+from support.judgements import HERE, by_check, findings, folder_of, judgements, places
 
 VERDICTS = ("true", "arguable", "false", "not judged")
 ROW = "{:<9} {:<8} {:<8} {:>6} {:>9} {:>6} {:>11} {:>7}"

@@ -22,7 +22,7 @@ from msgspec.structs import astuple
 
 from bench.machine import pace, undisturbed
 from bench.static import ROOT, keep_bytecode, real_packages
-from tests.browser import started
+from support.browser import started
 
 SIZE_LIMIT, EXTRA_LIMIT, OPEN_LIMIT = 10.0, 2.0, 3.0
 """MB of a report, seconds on top of the check, seconds until the robot is seen."""

@@ -19,7 +19,7 @@ from urllib.parse import urlsplit
 from bench.machine import pace
 from bench.service import Client, options_of, say, server_of, show, variables_of
 from bench.static import ROOT, keep_bytecode
-from tests.web.service import service, zip_of
+from support.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CLIENTS, SECONDS = 8, 10.0

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 
-from tests.review_cases import OUT_OF_REACH, ReviewCase, review_cases
+from support.review_cases import OUT_OF_REACH, ReviewCase, review_cases
 
 ROW = "{:<5} {:<5} {:<30} {:<30} {:<30} {}"
 

@@ -19,7 +19,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from checker.base.sandbox.usage import below
-from tests.postgres import fresh_database, started
+from support.postgres import fresh_database, started
 
 _BORDER = "subt-check-bench"
 _PATIENCE = 120.0

@@ -19,7 +19,7 @@ from bench.machine import pace
 from bench.service import Client, options_of, server_of, show, variables_of
 from bench.static import ROOT, keep_bytecode
 from bench.watchers import processor_seconds, web_process
-from tests.web.service import service, zip_of
+from support.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CREATED, REPEATS, LIMIT = 201, 5, 3.0

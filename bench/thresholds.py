@@ -7,7 +7,7 @@ gets one page a rule, with the values, those that are judged and the numbers dra
 the values beyond each number is printed.
 
 Robots: submissions (SUBT_CHECK_CORPUS), packages of ROS 2 and Gazebo (SUBT_CHECK_MODERN) and the
-URDF files of PyPI's example-robot-data (installed, or SUBT_CHECK_URDFS). Verdicts: `tests/judged/`.
+URDF files of example-robot-data on PyPI (installed, or SUBT_CHECK_URDFS). Verdicts: support/judged.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from checker.finding import Place
 from checker.pipeline import check_package
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
-from tests.judged.judgements import folder_of, judgements
+from support.judgements import folder_of, judgements
 
 PROFILES = {"corpus": "subt", "modern": "", "urdf": "urdf"}
 """By source of packages; without one, the content of a package decides."""

@@ -31,7 +31,7 @@ from bench.service import (
     watched,
 )
 from bench.static import ROOT, keep_bytecode
-from tests.web.service import service, zip_of
+from support.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CREATED, MEGABYTES = 201, 1.0

@@ -27,8 +27,8 @@ from checker.base.sandbox.usage import below
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.receipts import key_of_check
-from tests.postgres import fresh_database, started
-from tests.web.service import service
+from support.postgres import fresh_database, started
+from support.service import service
 
 PROCESSOR_LIMIT, LATE_LIMIT = 20.0, 0.8
 """Percent of a processor, and seconds."""

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from tests.browser import chromium  # noqa: F401 (a fixture)
-from tests.bucket import bucket_url, object_store  # noqa: F401 (fixtures)
+from support.browser import chromium  # noqa: F401 (a fixture)
+from support.bucket import bucket_url, object_store  # noqa: F401 (fixtures)
+from support.postgres import postgres_url  # noqa: F401 (a fixture)
+from support.real_packages import CORPUS, needed_folder, not_judged
 from tests.effort import THOROUGH
-from tests.postgres import postgres_url  # noqa: F401 (a fixture)
-from tests.real_packages import CORPUS, needed_folder, not_judged
 from tests.tiers import MARKS, Guard, marks_of
 
 # Machines differ and are shared: no example of a property is held against the clock. The gate tries

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bench.faults import ROBOTS, Result, results
-from tests.real_packages import CORPUS, MODERN, needs
+from support.real_packages import CORPUS, MODERN, needs
 
 pytestmark = [*needs(CORPUS), *needs(MODERN)]
 

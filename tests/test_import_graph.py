@@ -73,6 +73,11 @@ def test_rules_import_parts_and_tables_alone() -> None:
         assert not [name for name in ours if not name.startswith(allowed)], path
 
 
+def test_benches_do_not_import_tests() -> None:
+    for path in (*modules("bench"), *modules("support")):
+        assert not [name for name in imports_of(path) if name.startswith("tests")], path
+
+
 def test_imports_keep_to_the_layers() -> None:
     command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
@@ -81,7 +86,7 @@ def test_imports_keep_to_the_layers() -> None:
 
 def test_rules_do_not_import_each_other() -> None:
     for path in modules("rules"):
-        found = imported(ast.walk(ast.parse(path.read_text("utf-8"))))
+        found = imports_of(path)
         assert not [module for module in found if module.startswith("rules.")], path
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from checker.pipeline import check_package
 from checker.settings import Settings
-from tests.real_packages import MODERN, needed_folder, needs
+from support.real_packages import MODERN, needed_folder, needs
 
 pytestmark = needs(MODERN)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, not_judged
+from support.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, not_judged
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ import pytest
 from checker.pipeline import check_package
 from checker.report.report import ReportedFinding, Severity
 from checker.settings import Settings
-from tests.real_packages import REPORTS, judged_folders, needed_folder, needs
+from support.real_packages import REPORTS, judged_folders, needed_folder, needs
 
 pytestmark = needs(REPORTS)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.real_packages import REVIEWS, needs
-from tests.review_cases import OUT_OF_REACH, ReviewCase, review_cases
+from support.real_packages import REVIEWS, needs
+from support.review_cases import OUT_OF_REACH, ReviewCase, review_cases
 
 pytestmark = needs(REVIEWS)
 CASES = [case for case in review_cases() if case.id not in OUT_OF_REACH]

@@ -20,7 +20,7 @@ from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
 from checker.physics.trial.trial import Replay
 from checker.physics.trial.worker import driven
-from tests.real_packages import CORPUS, named_folder, needs
+from support.real_packages import CORPUS, named_folder, needs
 
 ROOM = 1e-9
 """What `surfacevel` states of a belt that runs at 1 m/s."""

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from checker.base.resources import tool_version
+from support.started import address, process
 from tests.deployment.bare import bare_command, bare_environment
 from tests.deployment.dockerfile import stages
 from tests.deployment.image import ROOT, Image, context_of
 from tests.installing import packages
-from tests.started import address, process
 
 STAGES = {stage.name: stage for stage in stages((ROOT / "Dockerfile").read_text("utf-8"))}
 

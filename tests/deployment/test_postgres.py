@@ -9,7 +9,7 @@ from pathlib import Path
 import psycopg
 import pytest
 
-from tests.postgres import fresh_database, started
+from support.postgres import fresh_database, started
 
 
 def test_each_test_has_a_database_of_its_own(postgres_url: str) -> None:

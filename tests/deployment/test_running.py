@@ -14,10 +14,10 @@ from pathlib import Path
 import pytest
 import yaml
 
+from support.postgres import fresh_database
+from support.started import address, process
 from tests.conftest import SAMPLES
 from tests.deployment.image import ROOT
-from tests.postgres import fresh_database
-from tests.started import address, process
 
 COMMANDS: dict[str, list[str]] = {
     name: told["command"]

@@ -21,10 +21,10 @@ from checker.engine.subject import Subject
 from checker.formats.sdf.schema import VERSIONS, sdf_root
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument, parse_xml
+from support.real_packages import CORPUS, MODERN, judged_files, judged_folders, needs
 from tests.each import of_each
 from tests.editor.subjects import CARET, offered, subject_of, text_of, written
 from tests.effort import examples, seconds, slowness
-from tests.real_packages import CORPUS, MODERN, judged_files, judged_folders, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">

@@ -22,10 +22,10 @@ from checker.engine.subject import Subject
 from checker.rulebook.discovery import all_rules
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
+from support.real_packages import CORPUS, MODERN, judged_files, named_folder, needs
 from tests.each import of_each
 from tests.editor.subjects import shown, subject_of, text_of, written
 from tests.effort import limited
-from tests.real_packages import CORPUS, MODERN, judged_files, named_folder, needs
 
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.9">

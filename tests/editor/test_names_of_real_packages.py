@@ -15,9 +15,9 @@ from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.settings import Settings
 from checker.source.text import SourceText
+from support.real_packages import MODERN, named_folder
 from tests.editor.packages import edited, texts
 from tests.effort import examples, limited
-from tests.real_packages import MODERN, named_folder
 
 SETTINGS = Settings(trial=False)
 PARTS = (NameKind.LINK, NameKind.JOINT, NameKind.FRAME, NameKind.SENSOR)

@@ -16,9 +16,9 @@ from checker.editor.diagnostics import diagnostics_of
 from checker.editor.documents import Document
 from checker.editor.positions import Columns
 from checker.editor.session import Session
+from support.real_packages import CORPUS, MODERN, named_folder, needs
 from tests.conftest import SAMPLES
 from tests.editor.client import CONFIG, Client, Editor
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 

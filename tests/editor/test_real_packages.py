@@ -12,8 +12,8 @@ import pytest_lsp
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
+from support.real_packages import CORPUS, MODERN, named_folder, needs
 from tests.editor.client import CONFIG, Client, Editor
-from tests.real_packages import CORPUS, MODERN, named_folder, needs
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 

@@ -14,8 +14,8 @@ from checker.editor.names.outline.symbol import Symbol, SymbolKind
 from checker.editor.names.symbols import symbols_of
 from checker.package.inputs import open_input
 from checker.package.package import Package
+from support.real_packages import CORPUS, MODERN, judged_folders, needed_folder
 from tests.editor.packages import package_of
-from tests.real_packages import CORPUS, MODERN, judged_folders, needed_folder
 
 Shown = tuple[object, ...]
 

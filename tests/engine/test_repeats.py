@@ -21,9 +21,9 @@ from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import profile
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
+from support.real_packages import MODERN, judged_folders, needed_folder
 from tests.conftest import SAMPLES
 from tests.engine.stage import at, rule_saying, run
-from tests.real_packages import MODERN, judged_folders, needed_folder
 
 Told = tuple[str, str, int, int, str]
 """A rule and a place that it reports."""

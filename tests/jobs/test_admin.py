@@ -16,9 +16,9 @@ from checker import cli
 from checker.service.jobs.durable.receipts import key_of_check
 from checker.service.jobs.durable.tasks import TRIES
 from checker.service.jobs.port import Stage
+from support.postgres import DATABASES, fresh_database
 from tests.jobs.quick_worker import DEATH, FULL
 from tests.jobs.site import Site, site_in
-from tests.postgres import DATABASES, fresh_database
 
 
 @pytest.fixture(params=DATABASES)

@@ -30,7 +30,7 @@ from checker.service.jobs.outcome import (
 )
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
-from tests.jobs.disk import full, small_disk
+from support.disk import full, small_disk
 from tests.jobs.launched import tasks
 from tests.web.server import eventually
 

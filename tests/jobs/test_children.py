@@ -20,10 +20,10 @@ from checker.service.jobs.exchange import NICENESS, TRIAL_NICENESS
 from checker.service.jobs.outcome import Checked, Outcome
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import Store
+from support.service import zip_of
 from tests.conftest import SAMPLES
 from tests.jobs.launched import is_alive, launchers, parent_of, tasks, wait_for
 from tests.web.server import eventually
-from tests.web.service import zip_of
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
 

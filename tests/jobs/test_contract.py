@@ -17,9 +17,9 @@ from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.receipts import key_of_check
 from checker.service.jobs.durable.tasks import TRIES
 from checker.service.jobs.port import Stage, State
+from support.postgres import DATABASES, fresh_database
 from tests.jobs.quick_worker import DEATH, FULL, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
-from tests.postgres import DATABASES, fresh_database
 
 READ, END = 2 * TRIES + 1, 4 * TRIES + 1
 WHOLE = [(1, "queued"), (2, "static"), (READ, "trial"), (READ + 1, "trial"), (END, "done")]

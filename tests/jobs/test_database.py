@@ -19,8 +19,8 @@ from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.workers import Workers, now
 from checker.service.jobs.port import JobsUnreachable, Order, Stage
 from checker.service.store.store import Store
+from support.postgres import DATABASES, fresh_database
 from tests.jobs.site import Site, site_in
-from tests.postgres import DATABASES, fresh_database
 
 
 @pytest.fixture(params=DATABASES)

@@ -15,9 +15,9 @@ from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.prepare import prepared
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import Receipt, Stage
+from support.postgres import DATABASES, fresh_database
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
-from tests.postgres import DATABASES, fresh_database
 
 STORED = Path(__file__).parent / "stored" / "before_dbos.sql"
 """Written by that version: six checks with the profiles of `quick_worker`, of which two wait."""

@@ -14,7 +14,7 @@ from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.senders import RATES, SALTS, Senders
 from checker.service.jobs.durable.workers import Workers
 from checker.service.store.store import Store
-from tests.postgres import DATABASES, fresh_database
+from support.postgres import DATABASES, fresh_database
 
 LAYERS = (Layer("landlock", True, "version 7", hides=True), Layer("account", False, "no root"))
 

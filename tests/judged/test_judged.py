@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.judged.judgements import (
+from support.judgements import (
     HERE,
     by_check,
     findings,

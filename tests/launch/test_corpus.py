@@ -13,7 +13,7 @@ from checker.launch.ros1.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
 from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml
-from tests.real_packages import CORPUS, named_folder, needs
+from support.real_packages import CORPUS, named_folder, needs
 
 FOLDER = named_folder(CORPUS)
 FILES = sorted(FOLDER.glob("*/launch/*.launch")) if FOLDER else []

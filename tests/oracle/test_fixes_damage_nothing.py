@@ -10,10 +10,10 @@ import pytest
 
 from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
+from support.real_packages import CORPUS, MODERN, judged_folders, needs
 from tests.conftest import SAMPLES
 from tests.fixing.damage import contents, lost, spoilt
 from tests.oracle.conftest import Load
-from tests.real_packages import CORPUS, MODERN, judged_folders, needs
 
 SAFE, EVERY = [Safety.SAFE], list(Safety)
 FOLDERS = ("a copy", "{}-master", "{} (1)")

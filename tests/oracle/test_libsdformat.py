@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from support.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, needs
 from tests.conftest import SAMPLES
 from tests.oracle.comparison import unexplained
 from tests.oracle.conftest import Load
 from tests.oracle.mutants import mutant
-from tests.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, needs
 
 MODELS = Path(__file__).parent / "models"
 MUTANTS = int(os.environ.get("SUBT_CHECK_MUTANTS", "480"))

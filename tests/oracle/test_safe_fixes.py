@@ -14,9 +14,9 @@ from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
 from checker.model.geometry.transform import rotation_from_rpy
 from checker.report.report import ReportedFinding
+from support.real_packages import CORPUS, MODERN, judged_folders, needs
 from tests.conftest import SAMPLES
 from tests.oracle.conftest import Load
-from tests.real_packages import CORPUS, MODERN, judged_folders, needs
 
 ABOUT: Mapping[str, str] = {
     "REF001": r"(uri|_map)",

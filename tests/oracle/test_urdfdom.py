@@ -19,7 +19,7 @@ from checker.engine.review import findings_of
 from checker.finding import Severity
 from checker.package.inputs import open_input
 from checker.settings import Settings
-from tests.judged.judgements import folder_of
+from support.judgements import folder_of
 
 PROGRAM = Path(sys.executable).parent / "check_urdf"
 REFUSING = ("SDF001", "URD004", "URD010", "URD012", "URD013", "KIN001", "KIN002", "KIN003")

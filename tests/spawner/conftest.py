@@ -11,7 +11,7 @@ import pytest
 
 from checker.launch.spawner.reader import Spawner, read_spawner
 from checker.source.text import SourceText
-from tests.real_packages import CORPUS, named_folder, needed_folder
+from support.real_packages import CORPUS, named_folder, needed_folder
 
 
 @dataclass

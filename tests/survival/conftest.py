@@ -21,7 +21,7 @@ from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.jobs.port import Receipt
-from tests.postgres import DATABASES, fresh_database
+from support.postgres import DATABASES, fresh_database
 from tests.serving.conftest import (
     SECONDS,
     Serve,

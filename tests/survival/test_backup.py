@@ -15,7 +15,7 @@ import httpx
 import pytest
 
 from checker.service.jobs.port import Receipt
-from tests.postgres import client_program, fresh_database
+from support.postgres import client_program, fresh_database
 from tests.serving.conftest import SECONDS, Serving
 from tests.survival.conftest import Home, kill, receipt, wait_for, wait_for_end
 

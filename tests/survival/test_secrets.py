@@ -9,11 +9,11 @@ import pytest
 from msgspec.structs import astuple
 
 from checker.service.jobs.durable.receipts import key_of_check
+from support.postgres import dump
+from support.service import zip_of
 from tests.conftest import SAMPLES
-from tests.postgres import dump
 from tests.serving.conftest import SECONDS, Serve, Serving
 from tests.survival.conftest import Home, kill, receipt, upload, wait_for_end
-from tests.web.service import zip_of
 
 MODEL = "broken_gurdy_description"
 NOBODYS = "x" * 22

@@ -11,6 +11,7 @@ from pathlib import Path
 import httpx
 
 from checker.service.jobs.durable.receipts import key_of_check
+from support.service import zip_of
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, wait_for
 from tests.survival.conftest import (
@@ -24,7 +25,6 @@ from tests.survival.conftest import (
     wait_for_end,
 )
 from tests.web.server import form, request_head
-from tests.web.service import zip_of
 
 WHOLE = ["queued", "static", "trial", "done"]
 MODEL = "broken_gurdy_description"

@@ -11,7 +11,7 @@ from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.trial.trial import Trial
-from tests.real_packages import MODERN, needed_folder, needs
+from support.real_packages import MODERN, needed_folder, needs
 from tests.trial.machines import trial_in_child, value
 
 pytestmark = needs(MODERN)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 import pytest
 from PIL import Image
 
-from tests.browser import watched_page
+from support.browser import watched_page
 from tests.conftest import SAMPLES
 
 if TYPE_CHECKING:

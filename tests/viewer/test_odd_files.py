@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.browser import without_webgl
+from support.browser import without_webgl
 from tests.viewer.glb_file import GlbFile, container
 from tests.viewer.rover import HEIGHT, rover
 from tests.viewer.showing import (

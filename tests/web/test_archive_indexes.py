@@ -14,7 +14,7 @@ import pytest
 from checker.base.errors import UnreadableInput
 from checker.service.web.uploads import archive_indexes
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
-from tests.jobs.disk import full, small_disk
+from support.disk import full, small_disk
 from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 

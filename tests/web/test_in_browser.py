@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.browser import watched_page
+from support.browser import watched_page
+from support.service import service, zip_of
 from tests.conftest import SAMPLES
-from tests.web.service import service, zip_of
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page

@@ -23,7 +23,7 @@ from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.settings import Settings
-from tests.browser import watched_page
+from support.browser import watched_page
 from tests.conftest import SAMPLES
 from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, SECRET, BoardJobs, keep_result
 from tests.web.server import served

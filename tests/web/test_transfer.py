@@ -27,7 +27,7 @@ from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.limits import space
 from checker.service.web.uploads.transfer import AT_ONCE
-from tests.jobs.disk import small_disk
+from support.disk import small_disk
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 from tests.web.test_archive_indexes import read_by

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, needed_folder
+from support.real_packages import CORPUS, MODERN, REVIEWS, judged_folders, needed_folder
 from tests.xacro.real_files import compared, requests
 
 ROOT = Path(__file__).parent.parent.parent

@@ -15,7 +15,7 @@ from checker.report.files import artefacts
 from checker.report.html.page import to_html
 from checker.report.render_settings import Palette, RenderSettings
 from checker.settings import Settings
-from tests.browser import watched_page, without_webgl
+from support.browser import watched_page, without_webgl
 from tests.conftest import SAMPLES
 
 if TYPE_CHECKING:

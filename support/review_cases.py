@@ -13,7 +13,7 @@ from functools import cache
 from checker.pipeline import check_package
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
-from tests.real_packages import REVIEWS, judged_folders, named_folder
+from support.real_packages import REVIEWS, judged_folders, named_folder
 
 FOLDER = named_folder(REVIEWS)
 

@@ -17,9 +17,9 @@ from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
-from tests.real_packages import CORPUS, MODERN, URDFS, named_folder
+from support.real_packages import CORPUS, MODERN, URDFS, named_folder
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parent / "judged"
 _URDFS = "example-robot-data"
 _RANK = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
 
