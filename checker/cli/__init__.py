@@ -9,6 +9,7 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 from importlib import import_module
 from io import TextIOWrapper
+from pathlib import Path
 from types import ModuleType
 
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, EXIT_INTERRUPTED, EXIT_USAGE
@@ -31,6 +32,22 @@ COMMANDS = {
 }
 """What each command does; its module has the same name."""
 _MODULES = {"check": "check.command", "doctor": "doctor.command"}
+_PRODUCTS = {
+    "migrate": "migrate",
+    "server": "editor",
+    **dict.fromkeys(("submit", "serve", "worker", "admin"), "service"),
+}
+"""The package of the checker that a command starts; without it, there is no such command."""
+
+
+def installed_commands() -> dict[str, str]:
+    """Return the commands whose packages are there, and what each does."""
+    root = Path(__file__).parents[1]
+    return {
+        name: summary
+        for name, summary in COMMANDS.items()
+        if name not in _PRODUCTS or (root / _PRODUCTS[name]).is_dir()
+    }
 
 
 def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
@@ -48,7 +65,7 @@ def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.Argument
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
-    for name, summary in COMMANDS.items():
+    for name, summary in installed_commands().items():
         command = commands.add_parser(name, help=summary)
         if name in wanted:
             _module(name).add_arguments(command)
@@ -71,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words and words[0] not in (*COMMANDS, "-h", "--help", "--version"):
+    if words and words[0] not in (*installed_commands(), "-h", "--help", "--version"):
         words.insert(0, "check")
     _end_in_good_order()
     parser = build_parser(words[:1])
