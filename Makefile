@@ -86,10 +86,9 @@ bench: .venv/tested $(VIEWER)
 	$(BIN)/python -m bench.peers
 	$(BIN)/python -m bench.editor
 
-# Reports beside the samples and generated pages: written anew, then read before they are committed.
+# Reports beside the samples and what README.md shows: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)
-	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py \
-	  tests/test_rule_pages.py tests/engine/test_settings_schema.py tests/report --update-golden
+	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/report --update-golden
 
 .venv/bin/python:
 	scripts/require venv=python3-venv
@@ -131,7 +130,7 @@ vscode:
 	scripts/require node=nodejs npm=npm
 	editors/vscode/build
 
-# The pages of docs/ as a site with a search, in build/docs; a link between them that is dead fails.
+# The pages of docs/ and of the rules as a site with a search, in build/docs; a link between them that is dead fails.
 docs: .venv/documented
 	$(BIN)/sphinx-build -q -W --keep-going docs build/docs
 	@echo "build/docs/index.html"

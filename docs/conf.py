@@ -55,6 +55,24 @@ def _lead_into_the_repository(_app: Any, page: str, text: list[str]) -> None:
     text[0] = _LINK.sub(target, text[0])
 
 
+def _write_generated() -> None:
+    """Write the pages of rules and the checklist; a page that is as it should be stays."""
+    from checker.rulebook.checklist import to_markdown
+    from checker.rulebook.discovery import all_rules
+    from checker.rulebook.site import site_pages
+
+    folder = ROOT / "docs/rules"
+    folder.mkdir(exist_ok=True)
+    texts = {folder / name: text for name, text in site_pages(all_rules()).items()}
+    for stale in {*folder.iterdir()} - texts.keys():
+        stale.unlink()
+    texts[ROOT / "docs/checklist.md"] = to_markdown(all_rules())
+    for page, text in texts.items():
+        if not page.exists() or page.read_text("utf-8") != text:
+            page.write_text(text, "utf-8")
+
+
 def setup(app: Any) -> None:
-    """Connect what Sphinx calls."""
+    """Write the generated pages, and connect what Sphinx calls."""
+    _write_generated()
     app.connect("source-read", _lead_into_the_repository)

@@ -117,8 +117,7 @@ def test_readme_shows_what_the_command_prints(
 
 def test_settings_in_the_documents_are_valid() -> None:
     example, schema = _code(USAGE, "toml")
-    assert schema.startswith("#:schema ")
-    assert (ROOT / schema.partition("v0.1.0/")[2].strip()).is_file()
+    assert schema == "#:schema ./settings.schema.json\n"
     settings = parse_settings(tomllib.loads(example), USAGE)
     check_against_rules(settings, all_rules())
     assert settings.options
@@ -133,7 +132,7 @@ def test_the_documents_name_the_profiles_in_order() -> None:
 
 def test_commands_in_the_documents_are_understood() -> None:
     lines = [
-        line
+        line.partition(" > ")[0]
         for document in DOCUMENTS
         for line in _command_lines(document)
         if line.startswith("subt-check ")

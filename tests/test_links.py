@@ -17,6 +17,8 @@ from markdown_it.token import Token
 
 ROOT = Path(__file__).parent.parent
 NOT_OURS = ("build", "demo", "dist", "node_modules")
+GENERATED = (ROOT / "docs/rules", ROOT / "docs/checklist.md")
+"""Written by `make docs`, which fails if one of their links is dead."""
 _ELSEWHERE = re.compile(r"[a-z][a-z0-9+.-]*:|//")
 
 
@@ -24,10 +26,15 @@ def documents() -> Iterator[Path]:
     """Yield the Markdown files, but for those of packages: these are judged, and some are wrong."""
     for folder, inner, names in os.walk(ROOT):
         at = Path(folder)
-        inner[:] = sorted(name for name in inner if name[0] != "." and name not in NOT_OURS)
+        inner[:] = sorted(
+            name
+            for name in inner
+            if name[0] != "." and name not in NOT_OURS and at / name not in GENERATED
+        )
         if at == ROOT / "samples":
             inner.clear()
-        yield from (at / name for name in sorted(names) if name.endswith(".md"))
+        pages = (at / name for name in sorted(names) if name.endswith(".md"))
+        yield from (page for page in pages if page not in GENERATED)
 
 
 @cache
@@ -74,7 +81,7 @@ def test_links_lead_somewhere(document: Path) -> None:
 
 def test_all_documents_are_looked_at() -> None:
     names = {str(path.relative_to(ROOT)) for path in documents()}
-    assert {"README.md", "docs/README.md", "docs/rules/SEN.md", "samples/README.md"} <= names
+    assert {"README.md", "docs/README.md", "samples/README.md"} <= names
 
 
 def test_every_page_of_the_documentation_is_reached_from_its_index() -> None:
@@ -87,7 +94,8 @@ def test_every_page_of_the_documentation_is_reached_from_its_index() -> None:
             if target.suffix == ".md" and target.is_file() and target not in reached:
                 reached.add(target)
                 waiting.append(target)
-    assert not set((ROOT / "docs").rglob("*.md")) - reached
+    ours = {page for page in documents() if page.is_relative_to(ROOT / "docs")}
+    assert not ours - reached
 
 
 @pytest.mark.parametrize(

@@ -1,31 +1,35 @@
-"""docs/rules: the pages are those of the rules as they are, and Markdown shows them as meant.
-
-`pytest tests/test_rule_pages.py --update-golden` writes them anew.
-"""
+"""The pages of rules: each has all its headings, and Markdown shows it as meant."""
 
 from __future__ import annotations
 
 import re
 import tomllib
 from collections.abc import Iterator
-from pathlib import Path
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
-from checker.finding import Place
-from checker.report.report import ReportedFinding
+from checker.cli.rule import page_text
 from checker.report.sarif import help_uri
+from checker.rule import Concern, Findings, Rule, Severity, rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import told_options
-from checker.rulebook.pages import anchor, escaped, pages, parse_page
+from checker.rulebook.pages import escaped, parse_page
+from checker.rulebook.shown_examples import ShownFile, shown_examples
+from checker.rulebook.site import site_pages
 from tests.each import of_each
 
-FOLDER = Path(__file__).parent.parent / "docs/rules"
 RULES = [rule for rule in all_rules() if rule.check.__module__.startswith("rules.")]
-PAGES = pages(RULES)
+PAGES = site_pages(RULES)
+HEADINGS = [
+    "What it does",
+    "Why is this bad?",
+    "Example",
+    "Options",
+    "Fix",
+    "References",
+]
 
 
 def shown(markdown: str) -> str:
@@ -48,38 +52,76 @@ def _pieces(markdown: str) -> Iterator[str]:
         yield " "
 
 
-def test_the_pages_are_fresh(pytestconfig: pytest.Config) -> None:
-    if pytestconfig.getoption("--update-golden"):
-        FOLDER.mkdir(exist_ok=True)
-        for stale in {path.name for path in FOLDER.iterdir()} - PAGES.keys():
-            (FOLDER / stale).unlink()
-        for name, text in PAGES.items():
-            (FOLDER / name).write_text(text, "utf-8")
-    written = {path.name: path.read_text("utf-8") for path in FOLDER.iterdir()}
-    stale = [name for name in PAGES | written if PAGES.get(name) != written.get(name)]
-    assert not stale, "pytest tests/test_rule_pages.py --update-golden"
+@of_each("rule", RULES, ids=lambda rule: rule.id)
+def test_a_page_has_all_its_parts(rule: Rule) -> None:
+    text = PAGES[f"{rule.id}.md"]
+    assert help_uri(rule.id).endswith(f"/rules/{rule.id}.html")
+    code = re.compile(r"(?ms)^(`{3,}).*?^\1$")
+    prose = code.sub("", text)
+    assert re.findall(r"^# (.+)$", prose, re.M) == [f"{rule.name} ({rule.id})"]
+    assert re.findall(r"^## (.+)$", prose, re.M) == HEADINGS
+    assert "\nUse instead:\n" in prose
+    seen = shown(prose).lower().replace("`", "")
+    page = parse_page(rule.page)
+    for part in (page.title, page.why, page.fix, page.source):
+        for paragraph in part.split("\n\n"):
+            assert " ".join(paragraph.replace("`", "").split()).lower() in seen
+    for option in told_options(rule):
+        assert f"| `{option.name}` | `{option.default}` | {escaped(option.words)} |" in text
 
 
 @of_each("rule", RULES, ids=lambda rule: rule.id)
-def test_a_rule_is_told_in_full(rule: object) -> None:
-    (wanted,) = (each for each in RULES if each is rule)
-    text = PAGES[f"{wanted.group}.md"]
-    heading = f"## {wanted.id} {wanted.name}\n"
-    _, found, rest = text.partition(heading)
-    section = rest.partition("\n## ")[0]
-    assert found
-    assert anchor(wanted) == re.sub(r"[^\w -]", "", heading[3:-1].lower()).replace(" ", "-")
-    page = parse_page(wanted.page)
-    reported = ReportedFinding(
-        wanted.id, wanted.name, wanted.severity, wanted.concern, "x", "0", (Place("a"),)
+def test_a_page_and_the_command_show_the_same_examples(rule: Rule) -> None:
+    page, command = PAGES[f"{rule.id}.md"], page_text(rule)
+    examples = shown_examples(rule)
+    assert examples is not None
+    assert examples.bad
+    assert examples.good
+    assert examples.bad != examples.good
+    for file in (*examples.bad, *examples.good):
+        assert file.text or file.note
+        assert f"^ {rule.id}" not in file.text
+        assert len(file.text.splitlines()) <= 25
+        assert file.text in page
+        for line in filter(str.strip, file.text.splitlines()):
+            assert line.rstrip() in command
+
+
+def test_the_index_leads_to_every_page_by_group() -> None:
+    index = PAGES["index.md"]
+    assert re.findall(r"^- \[(\w+)\]\(\1\.md\) \S", index, re.M) == [r.id for r in RULES]
+    groups = re.findall(r"^## (\w+): \S", index, re.M)
+    assert groups == list(dict.fromkeys(r.group for r in RULES))
+
+
+def _example_rule(good: object, bad: object) -> Rule:
+    @rule("KIN901", "some-rule", Severity.ERROR, Concern.ROBOT)
+    def check() -> Findings:
+        yield from ()
+
+    return Rule(check.id, check.name, check.severity, check.concern, check.check, "", [good], [bad])
+
+
+def test_a_long_file_is_cut_to_the_lines_around_the_marked_one() -> None:
+    lines = [f'<link name="l{number}"/>' for number in range(60)]
+    good = "\n".join(lines)
+    lines[40] = '<link name="wrong"/>  <!-- ^ KIN901 -->'
+    examples = shown_examples(_example_rule(good, "\n".join(lines)))
+    assert examples is not None
+    (bad,), (good_file,) = examples.bad, examples.good
+    around = [*range(37, 40), "wrong", *range(41, 44)]
+    names = re.findall(r'name="(\w+)"', bad.text)
+    assert names == [f"l{it}" if isinstance(it, int) else it for it in around]
+    assert re.findall(r'name="l(\d+)"', good_file.text) == [str(n) for n in range(37, 44)]
+
+
+def test_of_a_file_that_is_no_text_its_size_is_shown() -> None:
+    examples = shown_examples(_example_rule({"a.stl": b"12345"}, {"README.md": "a\n"}))
+    assert examples is not None
+    assert examples.good == (
+        ShownFile("README.md", "", "does not exist"),
+        ShownFile("a.stl", "", "is a file of 5 bytes"),
     )
-    assert help_uri(reported).endswith(f"/{wanted.group}.md#{anchor(wanted)}")
-    prose = shown(re.sub(r"(?s)```.*?```", "", section).replace("**", ""))
-    for part in (page.title, page.why, page.fix, page.source):
-        for paragraph in part.split("\n\n"):
-            assert " ".join(paragraph.replace("`", "").split()) in prose.replace("`", "")
-    for option in told_options(wanted):
-        assert f"| `{option.name}` | `{option.default}` | {escaped(option.words)} |" in section
 
 
 def test_defaults_are_written_as_a_settings_file_has_them() -> None:

@@ -5,13 +5,18 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
+from checker.report.sarif import help_uri
+from checker.rulebook.discovery import all_rules
 from tests.conftest import SAMPLES
 
 ROOT = SAMPLES.parent
+_PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+DOCUMENTATION = _PROJECT["urls"]["Documentation"]
 pytestmark = pytest.mark.programs
 
 
@@ -36,6 +41,12 @@ def test_every_page_is_there_and_found(site: Path) -> None:
     assert set(found["docnames"]) == set(map(str, pages)) - {"README"}
     assert "diffdriv" in found["terms"]
     assert (site / "search.html").is_file()
+
+
+def test_findings_link_to_the_pages_of_their_rules(site: Path) -> None:
+    for rule in all_rules():
+        page = site / help_uri(rule.id).removeprefix(f"{DOCUMENTATION}/")
+        assert f"<h1>{rule.name} ({rule.id})" in page.read_text("utf-8")
 
 
 def test_the_reference_tells_of_all_public_names(site: Path) -> None:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping
-from textwrap import dedent, wrap
-from typing import Any
+from textwrap import wrap
 
 from checker.base.errors import CheckerError
 from checker.base.output import EXIT_CLEAN, show
@@ -15,6 +13,7 @@ from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options
 from checker.rulebook.pages import parse_page
+from checker.rulebook.shown_examples import ShownFile, shown_examples
 
 _WIDTH = 96
 """Characters of a line that is wrapped here, without its indentation."""
@@ -32,10 +31,9 @@ def page_text(rule: Rule) -> str:
     if rule.options:
         options = _indented("\n".join(map(_option, told_options(rule))))
         parts.append(f"Options, in subt-check.toml below [rules.{rule.id}]:\n{options}")
-    if rule.bad:
-        parts.append("Reported:\n" + _indented(_example(rule.bad[0])))
-    if rule.good:
-        parts.append("Right:\n" + _indented(_example(rule.good[0])))
+    if (examples := shown_examples(rule)) is not None:
+        for label, files in (("Example", examples.bad), ("Use instead", examples.good)):
+            parts.append(f"{label}:\n" + _indented("\n".join(map(_file, files))))
     return "\n\n".join(parts)
 
 
@@ -45,48 +43,10 @@ def _option(option: Option) -> str:
     return "\n".join([*lines, f"{option.name} = {option.default}"])
 
 
-def _example(example: object) -> str:
-    """Show an example: a fragment of model.sdf, or files by their paths."""
-    if not isinstance(example, Mapping):
-        return str(example).strip("\n")
-    return "\n".join(line for path, text in example.items() for line in _lines(path, text))
-
-
-_SHARED = {
-    "@ros2": "launch/arm.launch.py starts an arm that urdf/arm.urdf.xacro describes",
-    "@bridge": "a launch file starts Gazebo, spawns a rover with a lidar and bridges its topics",
-    "@urdf": "urdf/arm.urdf contains an arm with a transmission for its joint",
-}
-"""What the packages hold that examples share."""
-_SHARED_FILES = {
-    "@fragment": "model.sdf:",
-    "@urdf": "urdf/arm.urdf:",
-    "@bridge": "config/bridge.yaml:",
-    "@ros2": "launch/arm.launch.py starts:",
-}
-"""What the text of an example becomes in them."""
-
-
-def _lines(path: str, text: Any) -> Iterator[str]:
-    """Show one entry of an example (see `checker.rule_testing`)."""
-    match path, text:
-        case "@reported" | "@with" | "@profile", _:
-            pass
-        case _, str() if path in _SHARED_FILES:
-            yield f"{_SHARED_FILES[path]}\n{_indented(dedent(text).strip())}"
-        case _ if path in _SHARED:
-            yield _SHARED[path]
-        case "@robot", _:
-            yield f"model.sdf is the robot {text!r} that examples share"
-        case (("@change" | "@launch" | "@links"), _):
-            words = "is a link to" if path == "@links" else "instead of"
-            for first, second in text.items():
-                pair = (first, second) if path == "@links" else (second, first)
-                yield f"{pair[0]} {words} {pair[1]}"
-        case "@name", _:
-            yield f"folder {text}/"
-        case _:
-            yield f"{path} is missing" if text is None else f"{path}:\n{_indented(text.strip())}"
+def _file(file: ShownFile) -> str:
+    """Show a file of an example, or say what is the matter with it."""
+    name = "the package" if file.path == "." else file.path
+    return f"{name}:\n{_indented(file.text)}" if file.text else f"{name} {file.note}"
 
 
 def _indented(text: str) -> str:

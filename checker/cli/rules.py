@@ -1,4 +1,4 @@
-"""`subt-check rules`: lists all rules."""
+"""`subt-check rules`: lists all rules, or writes the schema of settings that names them."""
 
 from __future__ import annotations
 
@@ -16,16 +16,25 @@ from checker.rulebook.pages import parse_page
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
-    parser.add_argument("--format", choices=("text", "json"), default="text")
+    parser.add_argument(
+        "--format",
+        choices=("text", "json", "settings-schema"),
+        default="text",
+        help="settings-schema: the JSON schema of subt-check.toml, for editors",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """List all rules, by group."""
-    if options.format == "json":
-        listed = [_as_dict(rule) for rule in all_rules()]
-        show(json.dumps(listed, indent=2) + "\n")
-        return EXIT_CLEAN
-    show("".join(map(rule_line, all_rules())))
+    match options.format:
+        case "json":
+            show(json.dumps([_as_dict(rule) for rule in all_rules()], indent=2) + "\n")
+        case "settings-schema":
+            from checker.engine.settings_schema import settings_schema
+
+            show(json.dumps(settings_schema(), indent=1, ensure_ascii=False) + "\n")
+        case _:
+            show("".join(map(rule_line, all_rules())))
     return EXIT_CLEAN
 
 

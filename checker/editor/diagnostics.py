@@ -69,7 +69,7 @@ def _of_finding(
                 message=message,
                 severity=_SEVERITIES[finding.severity],
                 code=finding.rule,
-                code_description=lsp.CodeDescription(help_uri(finding)),
+                code_description=lsp.CodeDescription(help_uri(finding.rule)),
                 source=SOURCE,
                 tags=_tags(finding.name),
                 related_information=list(_related(related, package, columns)) or None,

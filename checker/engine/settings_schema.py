@@ -18,7 +18,7 @@ from checker.rulebook.suppression.entries import ENTRIES_LIMIT, PATTERN_LIMIT, R
 from checker.settings import DEVICES_LIMIT
 
 ID = "urn:subt-check:settings:1"
-"""Names no place: the file comes with the distribution. The number changes with the meaning."""
+"""Names no place: each installation writes its own. The number changes with the meaning."""
 _Json = dict[str, Any]
 _TEXTS: _Json = {"type": "array", "items": {"type": "string"}}
 _TYPES: Mapping[type, str] = {bool: "boolean", int: "integer", float: "number", str: "string"}

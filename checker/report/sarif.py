@@ -115,8 +115,8 @@ def _suppressions(item: PackageFinding, folder: str) -> list[Json]:
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 )
-RULE_PAGES = "https://github.com/OWNER/subt-check/blob/main/docs/rules"
-"""The generated pages, in this repository wherever it is kept."""
+RULE_PAGES = "https://OWNER.github.io/subt-check/rules"
+"""The pages of rules on the site that `make docs` builds."""
 RESULTS_LIMIT = 5000
 """Results of a run that code hosts show."""
 NOTIFICATIONS_LIMIT = 1000
@@ -190,7 +190,7 @@ def _rule(finding: ReportedFinding) -> Json:
         "id": finding.rule,
         "name": "".join(word[:1].upper() + word[1:] for word in plain(finding.name).split("-")),
         "shortDescription": {"text": plain(finding.title or finding.name)},
-        "helpUri": help_uri(finding),
+        "helpUri": help_uri(finding.rule),
         "help": {
             "text": "\n\n".join([*text, finding.help]),
             "markdown": "\n\n".join([*marked, f"`{finding.help}`"]),
@@ -203,10 +203,13 @@ def _rule(finding: ReportedFinding) -> Json:
     return rule
 
 
-def help_uri(finding: ReportedFinding) -> str:
-    """Return where the page of a finding's rule is on the web."""
-    group, anchor = finding.rule.rstrip("0123456789"), f"{finding.rule.lower()}-{finding.name}"
-    return f"{RULE_PAGES}/{quote(plain(group))}.md#{quote(plain(anchor))}"
+def help_uri(rule: str) -> str:
+    """Return where the page of a rule is on the web.
+
+    Args:
+        rule: Its id.
+    """
+    return f"{RULE_PAGES}/{quote(plain(rule))}.html"
 
 
 def _invocation(report: Report, left_out: int) -> Json:

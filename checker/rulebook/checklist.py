@@ -6,12 +6,11 @@ from collections.abc import Iterable, Iterator
 
 from checker.base.resources import table
 from checker.rule import Rule
-from checker.rulebook.pages import parse_page
+from checker.rulebook.pages import escaped, parse_page
 
 _TOP = """# The robot model checklist
 
-What reviewers ask of a robot model, in their words, and the rules that judge it. Each one is
-explained by `subt-check rule ID`. This page is generated: `make golden`.
+What reviewers ask of a robot model, in their words, and the rules that judge it.
 """
 
 
@@ -33,9 +32,12 @@ def _covers(pattern: str, rule: Rule) -> bool:
 
 
 def to_markdown(rules: Iterable[Rule]) -> str:
-    """Return docs/checklist.md."""
+    """Return the checklist as a page of the site."""
     blocks = [_TOP]
     for item, judged_by in items(rules):
-        lines = [f"- **{r.id}** {parse_page(r.page).title} ({r.severity})" for r in judged_by]
+        lines = [
+            f"- [{r.id}](rules/{r.id}.md) {escaped(parse_page(r.page).title)} ({r.severity})"
+            for r in judged_by
+        ]
         blocks.append("\n".join([f"## {item[0].upper()}{item[1:]}", "", *lines, ""]))
     return "\n".join(blocks)

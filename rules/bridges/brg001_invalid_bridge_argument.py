@@ -23,10 +23,10 @@ def check(simulations: Simulations) -> Findings:
 
 
 def _bridge(argument: str, mark: str = "") -> dict[str, object]:
-    return {"@bridge": True, "@launch": {"arguments=[]": f'arguments=["{argument}"]{mark}'}}
+    return {"@bridge": True, "@launch": {"arguments=[],": f'arguments=["{argument}"],{mark}'}}
 
 
-_MARK = ",  # ^ BRG001\n#"
+_MARK = "  # ^ BRG001"
 GOOD = [
     {"@bridge": True},
     _bridge("/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan"),

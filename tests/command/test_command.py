@@ -226,8 +226,8 @@ def test_a_rule_is_explained_by_id_or_name(run: Run) -> None:
         "REF001 absolute-uri (error, about portability)",
         "Fix: ",
         "Source: ",
-        "Reported:",
-        "Right:",
+        "Example:",
+        "Use instead:",
     ):
         assert words in by_id.stdout
 

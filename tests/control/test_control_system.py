@@ -13,7 +13,8 @@ from checker.engine.subject import Subject
 from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inputs import open_input
 from checker.ros.control.controllers import ControlSystem
-from checker.rule_testing import URDF_NAME, write_example
+from checker.rule_testing import write_example
+from checker.rulebook.example_files import URDF_NAME
 
 Part = Callable[..., Any]
 

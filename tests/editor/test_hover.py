@@ -361,7 +361,7 @@ def test_every_rule_has_a_page_to_hover() -> None:
         assert page.startswith(f"**{rule.id} {rule.name}**: ")
         assert "**Fix:**" in page
         assert "**Source:**" in page
-        assert f"docs/rules/{rule.group}.md#{rule.id.lower()}-{rule.name})" in page
+        assert f"/rules/{rule.id}.html)" in page
         assert all(f"`{option}` = " in page for option in rule.options)
 
 

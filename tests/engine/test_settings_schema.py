@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.errors import InvalidSettings
+from checker.cli import main
 from checker.engine.options import check_against_rules
 from checker.engine.settings_schema import ID, settings_schema
 from checker.rulebook.discovery import all_rules
@@ -20,7 +21,6 @@ from checker.settings import _KEYS, parse_settings
 from tests.conftest import SAMPLES
 
 ROOT = SAMPLES.parent
-FILE = ROOT / "checker/settings.schema.json"
 SCHEMA = settings_schema()
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 RULES = [rule for rule in all_rules() if rule.options]
@@ -30,11 +30,18 @@ FLOATS = st.floats(-2, 2).filter(lambda number: not number.is_integer())
 VALUES = st.one_of(WORDS, st.booleans(), st.integers(-2, 2), FLOATS, st.lists(WORDS, max_size=2))
 
 
-def test_the_file_is_that_of_the_rules(pytestconfig: pytest.Config) -> None:
-    generated = json.dumps(SCHEMA, indent=1, ensure_ascii=False) + "\n"
-    if pytestconfig.getoption("--update-golden"):
-        FILE.write_text(generated, "utf-8")
-    assert FILE.read_text("utf-8") == generated, "run `make golden`"
+def test_the_command_writes_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules", "--format", "settings-schema"]) == 0
+    assert json.loads(capsys.readouterr().out) == SCHEMA
+
+
+def test_it_describes_every_option_of_every_rule() -> None:
+    described = SCHEMA["properties"]["rules"]["properties"]
+    assert described.keys() == {rule.id for rule in RULES}
+    for rule in RULES:
+        options = described[rule.id]["properties"]
+        defaults = {name: it["default"] for name, it in options.items()}
+        assert defaults == json.loads(json.dumps(rule.options))
 
 
 def test_it_is_a_schema_of_all_keys() -> None:

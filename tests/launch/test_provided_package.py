@@ -14,8 +14,9 @@ from checker.engine.subject import Subject
 from checker.finding import Severity
 from checker.launch.ros1.graph import LaunchGraph
 from checker.package.inputs import open_input
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.example_files import NAME
 from checker.rulebook.profiles import profile
 from checker.settings import Settings
 

@@ -22,7 +22,8 @@ from checker.package.inputs import open_input
 from checker.physics.mesh import process
 from checker.physics.mesh.process import MeshServer, are_new, mesh_server
 from checker.report.scene.processes import StartedProcesses
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
+from checker.rulebook.example_files import NAME
 from tests.mesh.files import binary_stl, box, dae, obj
 
 FUEL = "https://fuel.ignitionrobotics.org/1.0/acme/models"

@@ -16,8 +16,9 @@ from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
 from checker.report.report import Cause
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.example_files import NAME
 from checker.rulebook.profiles import profile
 from checker.settings import Settings
 from tests.effort import examples

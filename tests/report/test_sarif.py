@@ -122,9 +122,7 @@ def test_the_page_of_a_rule_that_found_something_is_carried_along() -> None:
         "Source: SDFormat specification.",
         "subt-check rule SEN005",
     ]
-    page, _, anchor = rule["helpUri"].partition("#")
-    assert page.endswith("/docs/rules/SEN.md")
-    assert anchor == "sen005-lidar-scan-resolution"
+    assert rule["helpUri"].endswith("/rules/SEN005.html")
     assert rule["defaultConfiguration"] == {"level": "error"}
     assert rule["properties"] == {"tags": ["SEN", "interface"]}
 

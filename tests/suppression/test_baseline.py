@@ -13,7 +13,8 @@ from checker.base.errors import InvalidSettings
 from checker.cli.check.baseline import baseline_to_renew
 from checker.finding import Severity
 from checker.report.report import IN_BASELINE
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
+from checker.rulebook.example_files import NAME
 from checker.rulebook.suppression.baseline import (
     ENTRIES_LIMIT,
     SIZE_LIMIT,

@@ -12,7 +12,8 @@ from checker.cli import main
 from checker.finding import Concern, Place, Severity
 from checker.report.report import IN_BASELINE, ReportedFinding, Suppressed, SuppressedBy
 from checker.report.text_report import suppressed_text
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
+from checker.rulebook.example_files import NAME
 from tests.suppression.stage import TYRE, axle, ignore
 
 CHOSEN = ("--no-trial", "--select", "CFG,KIN001")

@@ -10,15 +10,9 @@ from typing import Any
 import pytest
 
 from checker.rule import Rule
-from checker.rule_testing import (
-    MINIMAL,
-    NAME,
-    SPAWNER,
-    model_with,
-    profile_of,
-    write_example,
-)
+from checker.rule_testing import profile_of, write_example
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.example_files import MINIMAL, NAME, SPAWNER, model_with
 from tests.suppression.stage import (
     REASON,
     TYRE,

@@ -10,8 +10,9 @@ from checker.base.errors import InvalidSettings
 from checker.engine.options import check_against_rules
 from checker.finding import Place
 from checker.pipeline import check_package
-from checker.rule_testing import NAME, write_example
+from checker.rule_testing import write_example
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.example_files import NAME
 from checker.rulebook.suppression.entries import SettingsEntry
 from checker.settings import find_settings, parse_settings
 from tests.suppression.stage import REASON, axle, checked, checked_again, found, set_aside

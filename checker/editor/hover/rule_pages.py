@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from urllib.parse import quote
 
-from checker.report.sarif import RULE_PAGES
+from checker.report.sarif import help_uri
 from checker.rule import Rule
 from checker.rulebook.options import told_options
-from checker.rulebook.pages import anchor, escaped, parse_page
+from checker.rulebook.pages import escaped, parse_page
 
 
 def rule_page_markdown(rule: Rule) -> str:
@@ -27,7 +26,7 @@ def _blocks(rule: Rule) -> Iterator[str]:
     if options:
         lines = (f"- `{it.name}` = `{it.default}`: {escaped(it.words)}" for it in options)
         yield "\n".join((f"**Options**, below `[rules.{rule.id}]`:", "", *lines))
-    yield f"[{rule.id} in the rule book]({RULE_PAGES}/{quote(rule.group)}.md#{quote(anchor(rule))})"
+    yield f"[{rule.id} in the rule book]({help_uri(rule.id)})"
 
 
 def _paragraph(text: str) -> str:

@@ -13,8 +13,9 @@ from checker.package.archives.index import ArchiveLimits
 from checker.package.formats import single_file_suffixes
 from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.pages import about, escaped, parse_page, told
+from checker.rulebook.pages import about, escaped, parse_page
 from checker.rulebook.profiles import profile, profile_names
+from checker.rulebook.site import rule_blocks
 from checker.service.jobs.port import Stage, State
 from checker.service.web import receipts
 from checker.service.web.answers.refusal import not_found
@@ -89,7 +90,7 @@ def rule_pages() -> Mapping[str, RulePage]:
         title = _line(escaped(parse_page(rule.page).title))
         entry = RuleEntry(rule.id, rule.name, str(rule.severity), title)
         # Markdown without HTML in it: what is rendered is safe, whoever wrote the rule.
-        body = Markup(_markdown().render("\n\n".join(told(rule))))  # noqa: S704
+        body = Markup(_markdown().render("\n\n".join(rule_blocks(rule))))  # noqa: S704
         pages[rule.id] = RulePage(entry, body)
     return pages
 
