@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 from urllib.parse import unquote
 
@@ -290,6 +291,11 @@ def test_sarif_is_the_one_beside_the_sample(name: str, pytestconfig: pytest.Conf
     beside = SAMPLES / f"{name}.report.sarif"
     report = check_package(SAMPLES / name, Settings(trial=False))
     log = json.loads(to_sarif(replace(report, versions={}), str(SAMPLES)))
+    (invocation,) = log["runs"][0]["invocations"]
+    texts = [it["message"]["text"] for it in invocation["toolExecutionNotifications"]]
+    # Whichever rules miss a part: a new one changes nothing.
+    reasons = {re.sub(r"\w+(?= was not checked: )", "a rule", text) for text in texts}
+    invocation["toolExecutionNotifications"] = sorted(reasons)
     if pytestconfig.getoption("--update-golden"):
         beside.write_text(json.dumps(log, indent=1, ensure_ascii=False) + "\n", "utf-8")
     assert log == json.loads(beside.read_text("utf-8"))
