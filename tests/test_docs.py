@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import re
 import shlex
@@ -46,6 +47,7 @@ DOCUMENTS = [
     ROOT / "docs/api.md",
     ROOT / "docs/editors.md",
     ROOT / "docs/github-actions.md",
+    ROOT / "docs/how-a-finding-is-made.md",
     ROOT / "docs/migrate.md",
     ROOT / "docs/oracles.md",
     ROOT / "docs/pre-commit.md",
@@ -176,6 +178,29 @@ def test_paths_in_the_documents_exist(document: str) -> None:
     ours = re.compile(r"(?:checker|rules|samples|tests|bench|scripts|\.ci)/[\w./-]*")
     named = [span for span in _code_spans(ROOT / document) if ours.fullmatch(span)]
     assert not [path for path in named if not (ROOT / path).exists()]
+
+
+def _defined(file: Path) -> set[str]:
+    """Return the names that a module defines, those of methods behind their class."""
+    names = set()
+    for node in ast.parse(file.read_text("utf-8")).body:
+        match node:
+            case ast.ClassDef(name=name, body=body):
+                methods = (it.name for it in body if isinstance(it, ast.FunctionDef))
+                names |= {name, *(f"{name}.{method}" for method in methods)}
+            case ast.FunctionDef(name=name) | ast.AnnAssign(target=ast.Name(id=name)):
+                names.add(name)
+            case ast.Assign(targets=targets):
+                names |= {it.id for it in targets if isinstance(it, ast.Name)}
+    return names
+
+
+def test_the_way_of_a_finding_names_what_exists() -> None:
+    page = ROOT / "docs/how-a-finding-is-made.md"
+    links = re.findall(r"\[`([\w.]+)`\]\((\S+\.py)\)", page.read_text("utf-8"))
+    assert len(links) > 30
+    gone = [link for link in links if link[0] not in _defined(page.parent / link[1])]
+    assert not gone
 
 
 def test_architecture_names_every_folder() -> None:
