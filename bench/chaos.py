@@ -35,7 +35,7 @@ import httpx
 from bench.killer import Group, Killer
 from bench.service import command_of, options_of, say, server_of, show
 from bench.static import ROOT, keep_bytecode
-from checker.base.sandbox.usage import below
+from checker.base.sandbox.usage import descendant_ids
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import client_of, open_database
 from checker.service.store.locks import lock_of_dead
@@ -201,12 +201,12 @@ def database_away(group: Group, server: int) -> Iterator[None]:
 @contextmanager
 def standing_still(process: int) -> Iterator[None]:
     """Have a process, and all below it, stand still for a while."""
-    for pid in (process, *below(process)):
+    for pid in (process, *descendant_ids(process)):
         os.kill(pid, signal.SIGSTOP)
     try:
         yield
     finally:
-        for pid in (process, *below(process)):
+        for pid in (process, *descendant_ids(process)):
             with suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGCONT)
 

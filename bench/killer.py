@@ -18,7 +18,7 @@ import httpx
 
 from bench.service import command_of, of_service
 from bench.static import ROOT
-from checker.base.sandbox.usage import below
+from checker.base.sandbox.usage import descendant_ids
 from support.postgres import free_port
 
 
@@ -123,12 +123,12 @@ class Group:
 
 def of_group(group: Group, kind: str) -> list[int]:
     """Return the `web` process of a service, or each `worker` of it."""
-    return of_service(below(group.id), kind)
+    return of_service(descendant_ids(group.id), kind)
 
 
 def of_launchers(pids: Sequence[int]) -> list[int]:
     """Return the processes below others that read a stranger's files, with their launchers."""
-    found = [inner for pid in pids for inner in below(pid)]
+    found = [inner for pid in pids for inner in descendant_ids(pid)]
     return [pid for pid in found if b"launcher_process" in command_of(pid)]
 
 

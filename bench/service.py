@@ -18,7 +18,7 @@ from time import perf_counter, sleep
 from typing import Any
 from urllib.parse import urlsplit
 
-from checker.base.sandbox.usage import below
+from checker.base.sandbox.usage import descendant_ids
 from support.postgres import fresh_database, started
 
 _BORDER = "subt-check-bench"
@@ -166,7 +166,7 @@ class Memory:
     def look(self) -> None:
         """Look at all processes again and again."""
         while not self._over.wait(0.5):
-            pids = below(os.getpid())
+            pids = descendant_ids(os.getpid())
             self.all = max(self.all, sum(_status(pid, "VmRSS") for pid in pids))
             web = (_status(pid, "VmHWM") for pid in of_service(pids, "web"))
             self.web = max(self.web, *web, 0.0)

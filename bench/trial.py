@@ -23,7 +23,7 @@ from checker.package.inputs import open_input
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.mjcf.scene import build_scene
 from checker.physics.trial.run import TIMESTEP
-from checker.physics.trial.worker import driven
+from checker.physics.trial.worker import run_trial
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "samples"
@@ -73,7 +73,7 @@ def trial_of(robot: Robot) -> Callable[[], object] | None:
     scene = build_scene(robot, servos=servos, belts=[belt.link for belt in plan.belts])
     if scene.unusable:
         return None
-    return lambda: driven(scene, plan, TIMESTEP)
+    return lambda: run_trial(scene, plan, TIMESTEP)
 
 
 def show(name: str, value: float, remark: str = "") -> None:

@@ -23,9 +23,9 @@ from msgspec.structs import replace
 
 from bench.machine import pace
 from bench.service import Client, of_service, options_of, show
-from checker.base.sandbox.usage import below
+from checker.base.sandbox.usage import descendant_ids
 from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.receipts import key_of_check
 from support.postgres import fresh_database, started
 from support.service import service
@@ -50,7 +50,7 @@ def processor_seconds(pid: int) -> float:
 
 def web_process() -> int:
     """Return the id of the web process below this one."""
-    [found] = of_service(below(os.getpid()), "web")
+    [found] = of_service(descendant_ids(os.getpid()), "web")
     return found
 
 
@@ -63,7 +63,7 @@ class Followed:
     """
 
     def __init__(self, database: str, ids: Sequence[str]) -> None:
-        self.ids, self._checks = ids, prepared(open_database(database))
+        self.ids, self._checks = ids, prepare_database(open_database(database))
         self.happened: dict[tuple[str, int], float] = {}
         keys = {id: key_of_check(id) for id in ids}
         rows = self._checks.rows(keys.values())
@@ -73,7 +73,7 @@ class Followed:
         """Have the check to which nothing happened for longest be tried again, as a worker does."""
         id, task = self._tasks.popleft()
         self.happened[id, 2 * task.number + 1] = time()
-        self._checks.again(task, "goes on")
+        self._checks.retry(task, "goes on")
         self._tasks.append((id, replace(task, number=task.number + 1)))
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any
 
-from checker.base.forked_work import in_fork
+from checker.base.forked_work import run_in_fork
 from checker.base.parts import WorkerFailed
 from checker.formats.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
@@ -82,7 +82,7 @@ def seconds(request: Request, way: Callable[[], None]) -> tuple[float, bool]:
         outcome = processor.expand(*request, {})
         return json.dumps([process_time() - started, "xml" in outcome]).encode()
 
-    result = in_fork(work, _SECONDS)
+    result = run_in_fork(work, _SECONDS)
     if isinstance(result, WorkerFailed):
         raise SystemExit(f"{request[1]} {result.reason}")
     taken, succeeds = json.loads(result)

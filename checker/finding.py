@@ -72,7 +72,7 @@ class Concern(enum.StrEnum):
     PORTABILITY = "portability"
 
     @property
-    def words(self) -> str:
+    def label(self) -> str:
         """What a sentence calls it."""
         return str(self) if self is Concern.PORTABILITY else f"the {self}"
 

@@ -16,12 +16,12 @@ from checker.base.allowance import Allowance, Exceeded
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput, momentary_cause
 from checker.base.extras import PHYSICS
-from checker.base.garbage_collection import collected_between, collection_put_off
+from checker.base.garbage_collection import collect_between, collection_put_off
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.resources import versions
 from checker.base.words import shortened
-from checker.engine.report_cache import memory_key, recalled, remember
+from checker.engine.report_cache import memory_key, recall_report, remember
 from checker.finding import Safety
 from checker.package.inputs import Opened, open_input, with_package_path
 from checker.package.package import Package
@@ -49,7 +49,7 @@ def check_package(path: str | Path, settings: Settings | None = None) -> Report:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    return joined_report([tuple(_opened_and_checked(Task(Path(path), settings=settings)))])
+    return join_reports([tuple(_opened_and_checked(Task(Path(path), settings=settings)))])
 
 
 def check_paths(
@@ -70,7 +70,7 @@ def check_paths(
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    return joined_report(check_tasks(tasks_of(paths, wishes, say, mesh_server), 1))
+    return join_reports(check_tasks(tasks_of(paths, wishes, say, mesh_server), 1))
 
 
 Checked = tuple[PackageReport | NotOpened, ...]
@@ -105,9 +105,9 @@ class Task(Record):
     opening: float = 0.0
 
     @property
-    def shown(self) -> str:
+    def display_path(self) -> str:
         """The path of what is checked as the user would write it."""
-        return self.shown_of(self.package) if self.package else str(self.path)
+        return self.display_path_of(self.package) if self.package else str(self.path)
 
     def settings_for(self, package: Package) -> Settings:
         """Return the settings that judge a package; no search leaves an unpacked archive."""
@@ -120,7 +120,7 @@ class Task(Record):
             folders = chain(inside, folders_above(path.parent))
         return find_settings(folders).overridden(**self.wishes)
 
-    def shown_of(self, package: Package) -> str:
+    def display_path_of(self, package: Package) -> str:
         """Return the package's path as the user would write it."""
         path = self.path.resolve()
         if package.only and path.is_file():
@@ -142,7 +142,7 @@ def tasks_of(
         for task in _tasks_at(Task(path, None, None, wishes, say, mesh_server)):
             unit = (task.package.root, task.package.only) if task.package else (task.path, "")
             tasks.setdefault(unit, task)
-    return sorted(tasks.values(), key=lambda task: (task.shown, bool(task.result)))
+    return sorted(tasks.values(), key=lambda task: (task.display_path, bool(task.result)))
 
 
 def _tasks_at(task: Task) -> Iterator[Task]:
@@ -180,11 +180,11 @@ def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
         InvalidSettings: See `check_paths`.
     """
     if min(jobs, len(tasks)) < 2:
-        yield from map(_checked, collected_between(tasks))
+        yield from map(_checked, collect_between(tasks))
         return
-    from checker.base.process_pool import in_processes
+    from checker.base.process_pool import map_in_processes
 
-    yield from in_processes(_checked, tasks, jobs)
+    yield from map_in_processes(_checked, tasks, jobs)
 
 
 def _checked(task: Task) -> Checked:
@@ -205,14 +205,14 @@ def _opened_and_checked(task: Task) -> Iterator[PackageReport | NotOpened]:
     started = perf_counter()
     with open_input(task.path) as opened:
         task = replace(task, opening=perf_counter() - started)
-        for package in collected_between(opened.packages):
+        for package in collect_between(opened.packages):
             yield _report_of(package, task)
         yield from _not_opened(task.path, opened)
 
 
 def _report_of(package: Package, task: Task) -> PackageReport | NotOpened:
     """Return the report of a package: the remembered one while nothing has changed."""
-    started, shown = perf_counter(), task.shown_of(package)
+    started, shown = perf_counter(), task.display_path_of(package)
     try:
         settings = task.settings_for(package)
         package = with_package_path(package, settings.package_path)
@@ -220,7 +220,7 @@ def _report_of(package: Package, task: Task) -> PackageReport | NotOpened:
         # An archive is unpacked into another folder each time.
         lasts = settings.cache and task.path.is_dir()
         key = memory_key(package, settings) if lasts else ""
-        report = recalled(cache, key, shown)
+        report = recall_report(cache, key, shown)
         if report is None:
             report = _judged(package, shown, settings, cache, task)
             remember(cache, key, report)
@@ -239,9 +239,9 @@ def _judged(
     """Run the rules, which are loaded only now, as readers and engines are."""
     processes = _started_processes(package, settings, cache, task.mesh_server)
     with collection_put_off():
-        from checker.engine.review import judged
+        from checker.engine.review import judge_package
 
-        report = judged(package, shown, settings, cache, task.say, processes)
+        report = judge_package(package, shown, settings, cache, task.say, processes)
         return _with_patch(report, package) if settings.display else report
 
 
@@ -307,7 +307,7 @@ def settings_of(path: Path) -> Iterator[Settings]:
                 yield task.settings_for(package) if lasts else Settings()
 
 
-def joined_report(done: Iterable[Checked]) -> Report:
+def join_reports(done: Iterable[Checked]) -> Report:
     """Join what was checked; a package that was given twice is reported once."""
     packages: dict[tuple[Path, str], PackageReport] = {}
     not_opened: dict[NotOpened, None] = {}

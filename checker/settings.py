@@ -20,10 +20,10 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
+from checker.package.detected_target import detect_target
 from checker.package.index import normal_path
 from checker.package.package import Package
 from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile
-from checker.package.told_target import told_target
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
@@ -131,7 +131,7 @@ class Settings(Record):
 
     def _told_by(self, package: Package) -> Settings:
         """Return the settings with the target that the content of a ROS 2 package tells."""
-        target = told_target(package, self.distro)
+        target = detect_target(package, self.distro)
         profile = CLASSIC_ROS_2 if target.of_classic else self.profile
         return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)
 

@@ -18,7 +18,7 @@ from checker.base.files import NotReadable
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Damaged, from_disk, read, write
 from checker.base.sandbox.launcher import OwnLauncher
-from checker.base.sandbox.task import tightened
+from checker.base.sandbox.task import tighter_limits
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)
 
@@ -239,7 +239,7 @@ ENDLESS = -1
 )
 @example(given=(5, ENDLESS), wanted=(3, 4))
 def test_of_two_limits_the_tighter_holds(given: tuple[int, int], wanted: tuple[int, int]) -> None:
-    soft, hard = tightened(given, *wanted)
+    soft, hard = tighter_limits(given, *wanted)
     assert 0 <= soft <= hard
     for new, old, wish in zip((soft, hard), given, wanted, strict=True):
         assert new in (old, wish)

@@ -21,14 +21,14 @@ from checker.report.report import Cause
 from checker.rule import Concern, Findings, Rule
 from checker.rule_testing import profile_of, write_example
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.options import Option, told_options, words_of, work_of
+from checker.rulebook.options import Option, option_texts, options_of, work_of
 from checker.settings import Settings
 from tests.each import of_each
 
 RULES = [
     rule
     for rule in all_rules()
-    if rule.check.__module__.startswith("rules.") and (rule.options or words_of(rule))
+    if rule.check.__module__.startswith("rules.") and (rule.options or option_texts(rule))
 ]
 
 
@@ -52,7 +52,7 @@ def test_sections_are_read() -> None:
 
     rule = made(check)
     assert work_of(rule) == "Report little.\n\nMore: not an option."
-    assert told_options(rule) == (
+    assert options_of(rule) == (
         Option("least", "0.5", "Metres; `what` is less is reported: always."),
         Option("names", '["a", "b\\""]', "Who is passed over."),
         Option("on", "true", ""),
@@ -64,13 +64,13 @@ def test_a_function_without_a_docstring_tells_nothing() -> None:
         del least
         yield from ()
 
-    assert (work_of(made(check)), words_of(made(check))) == ("", {})
-    assert told_options(made(check)) == (Option("least", "0.5", ""),)
+    assert (work_of(made(check)), option_texts(made(check))) == ("", {})
+    assert options_of(made(check)) == (Option("least", "0.5", ""),)
 
 
 @of_each("rule", RULES, ids=lambda rule: rule.id)
 def test_every_option_is_explained_and_nothing_else(rule: Rule) -> None:
-    words = words_of(rule)
+    words = option_texts(rule)
     assert list(words) == list(rule.options)
     for name, said in words.items():
         assert said[0].isupper() or said[0] in "`0123456789", name

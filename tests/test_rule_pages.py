@@ -14,7 +14,7 @@ from checker.cli.rule import page_text
 from checker.report.sarif import help_uri
 from checker.rule import Concern, Findings, Rule, Severity, rule
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.options import told_options
+from checker.rulebook.options import options_of
 from checker.rulebook.pages import escaped, parse_page
 from checker.rulebook.shown_examples import ShownFile, shown_examples
 from checker.rulebook.site import site_pages
@@ -66,7 +66,7 @@ def test_a_page_has_all_its_parts(rule: Rule) -> None:
     for part in (page.title, page.why, page.fix, page.source):
         for paragraph in part.split("\n\n"):
             assert " ".join(paragraph.replace("`", "").split()).lower() in seen
-    for option in told_options(rule):
+    for option in options_of(rule):
         assert f"| `{option.name}` | `{option.default}` | {escaped(option.words)} |" in text
 
 

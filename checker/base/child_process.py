@@ -139,7 +139,7 @@ class Child:
             self.stop()
 
     @property
-    def given(self) -> int:
+    def bytes_sent(self) -> int:
         """Bytes of its request, with the files that went with it."""
         return os.fstat(self._request.fileno()).st_size
 

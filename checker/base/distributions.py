@@ -22,7 +22,7 @@ def additions() -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
-def added(kind: str) -> Iterator[object]:
+def load_entry_points(kind: str) -> Iterator[object]:
     """Yield what the entry points of a group name.
 
     Args:

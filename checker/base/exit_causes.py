@@ -15,7 +15,7 @@ _MOMENTARY = {
 }
 
 
-def too_slow(seconds: float) -> WorkerFailed:
+def timeout_failure(seconds: float) -> WorkerFailed:
     """Return what is said of a process that needs more processor time than it has."""
     return WorkerFailed(f"needs more than {seconds:g} s of processor time")
 
@@ -33,7 +33,7 @@ def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
     if code == OUT_OF_MEMORY:
         return WorkerFailed(f"needs more than {memory / 1e6:.0f} MB of memory")
     if code == -signal.SIGXCPU:
-        return too_slow(seconds)
+        return timeout_failure(seconds)
     if code is not None and code < 0:
         return WorkerFailed(f"crashed (signal {signal.Signals(-code).name})")
     return WorkerFailed("failed with an error")

@@ -29,7 +29,7 @@ class Extra(Record):
         return all(map(_is_found, self.modules))
 
     @property
-    def missing(self) -> str:
+    def missing_message(self) -> str:
         """Say that it is not installed, and the remedy, as a sentence without its dot."""
         return f"{self.name} is not installed: {self.remedy}"
 
@@ -38,7 +38,7 @@ class Extra(Record):
         """The command that installs it."""
         return f"pip install 'subt-check[{self.name}]'"
 
-    def needed_by(self, what: str) -> None:
+    def require_for(self, what: str) -> None:
         """Go on only where it is installed.
 
         Args:

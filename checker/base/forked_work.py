@@ -13,7 +13,7 @@ from pathlib import Path
 from time import process_time
 from typing import BinaryIO
 
-from checker.base.exit_causes import cause_of, too_slow
+from checker.base.exit_causes import cause_of, timeout_failure
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.task import code_of, end_with_parent, tighter
 
@@ -38,10 +38,10 @@ def as_entry(result: bytes | WorkerFailed) -> bytes:
 
 
 ForkRunner = Callable[[Sequence[Callable[[], bytes]]], list[bytes | WorkerFailed]]
-"""Does work in forks: `in_forks` with its limits given."""
+"""Does work in forks: `run_all_in_forks` with its limits given."""
 
 
-def in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
+def run_in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
     """Return what `work` returns in a fork of this process.
 
     Args:
@@ -58,7 +58,7 @@ def forks_time() -> float:
     return times.children_user + times.children_system
 
 
-def in_forks(
+def run_all_in_forks(
     works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
 ) -> list[bytes | WorkerFailed]:
     """Return what each of several works returns in a fork; one that dies takes no other with it.
@@ -68,7 +68,7 @@ def in_forks(
     after all others, so that they take time from one another alone.
 
     Args:
-        works: See `in_fork`.
+        works: See `run_in_fork`.
         seconds: Of processor time, for each.
         until: When the time for all ends, by `forks_time`; none is begun in its last second.
         late: Why those that are left then have no result.
@@ -76,7 +76,7 @@ def in_forks(
     brief = min(_BRIEF, seconds)
     results = _in_turn(works, brief, until, late)
     if brief < seconds:
-        slow = [number for number, result in enumerate(results) if result == too_slow(brief)]
+        slow = [number for number, result in enumerate(results) if result == timeout_failure(brief)]
         again = _in_turn([works[number] for number in slow], seconds, until, late)
         for number, result in zip(slow, again, strict=True):
             results[number] = result

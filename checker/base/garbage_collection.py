@@ -26,7 +26,7 @@ def collection_put_off() -> Iterator[None]:
             gc.enable()
 
 
-def collected_between(items: Iterable[T]) -> Iterator[T]:
+def collect_between(items: Iterable[T]) -> Iterator[T]:
     """Yield the items; from the second on, what the work on those before has left is collected."""
     for number, item in enumerate(items):
         if number:

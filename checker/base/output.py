@@ -99,7 +99,7 @@ def write(path: Path, content: str | bytes) -> None:
         raise CheckerError(f"{path} cannot be written: {error.strerror}") from None
 
 
-def here() -> Path:
+def current_folder() -> Path:
     """Return the current folder.
 
     Raises:

@@ -15,7 +15,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
-from checker.base.garbage_collection import collected_between
+from checker.base.garbage_collection import collect_between
 
 Given = TypeVar("Given")
 Made = TypeVar("Made")
@@ -23,7 +23,7 @@ _ENDS_SECONDS = 0.3
 """For what is in work to be put away; what is not done then is killed."""
 
 
-def in_processes(
+def map_in_processes(
     work: Callable[[Given], Made], items: Sequence[Given], processes: int
 ) -> Iterator[Made]:
     """Yield what is made of each item, in their order.
@@ -114,7 +114,7 @@ def _serve(connection: Connection, work: Callable[[Any], Any]) -> None:
     # What it has begun is put away on the way out.
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     with suppress(EOFError, BrokenPipeError):
-        for item in collected_between(iter(connection.recv, None)):
+        for item in collect_between(iter(connection.recv, None)):
             try:
                 answer: tuple[bool, Any] = True, work(item)
             except Exception as error:  # noqa: BLE001 - raised where it was asked for

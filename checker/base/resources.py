@@ -79,10 +79,10 @@ def table(name: str) -> Any:
 
 def templates(name: str) -> Path:
     """Return a folder of templates."""
-    return beside("templates") / name
+    return project_folder("templates") / name
 
 
-def beside(name: str) -> Path:
+def project_folder(name: str) -> Path:
     """Return a folder that the wheel has below `subt_check`, and a checkout beside it."""
     installed = _CHECKER / name
     return installed if installed.is_dir() else _CHECKER.parent / name

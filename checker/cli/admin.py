@@ -47,7 +47,7 @@ def _action(
 
 def run(options: argparse.Namespace) -> int:
     """Do what is asked for."""
-    SERVICE.needed_by("admin")
+    SERVICE.require_for("admin")
     from checker.service.processes.admin import admin
 
     return admin(options)

@@ -66,7 +66,7 @@ def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> i
     """
     target = Path(output)
     folder = target if output.endswith(("/", os.sep)) or (output and target.is_dir()) else None
-    done = exported(path, form, apart=folder is not None, cached=cached)
+    done = export_package(path, form, apart=folder is not None, cached=cached)
     for note in done.notes:
         say_progress(plain(shortened(note, 400)))
     if folder is not None:
@@ -80,7 +80,7 @@ def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> i
     return EXIT_CLEAN
 
 
-def exported(path: Path, form: str, *, apart: bool = False, cached: bool = True) -> Exported:
+def export_package(path: Path, form: str, *, apart: bool = False, cached: bool = True) -> Exported:
     """Return the robot of one package in another format.
 
     Args:
@@ -193,6 +193,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write a package's robot in another format."""
-    PHYSICS.needed_by("export")
+    PHYSICS.require_for("export")
     output = options.output or ""
     return export(Path(options.path), options.format, output, cached=not options.no_cache)

@@ -24,7 +24,7 @@ _LINE_LIMIT = 400
 """Characters of a note."""
 
 
-def migrated_and_checked(
+def migrate_and_check(
     source: Path,
     destination: Path,
     wishes: MigrationOptions,
@@ -120,7 +120,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make a package of a description, check it, and say what is left to do."""
-    PHYSICS.needed_by("migrate")
+    PHYSICS.require_for("migrate")
     wishes = MigrationOptions(
         options.organization,
         options.robot,
@@ -138,6 +138,6 @@ def run(options: argparse.Namespace) -> int:
     }
     say = say_progress if sys.stderr.isatty() else say_nothing
     source, destination = Path(options.source), Path(options.destination)
-    text, report = migrated_and_checked(source, destination, wishes, settings, say)
+    text, report = migrate_and_check(source, destination, wishes, settings, say)
     show(text)
     return exit_code(report)

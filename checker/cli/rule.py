@@ -11,7 +11,7 @@ from checker.cli.rules import rule_line
 from checker.engine.options import no_such_rule
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.options import Option, told_options
+from checker.rulebook.options import Option, options_of
 from checker.rulebook.pages import parse_page
 from checker.rulebook.shown_examples import ShownFile, shown_examples
 
@@ -23,13 +23,13 @@ def page_text(rule: Rule) -> str:
     """Return all that is known about a rule."""
     page = parse_page(rule.page)
     parts = [
-        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.words})",
+        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.label})",
         page.title + ".",
         page.why,
     ]
     parts += [f"Fix: {page.fix}", f"Source: {page.source}"]
     if rule.options:
-        options = _indented("\n".join(map(_option, told_options(rule))))
+        options = _indented("\n".join(map(_option, options_of(rule))))
         parts.append(f"Options, in subt-check.toml below [rules.{rule.id}]:\n{options}")
     if (examples := shown_examples(rule)) is not None:
         for label, files in (("Example", examples.bad), ("Use instead", examples.good)):

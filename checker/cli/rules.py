@@ -45,7 +45,7 @@ def rule_line(rule: Rule) -> str:
 
 
 def _as_dict(rule: Rule) -> dict[str, object]:
-    from checker.rulebook.options import words_of
+    from checker.rulebook.options import option_texts
 
     page = parse_page(rule.page)
     return {
@@ -58,5 +58,5 @@ def _as_dict(rule: Rule) -> dict[str, object]:
         "fix": page.fix,
         "source": page.source,
         "options": rule.options,
-        "option_words": words_of(rule),
+        "option_words": option_texts(rule),
     }

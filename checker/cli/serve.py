@@ -58,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until SIGTERM or SIGINT."""
     for extra in (SERVICE, PHYSICS):
-        extra.needed_by("serve")
+        extra.require_for("serve")
     from checker.service.processes.command import serve
 
     return serve(options)

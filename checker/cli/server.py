@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(_options: argparse.Namespace) -> int:
     """Serve until the editor ends it."""
-    EDITOR.needed_by("server")
+    EDITOR.require_for("server")
     from checker.editor.server import serve
 
     serve()

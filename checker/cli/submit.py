@@ -16,8 +16,8 @@ from checker.base.extras import SERVICE
 from checker.base.output import (
     EXIT_CRASH,
     Say,
+    current_folder,
     empty_of,
-    here,
     say_nothing,
     say_progress,
     show,
@@ -49,7 +49,9 @@ _AS_THERE = {"json": ("report.json",), "sarif": ("report.sarif",), "html": (PAGE
 """Formats that are taken as the service wrote them, with the first of these files."""
 
 
-def tell(check: Check, standing: Standing, options: argparse.Namespace, folder: Path) -> Report:
+def print_result(
+    check: Check, standing: Standing, options: argparse.Namespace, folder: Path
+) -> Report:
     """Print the report of a check that is done, write what is wanted of it, and return it.
 
     Args:
@@ -169,7 +171,7 @@ def submit(options: argparse.Namespace, patience: Patience | None = None) -> Rep
     Raises:
         CheckerError: The package or the upload is refused, or the service cannot be used.
     """
-    folder = here()
+    folder = current_folder()
     if options.report:
         empty_of(Path(options.report))
     server, token = parse_server(options.server), _token(options)
@@ -184,7 +186,7 @@ def submit(options: argparse.Namespace, patience: Patience | None = None) -> Rep
     try:
         standing = _waited(check, say)
         if standing.end is End.DONE:
-            return tell(check, standing, options, folder)
+            return print_result(check, standing, options, folder)
     except CheckerError as problem:
         _say(str(problem))
         return None
@@ -276,6 +278,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Have a service check a package, and print the report."""
-    SERVICE.needed_by("submit")
+    SERVICE.require_for("submit")
     report = submit(options)
     return EXIT_CRASH if report is None else exit_code(report)

@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Work until SIGTERM or SIGINT."""
     for extra in (SERVICE, PHYSICS):
-        extra.needed_by("worker")
+        extra.require_for("worker")
     from checker.service.processes.command import worker
 
     return worker(options)

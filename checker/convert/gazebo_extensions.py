@@ -10,7 +10,7 @@ from checker.base.record import Record
 from checker.convert.conversion import CarriedPlugin, Notes
 from checker.convert.gazebo_tags import COPIED
 from checker.convert.names import Naming
-from checker.convert.sdf_shapes import copied
+from checker.convert.sdf_shapes import copy_without_tail
 from checker.convert.xml_writer import is_identity, six_numbers, unique
 from checker.formats.sdf.links import read_plugin
 from checker.formats.sdf.scope import Scope
@@ -64,7 +64,7 @@ class Copier:
             reference: Name that the source's tag refers to, without prefix.
             pose: Of the source's link in that of the result.
         """
-        twin = copied(element.node)
+        twin = copy_without_tail(element.node)
         parent.append(twin)
         name = self._unique_name(element, twin, link)
         self._list_plugins(element, twin, CarriedFrom(link, name, reference))

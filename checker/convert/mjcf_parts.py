@@ -13,7 +13,7 @@ from checker.model.geometry.transform import Transform, rotation_from_quaternion
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.physics.mesh.surface import Surface
-from checker.physics.trial.mjcf.names import numbers, quaternion, well_placed
+from checker.physics.trial.mjcf.names import is_finite_pose, numbers, quaternion
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.report.scene.scene import DisplayScene, Item, Layer
@@ -180,7 +180,7 @@ def _place(pose: Transform) -> dict[str, str]:
 def _place_of(robot: Robot, link: Link, sensor: Sensor) -> Transform | None:
     """Return where a sensor is in its link's frame; None where nobody knows."""
     place = robot.pose_in_link(link, sensor.pose)
-    return place if place is not None and well_placed(place) else None
+    return place if place is not None and is_finite_pose(place) else None
 
 
 def _colour(surface: Surface) -> tuple[float, ...]:

@@ -176,7 +176,7 @@ class ShapeWriter:
             child_of(element, *setting.path).text = setting.value
 
     def _paint(self, element: etree._Element, part: PartOfBody, visual: Visual) -> None:
-        paint = self.materials.of(visual, self._settings_of(part).materials)
+        paint = self.materials.paint_of(visual, self._settings_of(part).materials)
         if paint is not None:
             texture = self.mesh_uri(paint.texture) if paint.texture else ""
             paint.write(element, texture)
@@ -189,13 +189,13 @@ class ShapeWriter:
             for child in blob.children:
                 for there in [node for node in element if node.tag == child.node.tag]:
                     element.remove(there)
-                element.append(copied(child.node))
+                element.append(copy_without_tail(child.node))
 
     def _settings_of(self, part: PartOfBody) -> GazeboSettings:
         return self.settings.get(part.link.name.value, self._nothing)
 
 
-def copied(node: etree._Element) -> etree._Element:
+def copy_without_tail(node: etree._Element) -> etree._Element:
     """Return a copy of an element without the text behind it."""
     twin = copy.deepcopy(node)
     twin.tail = None

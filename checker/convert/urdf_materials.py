@@ -69,7 +69,7 @@ class Materials:
             if paint is not None:
                 self._named.setdefault(element.get("name") or "", paint)
 
-    def of(self, visual: Visual, materials: Sequence[Element]) -> Paint | None:
+    def paint_of(self, visual: Visual, materials: Sequence[Element]) -> Paint | None:
         """Return how a visual looks; None for a look of its own, such as a mesh's.
 
         Args:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from checker.convert.bodies import Body, alone, bodies_of, frame_of, joined_inertial
+from checker.convert.bodies import Body, bodies_of, frame_of, joined_inertial, single_inertial_part
 from checker.convert.conversion import CarriedPlugin, Conversion, Lumped, Notes
 from checker.convert.gazebo_extensions import Copier
 from checker.convert.gazebo_tags import GazeboSettings, gazebo_tags
@@ -176,7 +176,7 @@ _NOTHING = GazeboSettings()
 
 def _add_inertial(link: etree._Element, body: Body) -> None:
     """Add the inertia of a body; one that comes from a single link keeps its numbers."""
-    only = alone(body.parts)
+    only = single_inertial_part(body.parts)
     element = add(link, "inertial")
     if only is not None and only.link.inertial is not None:
         source = only.link.inertial

@@ -23,7 +23,7 @@ _SHOWN = 40
 """Characters of a text that a title shows."""
 
 
-def wanted(
+def code_actions(
     server: Server, document: Document, state: State, context: lsp.CodeActionContext
 ) -> list[lsp.CodeAction]:
     """Return what a client asks for.

@@ -23,7 +23,7 @@ def code(text: str) -> str:
     return f"{fence}{space}{_BACKTICKS.sub('`', text)}{space}{fence}"
 
 
-def words(text: str) -> str:
+def escaped_words(text: str) -> str:
     """Return words of a file or a table, in which Markdown marks nothing."""
     return escaped(shortened(plain(text), _CODE_LIMIT))
 

@@ -61,7 +61,7 @@ class Checked:
 
     def _outcome(self, known: tuple[Rule, ...]) -> Outcome:
         chosen = [rule for rule in known if not is_measured(rule)]
-        return run_and_set_aside(chosen, known, self.subject, Judge.of(self.settings))
+        return run_and_set_aside(chosen, known, self.subject, Judge.from_settings(self.settings))
 
     @property
     def findings(self) -> tuple[ReportedFinding, ...]:

@@ -22,9 +22,9 @@ from checker.editor.measured import Measured
 from checker.editor.server import Server
 from checker.editor.session import Key, Session
 from checker.package.package import Package
-from checker.pipeline import joined_report
+from checker.pipeline import join_reports
 from checker.report.files import PAGE, artefacts
-from checker.report.html.overview import told_trial
+from checker.report.html.overview import trial_sentences
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport
 from checker.report.summary import sentence
@@ -81,7 +81,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         _complain(server, f"not checked: {why}")
         return None
     if not PHYSICS.is_installed:
-        _complain(server, PHYSICS.missing)
+        _complain(server, PHYSICS.missing_message)
         return None
     key, checked = state.unit.key, state.checked
     wishes = {"trial": True, "display": True if display else None}
@@ -141,7 +141,7 @@ def _written(report: PackageReport) -> Path:
     make_folder(folder)
     place = Path(tempfile.mkdtemp(prefix=f"{report.name[:50]}-", dir=folder))
     settings = RenderSettings(Palette(enabled=False), report.path)
-    for name, content in artefacts(joined_report([(report,)]), settings):
+    for name, content in artefacts(join_reports([(report,)]), settings):
         write(place / name, content)
     return place / PAGE
 
@@ -151,7 +151,7 @@ def _drives(report: PackageReport) -> Sequence[str]:
     if report.trial is None:
         return ["The robot was not driven: no drive detected."]
     name: Any = report.facts.get("name")
-    return told_trial(report.trial, str(name or report.name))
+    return trial_sentences(report.trial, str(name or report.name))
 
 
 def _complain(server: Server, message: str) -> None:

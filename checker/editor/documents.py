@@ -49,7 +49,7 @@ class Document(Record, eq=False, dict=True):
         return Document(self.uri, self.path, version, text, self.encoding)
 
 
-def opened(uri: str, version: int, text: str) -> Document | None:
+def open_document(uri: str, version: int, text: str) -> Document | None:
     """Return a file as it was opened; None for what lies on no disk, such as a draft."""
     path = path_of(uri)
     if path is None:

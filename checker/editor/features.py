@@ -7,7 +7,7 @@ from pygls.exceptions import JsonRpcException
 
 from checker.editor import actions, commands
 from checker.editor.assistance import completions, hover
-from checker.editor.documents import opened
+from checker.editor.documents import open_document
 from checker.editor.lenses import lenses_of
 from checker.editor.navigation import Navigator, folds, outline
 from checker.editor.server import Server, real_folders
@@ -72,7 +72,7 @@ def _follow_documents(server: Server) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
     def _(params: lsp.DidOpenTextDocumentParams) -> None:
         item = params.text_document
-        document = opened(item.uri, item.version, item.text)
+        document = open_document(item.uri, item.version, item.text)
         if document is not None:
             session.documents[item.uri] = document
             server.check_soon()
@@ -108,7 +108,7 @@ def _add_actions(server: Server) -> None:
         known = await server.state_of(params.text_document.uri)
         if known is None:
             return []
-        return await server.read(lambda: actions.wanted(server, *known, params.context))
+        return await server.read(lambda: actions.code_actions(server, *known, params.context))
 
 
 def _add_lenses(server: Server) -> None:
@@ -151,16 +151,16 @@ def _add_names(server: Server) -> None:
     async def _(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
         names = await navigator(params.text_document.uri)
         if names is None:
-            raise refused("the file is not part of a package that can be read")
+            raise refusal("the file is not part of a package that can be read")
         documents = list(server.session.documents.values())
         new = params.new_name
-        done = await server.read(lambda: names.renamed(params.position, new, documents))
+        done = await server.read(lambda: names.rename(params.position, new, documents))
         if isinstance(done, str):
-            raise refused(done)
+            raise refusal(done)
         return done
 
 
-def refused(reason: str) -> JsonRpcException:
+def refusal(reason: str) -> JsonRpcException:
     """Return the answer that an editor shows as the reason why it cannot do something."""
     return JsonRpcException(f"cannot rename: {reason}", lsp.LSPErrorCodes.RequestFailed)
 

@@ -52,10 +52,10 @@ class FullCheck:
 
 def _check(answer: Connection, package: Package, settings: Settings) -> None:
     """Check, and send the report."""
-    from checker.engine.review import judged
+    from checker.engine.review import judge_package
 
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     try:
-        answer.send(judged(package, str(package.root), settings, cache, say_nothing))
+        answer.send(judge_package(package, str(package.root), settings, cache, say_nothing))
     except CheckerError as error:
         answer.send(WorkerFailed(str(error)))

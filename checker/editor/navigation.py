@@ -73,7 +73,7 @@ class Navigator:
             return None
         return self._columns.range(source, mention.start, mention.end)
 
-    def renamed(
+    def rename(
         self, position: lsp.Position, new: str, documents: Iterable[Document]
     ) -> lsp.WorkspaceEdit | str:
         """Return what names the thing at a position otherwise, or why it cannot be."""

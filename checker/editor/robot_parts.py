@@ -38,7 +38,7 @@ class RobotParts(Record, eq=False, dict=True):
 
     robots: tuple[Robot, ...]
 
-    def of(self, element: Element) -> Sequence[RobotPart]:
+    def parts_of(self, element: Element) -> Sequence[RobotPart]:
         """Return the parts that an element describes: several where a macro is called again."""
         return self._by_element.get(element, ())
 
@@ -59,7 +59,7 @@ class RobotParts(Record, eq=False, dict=True):
                 if origin is element:
                     yield copy
 
-    def named(
+    def part_named(
         self, name: str, kinds: Iterable[NameKind], scopes: Sequence[str] = ("",)
     ) -> RobotPart | None:
         """Return the part that has a name; the first of the kinds that has one.

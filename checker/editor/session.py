@@ -172,7 +172,7 @@ class Session:
             package = before.checked.package
         else:
             package = with_package_path(unit.package, settings.package_path)
-        if not package.workspace.overlay.changed(overlay):
+        if not package.workspace.overlay.changed_paths(overlay):
             return package
         return package.in_workspace(package.workspace.with_overlay(overlay))
 
@@ -217,7 +217,7 @@ class Session:
             return checked.subject
         overlay = Overlay({**package.workspace.overlay.texts, **bad})
         good = package.in_workspace(package.workspace.with_overlay(overlay))
-        return checked.subject.of(good)
+        return checked.subject.with_package(good)
 
     def names(self, state: State) -> NameIndex | None:
         """Return the names of a package; of files that have not changed they are kept."""
@@ -254,7 +254,7 @@ def path_in(package: Package, file: Path) -> str:
     """Return the path of a file as a package lists it; a sibling's begins with `../`."""
     if file.is_relative_to(package.root):
         return file.relative_to(package.root).as_posix()
-    for other in package.others:
+    for other in package.other_packages:
         if file.is_relative_to(other.root):
             return f"../{other.root.name}/{file.relative_to(other.root).as_posix()}"
     return ""

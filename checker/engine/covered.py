@@ -32,7 +32,7 @@ class Parted(Record):
     covered: list[tuple[GradedFinding, Cover]]
 
 
-def parted_by_cover(said: Sequence[Said]) -> list[Parted]:
+def split_covered(said: Sequence[Said]) -> list[Parted]:
     """Part findings from those that a rule of `covered_by` tells as gravely or more.
 
     It tells the same if it reports the same place; or all related places, which are what a finding

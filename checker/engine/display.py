@@ -62,7 +62,7 @@ def display_of(
     if drawing is not None:
         drawing.give(scene, tuple(shots_of(scene, ASPECT)))
     for spared in _SPARED:
-        glb = glb_of(without(scene, spared))
+        glb = glb_of(without_layers(scene, spared))
         if len(glb) <= BYTES:
             left_out = tuple(f"the layer {layer} is not shown: it is too large" for layer in spared)
             pictures = drawing.pictures if drawing is not None else ()
@@ -70,7 +70,7 @@ def display_of(
     return None
 
 
-def without(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
+def without_layers(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
     """Return a scene without some of its layers."""
     if not layers:
         return scene
@@ -111,7 +111,7 @@ class RobotDisplay(Record, eq=False, dict=True):
         if isinstance(surfaces, MeshFiles):
             surfaces.stop()
 
-    def made(self, trial: Trial | None) -> Display | None:
+    def build(self, trial: Trial | None) -> Display | None:
         """Return the robot in 3D; None where there is nothing to see.
 
         Args:

@@ -35,17 +35,17 @@ def trials_of(
     subject: Subject, outcome: Outcome, known: Sequence[Rule]
 ) -> tuple[dict[str, Any], ...]:
     """Return the trials of a package; of several robots, each says which one it is about."""
-    driven, robots = subject.made(RobotTrial), subject.all(Robot)
+    driven, robots = subject.cached_parts(RobotTrial), subject.all(Robot)
     if isinstance(robots, NotAvailable) or len(robots) < 2:
-        return tuple(measured(each, outcome, known) for each in driven)
+        return tuple(trial_facts(each, outcome, known) for each in driven)
     numbers = {id(robot): number for number, robot in enumerate(robots)}
     return tuple(
-        {"robot": numbers[id(each.robot)], **measured(each, outcome, known, alone=False)}
+        {"robot": numbers[id(each.robot)], **trial_facts(each, outcome, known, alone=False)}
         for each in driven
     )
 
 
-def measured(
+def trial_facts(
     driven: RobotTrial, outcome: Outcome, known: Sequence[Rule], *, alone: bool = True
 ) -> dict[str, Any]:
     """Return what JSON can express of a trial and of what the rules said about its figures.
@@ -203,7 +203,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     robots = subject.all(Robot)
     if isinstance(robots, NotAvailable):
         return ()
-    weighed, driven = subject.made(MassProperties), subject.made(RobotTrial)
+    weighed, driven = subject.cached_parts(MassProperties), subject.cached_parts(RobotTrial)
     facts = [
         dict(
             _finite(
@@ -217,7 +217,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
         for number, robot in enumerate(robots[:ROBOTS_LIMIT])
     ]
     if len(robots) > 1:
-        undriven = next((trials.undriven for trials in subject.made(RobotTrials)), {})
+        undriven = next((trials.undriven for trials in subject.cached_parts(RobotTrials)), {})
         for number, (known, robot) in enumerate(zip(facts, robots, strict=False)):
             known["file"] = robot.document.source.file
             if number in undriven:

@@ -20,7 +20,7 @@ _NAME = re.compile(r"'[^']*'|\S*[\d_/<>]\S*")
 """What a message says of one case: quoted, or with a letter that plain words do not have."""
 
 
-def grouped(findings: Iterable[GradedFinding]) -> list[list[GradedFinding]]:
+def group_findings(findings: Iterable[GradedFinding]) -> list[list[GradedFinding]]:
     """Return the findings of one rule, those together that are told as one, in order.
 
     Those with one key, or one message, are one fault. Many that say the same of different parts

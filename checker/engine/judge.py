@@ -34,18 +34,18 @@ class Judge(Record):
     settings: Settings
 
     @classmethod
-    def of(cls, settings: Settings) -> Judge:
+    def from_settings(cls, settings: Settings) -> Judge:
         """Return the judge with the profile that the settings name."""
         return cls(profile(settings.profile, settings.distro), settings)
 
-    def wanted(self, rule: Rule) -> bool:
+    def is_selected(self, rule: Rule) -> bool:
         """Say whether a rule is to run: one of the profile, or one that the user names itself."""
         needs_trial = not TRIALS.isdisjoint(rule.needs.values())
         return self._asked_for(rule) and (self.settings.trial or not needs_trial)
 
     def needed_parts(self, rules: Iterable[Rule]) -> set[str]:
         """Return the names of the types of parts that the rules to be run ask for."""
-        return {kind for rule in filter(self.wanted, rules) for kind in rule.needs.values()}
+        return {kind for rule in filter(self.is_selected, rules) for kind in rule.needs.values()}
 
     def switched_off(self, rule: Rule) -> Iterator[NotChecked]:
         """Yield why a rule that does not run was switched off; nothing if none asked for it."""
@@ -64,7 +64,7 @@ class Judge(Record):
             return False
         return settings.selects(rule) and (settings.names(rule) or self.profile.includes(rule))
 
-    def graded(self, rule: Rule, finding: Finding) -> GradedFinding:
+    def grade(self, rule: Rule, finding: Finding) -> GradedFinding:
         """Return a finding of a rule with its final severity."""
         severity = self.severity(rule, finding.severity)
         return GradedFinding(**{**asdict(finding), "severity": severity})

@@ -15,14 +15,14 @@ _COMMON = ("/tf", "/tf_static", "/clock", "/diagnostics", "/parameter_events", "
 """Topics that most nodes have, and no picture needs."""
 
 
-def launched_of(subject: Subject) -> tuple[Launched, ...]:
+def launched_files_of(subject: Subject) -> tuple[Launched, ...]:
     """Return the graph of each launch file of ROS 2 that starts a node, if a rule asked for it."""
-    return tuple(map(_launched, subject.made(Wiring)))
+    return tuple(map(_launched, subject.cached_parts(Wiring)))
 
 
 def _launched(wiring: Wiring) -> Launched:
     ends = [it for it in wiring.endpoints if it.certain and it.topic not in _COMMON]
-    names = dict.fromkeys((*(node.called for node in wiring.nodes), *(it.by for it in ends)))
+    names = dict.fromkeys((*(node.label for node in wiring.nodes), *(it.by for it in ends)))
     topics: dict[str, tuple[str, ...]] = {}
     for end in ends:
         topics[end.topic] = tuple(dict.fromkeys((*topics.get(end.topic, ()), *end.types)))

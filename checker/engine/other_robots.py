@@ -45,18 +45,18 @@ def other_descriptions(subject: Subject) -> tuple[UrdfDescription, ...]:
     return () if isinstance(files, NotAvailable) else files.others
 
 
-def with_only(subject: Subject, description: UrdfDescription) -> Subject:
+def with_only_robot(subject: Subject, description: UrdfDescription) -> Subject:
     """Return the package with one robot, which another value of an argument makes."""
-    return subject.having(UrdfFiles((description,)), _SHARED)
+    return subject.with_part(UrdfFiles((description,)), _SHARED)
 
 
-def of_one_robot(rules: Iterable[Rule]) -> list[Rule]:
+def rules_of_one_robot(rules: Iterable[Rule]) -> list[Rule]:
     """Return the rules that look at a robot, and at nothing that more robots may belong to."""
     needs = ((rule, set(rule.needs.values())) for rule in rules)
     return [rule for rule, kinds in needs if kinds & _OF_A_ROBOT and kinds <= _BESIDE]
 
 
-def only_new(added: Outcome, known: Outcome, description: UrdfDescription) -> Outcome:
+def new_findings(added: Outcome, known: Outcome, description: UrdfDescription) -> Outcome:
     """Return what was found in a robot and in none before it; each message names the values.
 
     What could not be looked at is no reason to doubt the robot that the defaults make, and other

@@ -76,7 +76,7 @@ def program_parts() -> list[str]:
     return [code_hash(*OWN_CODE), physics, *libraries, *additions()]
 
 
-def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
+def recall_report(cache: Cache, key: str, shown: str) -> PackageReport | None:
     """Return the report that was remembered under a key; None when there is none."""
     data = cache.get(KIND, key) if key else None
     if data is None:

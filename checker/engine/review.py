@@ -18,15 +18,15 @@ from checker.base.parts import NotAvailable, type_name
 from checker.engine.early_parts import begin, begin_display, begin_meshes
 from checker.engine.facts import facts_of, trials_of
 from checker.engine.judge import Judge
-from checker.engine.launched import launched_of
+from checker.engine.launched import launched_files_of
 from checker.engine.options import check_against_rules
 from checker.engine.other_robots import (
-    of_one_robot,
-    only_new,
+    new_findings,
     other_descriptions,
-    with_only,
+    rules_of_one_robot,
+    with_only_robot,
 )
-from checker.engine.run import Outcome, joined, run_rules, unfinished
+from checker.engine.run import Outcome, join_outcomes, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
@@ -85,15 +85,15 @@ def run_and_set_aside(
     run = partial(run_rules, allowance=subject.allowance)
     outcome = run(first, subject, judge, matcher, unloaded)
     for description in other_descriptions(subject):
-        other = with_only(subject, description)
-        added = run(of_one_robot(first), other, judge, matcher, unloaded)
-        outcome = joined(outcome, only_new(added, outcome, description))
+        other = with_only_robot(subject, description)
+        added = run(rules_of_one_robot(first), other, judge, matcher, unloaded)
+        outcome = join_outcomes(outcome, new_findings(added, outcome, description))
     used = matcher.suppressions(_looked(outcome), settings.source)
-    added = run(of_suppressions, subject.having(used), judge, matcher)
-    outcome = joined(outcome, added)
+    added = run(of_suppressions, subject.with_part(used), judge, matcher)
+    outcome = join_outcomes(outcome, added)
     stale = _stale(matcher, outcome, settings, {rule.id for rule in every})
-    added = run(of_baseline, subject.having(stale), judge, matcher)
-    return joined(outcome, added)
+    added = run(of_baseline, subject.with_part(stale), judge, matcher)
+    return join_outcomes(outcome, added)
 
 
 def _looked(outcome: Outcome) -> set[str]:
@@ -109,7 +109,7 @@ def _stale(
     return BaselineUse(matcher.held.stale(ids, _looked(outcome), path.name if path else ""))
 
 
-def judged(
+def judge_package(
     package: Package,
     shown: str,
     settings: Settings,
@@ -160,7 +160,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     try:
         known = rules(cache)
         check_against_rules(settings, known)
-        return run_and_set_aside(known, known, subject, Judge.of(settings)).findings
+        return run_and_set_aside(known, known, subject, Judge.from_settings(settings)).findings
     finally:
         subject.close()
 
@@ -178,7 +178,7 @@ def _report_or_crash(
 def _report(
     subject: Subject, shown: str, settings: Settings, known: Sequence[Rule]
 ) -> PackageReport:
-    package, judge = subject.package, Judge.of(settings)
+    package, judge = subject.package, Judge.from_settings(settings)
     with subject.stages.stage("rules", "rules"):
         # What needs too much is met again by the rules that ask for it.
         with suppress(Exceeded), subject.allowance.piece():
@@ -190,7 +190,7 @@ def _report(
     unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
     robots, trouble = _piece(subject, "facts", lambda: facts_of(subject))
     trials = trials_of(subject, outcome, known)
-    launched, unwired = _piece(subject, "launched", lambda: launched_of(subject))
+    launched, unwired = _piece(subject, "launched", lambda: launched_files_of(subject))
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,
@@ -248,9 +248,9 @@ def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
     display = subject.one(RobotDisplay)
     if isinstance(display, NotAvailable):
         return None, ()
-    trials = (each.trial for each in subject.made(RobotTrial) if each.robot is robot)
+    trials = (each.trial for each in subject.cached_parts(RobotTrial) if each.robot is robot)
     try:
         with subject.allowance.piece():
-            return display.made(next(trials, None)), ()
+            return display.build(next(trials, None)), ()
     except (Exception, Exceeded) as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (unfinished("display", error),)

@@ -16,8 +16,14 @@ from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts, type_name
 from checker.base.record import Record
 from checker.base.words import shortened
-from checker.engine.covered import Cover, Parted, Said, parted_by_cover
-from checker.engine.grouping import TEXT_LIMIT, bounded_places, grouped, joined_fix, joined_places
+from checker.engine.covered import Cover, Parted, Said, split_covered
+from checker.engine.grouping import (
+    TEXT_LIMIT,
+    bounded_places,
+    group_findings,
+    joined_fix,
+    joined_places,
+)
 from checker.engine.judge import GradedFinding, Judge
 from checker.engine.options import options_of
 from checker.finding import (
@@ -30,7 +36,7 @@ from checker.report.report import Cause, NotChecked, Repeat, ReportedFinding, Su
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
 from checker.rulebook.suppression.finding_places import Spot, spot
-from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
+from checker.rulebook.suppression.matcher import SuppressionMatcher, split_suppressed
 
 
 class Outcome(Record):
@@ -73,7 +79,7 @@ def run_rules(
     not_checked: list[NotChecked] = []
     looked: dict[str, Mapping[str, Any]] = {}
     for rule in rules:
-        if not judge.wanted(rule):
+        if not judge.is_selected(rule):
             not_checked += judge.switched_off(rule)
             continue
         result = _run_isolated(rule, parts, judge, allowance)
@@ -83,7 +89,7 @@ def run_rules(
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
         found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
-        said.append((rule, [judge.graded(rule, each) for each in found]))
+        said.append((rule, [judge.grade(rule, each) for each in found]))
         unchecked = (item.reason for item in result if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [
@@ -103,12 +109,14 @@ def _reported(
     findings: list[ReportedFinding] = []
     suppressed: list[Suppressed] = []
     covered: list[ReportedFinding] = []
-    shares = parted_by_cover(said)
+    shares = split_covered(said)
     repeats = _repeats(shares)
     for each in shares:
         rule = each.rule
         covered += _report(rule, [found for found, _ in each.covered], {})
-        for suppression, group in parted(rule.id, each.told, matcher, partial(_spot, rule)).items():
+        for suppression, group in split_suppressed(
+            rule.id, each.told, matcher, partial(_spot, rule)
+        ).items():
             reported = _report(rule, group, repeats)
             if suppression is None:
                 findings += reported
@@ -165,7 +173,7 @@ def _outcome(
     return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
 
 
-def joined(*outcomes: Outcome) -> Outcome:
+def join_outcomes(*outcomes: Outcome) -> Outcome:
     """Return what different rules said together."""
     looked: dict[str, Mapping[str, Any]] = {}
     for outcome in outcomes:
@@ -192,7 +200,7 @@ def _run_isolated(
         with allowance.piece():
             return [said for argument in arguments for said in rule.check(**argument, **options)]
     except MissingExtra as missing:
-        return NotChecked(rule.id, missing.extra.missing, Cause.SWITCHED_OFF)
+        return NotChecked(rule.id, missing.extra.missing_message, Cause.SWITCHED_OFF)
     except (Exceeded, Exception) as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return unfinished(rule.id, error)
 
@@ -238,7 +246,7 @@ def _report(
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
-    for group in grouped(findings):
+    for group in group_findings(findings):
         first = group[0]
         places = joined_places(group)
         fixes = tuple(finding.fix for finding in group if finding.fix)

@@ -11,7 +11,7 @@ from typing import Any
 from checker.finding import Severity
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.options import words_of
+from checker.rulebook.options import option_texts
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import distro_names, profile_names
 from checker.rulebook.suppression.entries import ENTRIES_LIMIT, PATTERN_LIMIT, REASON_LIMIT
@@ -97,7 +97,7 @@ def _options(rules: Iterable[Rule]) -> _Json:
 
 
 def _options_of(rule: Rule) -> _Json:
-    words = words_of(rule)
+    words = option_texts(rule)
     options = {
         name: {"default": _as_json(default), **_described(_form(default), words.get(name, name))}
         for name, default in rule.options.items()

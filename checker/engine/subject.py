@@ -100,7 +100,7 @@ class Subject(Record, eq=False):
         """Return all parts of a type; at least one."""
         return cast("tuple[T, ...] | NotAvailable", self._part(type_name(kind)))
 
-    def made(self, kind: type[T]) -> tuple[T, ...]:
+    def cached_parts(self, kind: type[T]) -> tuple[T, ...]:
         """Return a part that has been made; nothing when none asked for it or it is missing."""
         had = self._made.get(type_name(kind), ())
         return () if isinstance(had, NotAvailable) else cast("tuple[T, ...]", had)
@@ -126,7 +126,7 @@ class Subject(Record, eq=False):
         made = provider.function(**arguments)
         return made if isinstance(made, NotAvailable | tuple) else (made,)
 
-    def having(self, part: object, kept: Collection[type] | None = None) -> Subject:
+    def with_part(self, part: object, kept: Collection[type] | None = None) -> Subject:
         """Return the same package with another part in place of its own.
 
         Args:
@@ -137,7 +137,7 @@ class Subject(Record, eq=False):
         known = {name: self._made[name] for name in names if name in self._made}
         return replace(self, _made={**known, type_name(type(part)): (part,)})
 
-    def of(self, package: Package) -> Subject:
+    def with_package(self, package: Package) -> Subject:
         """Return the same of another state of the package."""
         return replace(self, package=package, ends=ExitStack(), _made={})
 
@@ -153,9 +153,9 @@ class Subject(Record, eq=False):
     def close(self) -> None:
         """End the processes that are still running or waiting."""
         self.processes.stop()
-        for reader in self.made(MeshServer):
+        for reader in self.cached_parts(MeshServer):
             reader.server.stop()
-        for expander in self.made(Expander):
+        for expander in self.cached_parts(Expander):
             expander.server.stop()
         self.ends.close()
 

@@ -31,7 +31,7 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
         yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
     if not reasons and package.kind is PackageKind.UNKNOWN:
         # Beside packages with robots, one without may hold messages, maps or code.
-        beside = any(other.kind is not PackageKind.UNKNOWN for other in package.others)
+        beside = any(other.kind is not PackageKind.UNKNOWN for other in package.other_packages)
         cause = Cause.NOT_APPLICABLE if beside else Cause.NOT_AT_HAND
         yield NotChecked(ROBOT, _NO_ROBOT, cause)
 

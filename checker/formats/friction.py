@@ -35,7 +35,7 @@ class FrictionReader:
         for element in robot.element.all(tag) if tag else ():
             self.extensions.setdefault(element.get("reference") or "", []).append(element)
 
-    def of(self, link: Link, collision: Collision) -> Friction:
+    def friction_of(self, link: Link, collision: Collision) -> Friction:
         """Return what is stated for a collision; the first engine that says anything counts."""
         stated = collision.element.child("surface", "friction")
         for engine, first, second in _SDF:

@@ -33,7 +33,7 @@ def spawner(package: Package) -> Spawner | NotAvailable:
 
 
 @part
-def spawned(spawner: Spawner) -> SpawnedXml | NotAvailable:
+def spawned_xml(spawner: Spawner) -> SpawnedXml | NotAvailable:
     """Return what the function `spawner` emits."""
     return emitted_xml(SpawnedXml, "spawner", spawner.spawn)
 
@@ -65,6 +65,6 @@ def launch(
 
 
 @part
-def of_ros2(package: Package) -> Ros2Launch | NotAvailable:
+def read_ros2_launch(package: Package) -> Ros2Launch | NotAvailable:
     """Return what the ROS 2 launch files of the package start."""
     return ros2_launch(package)

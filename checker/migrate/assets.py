@@ -87,7 +87,7 @@ class Assets:
         uris = mesh_uris(robot)
         meshes = PackageMeshes(package, uris, NO_CACHE)
         try:
-            for mesh in map(meshes.of, uris):
+            for mesh in map(meshes.load, uris):
                 if isinstance(mesh, Mesh) and mesh.path in self._targets:
                     for named in (*mesh.textures, *mesh.materials):
                         self._add_neighbour(mesh.path, named)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.geometry.boxes import Box
-from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.placed_shapes import place_shapes, union
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 
@@ -105,5 +105,7 @@ def _box(robot: Robot, *, visuals_too: bool) -> Box | None:
     return union(
         piece.box
         for link in robot.links
-        for piece in placed(robot, link, (*link.collisions, *(link.visuals if visuals_too else ())))
+        for piece in place_shapes(
+            robot, link, (*link.collisions, *(link.visuals if visuals_too else ()))
+        )
     )

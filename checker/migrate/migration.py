@@ -33,7 +33,7 @@ from checker.migrate.names import (
     check_names,
     names_for,
 )
-from checker.migrate.new_package import Known, Staging, staged, texts
+from checker.migrate.new_package import Known, Staging, stage_package, texts
 from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.plugins import Judged, Servo, judge_plugins, servos_of
 from checker.migrate.sensors import rewrite_sensors
@@ -117,7 +117,7 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
         names = names_for(wishes, source)
         holder = "" if source.package.only else f" of {source.package.name}"
         log.notes.append(f"robot: {source.description.file}{holder}")
-        with staged(destination, names.package) as staging:
+        with stage_package(destination, names.package) as staging:
             _fill(staging, source, names, wishes, log)
     if not wishes.organization:
         log.points.insert(0, f"the organization's name, here {NO_ORGANIZATION!r} (--organization)")

@@ -74,7 +74,7 @@ class Known(Record, eq=False):
     folders: Sequence[str]
 
     @property
-    def words(self) -> dict[str, Any]:
+    def template_values(self) -> dict[str, Any]:
         """Everything by the names that templates use."""
         drive, facts = self.drive, self.facts
         description = (
@@ -95,7 +95,7 @@ class Known(Record, eq=False):
 
 def texts(known: Known) -> Iterator[tuple[str, str]]:
     """Yield the path and text of each file."""
-    words = known.words
+    words = known.template_values
     spawner = _rendered("spawner.rb", words)
     for name, target in _TARGETS.items():
         # The sheet says on which lines of the spawner the limits stand.
@@ -167,7 +167,7 @@ class Staging(Record):
 
 
 @contextmanager
-def staged(destination: Path, package: str) -> Iterator[Staging]:
+def stage_package(destination: Path, package: str) -> Iterator[Staging]:
     """Have a package written beside its final place; it takes that place when all went well.
 
     The destination may hold other packages: nothing that is there is changed.

@@ -10,7 +10,7 @@ from checker.convert.conversion import CarriedPlugin
 from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.model.components import Joint
 from checker.model.locomotion.locomotion import Side, Wheel
-from checker.model.locomotion.wheels import WheelReader, stands_askew, tread
+from checker.model.locomotion.wheels import WheelReader, is_misaligned, tread
 from checker.model.robot import Robot
 
 _LEVEL = 0.2
@@ -79,7 +79,7 @@ def _named_wheels(robot: Robot, left: Iterable[str], right: Iterable[str], reaso
         wheels = []
         for name in names:
             joint = robot.joints_by_name.get(name)
-            wheel = None if joint is None else reader.below(joint, side, knuckles)
+            wheel = None if joint is None else reader.wheel_below(joint, side, knuckles)
             if wheel is None or wheel.axis is None or wheel.centre is None:
                 raise NotMigrated(
                     f"{name!r} is not a joint that turns a wheel; joints that turn: "
@@ -161,7 +161,7 @@ def _rolling(robot: Robot) -> Iterator[Wheel]:
     for joint in robot.joints[:_JOINTS_LIMIT]:
         if not _is_endless(joint) or reader.parent_of.get(joint) in swivelling:
             continue
-        wheel = reader.below(joint, Side.LEFT, knuckles)
+        wheel = reader.wheel_below(joint, Side.LEFT, knuckles)
         if wheel is not None and wheel.radius and _lies_across(wheel) and _is_round(robot, wheel):
             wheels.append(wheel)
     low = min((_bottom(wheel) for wheel in wheels), default=0.0)
@@ -191,7 +191,7 @@ def _lies_across(wheel: Wheel) -> bool:
 def _is_round(robot: Robot, wheel: Wheel) -> bool:
     """Say whether the wheel rolls on a shape that is round about its axis."""
     rolls = tread(robot, wheel)
-    if rolls is None or stands_askew(robot, wheel):
+    if rolls is None or is_misaligned(robot, wheel):
         return False
     if rolls.shape.geometry.shape in ("cylinder", "sphere", "capsule"):
         return True

@@ -120,7 +120,7 @@ class Plugin(Part):
         return self.name.value.rsplit("::", 1)[-1]
 
     @property
-    def called(self) -> str:
+    def label(self) -> str:
         """What a message calls it: its class, or its library where the name is free to choose."""
         library = "" if "::" in self.name.value else library_stem(self.filename.value)
         return library or self.class_name

@@ -41,7 +41,7 @@ class Controller(Record, eq=False):
         return self.type.value.rpartition("/")[2]
 
     @property
-    def called(self) -> str:
+    def label(self) -> str:
         """What a message calls it."""
         return f"controller {self.name!r}"
 

@@ -111,7 +111,7 @@ class Mesh(Record, dict=True):
 class Meshes(Protocol):
     """Gives the meshes of a robot; all files are read when the first one is asked for."""
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds."""
         ...
 
@@ -119,7 +119,7 @@ class Meshes(Protocol):
 class NoMeshes(Record):
     """For a robot that was read without its package."""
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
         """Say that the file is not available."""
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not searched")
 
@@ -128,7 +128,7 @@ def mesh_of(geometry: Geometry, meshes: Meshes) -> Mesh | MeshFault | None:
     """Return the mesh that a shape consists of; None for other shapes."""
     if geometry.shape != "mesh" or geometry.uri is None:
         return None
-    return _as_used(geometry, meshes.of(geometry.uri))
+    return _as_used(geometry, meshes.load(geometry.uri))
 
 
 def picked_part(geometry: Geometry) -> tuple[str, bool] | None:

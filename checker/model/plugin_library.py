@@ -124,7 +124,7 @@ def library_of_class(release: str, name: str) -> PluginLibrary | None:
     return next((lib for lib in plugin_libraries(release).values() if lib.has_class(name)), None)
 
 
-def lender_of(stem: str) -> str:
+def package_of_library(stem: str) -> str:
     """Return the ROS package that holds a library; empty where none is known."""
     return str(table("gazebo_plugins")["ros_packages"].get(stem, ""))
 

@@ -371,7 +371,7 @@ class Robot(Part, dict=True):
             (shape, shape.geometry.uri) for shape in self.shapes() if shape.geometry.shape == "mesh"
         )
         return tuple(
-            MeshUse(shape, uri, self.meshes.of(uri))
+            MeshUse(shape, uri, self.meshes.load(uri))
             for shape, uri in named
             if uri is not None and uri.value
         )

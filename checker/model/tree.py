@@ -60,7 +60,7 @@ class LinkTree(Record, eq=False, dict=True):
     broken: tuple[BrokenTie, ...]
 
     @cached_property
-    def above(self) -> dict[str, list[Tie]]:
+    def ties_above(self) -> dict[str, list[Tie]]:
         """The ties by which each link hangs on another, by the link; of a tree, one at most."""
         above: dict[str, list[Tie]] = {}
         for tie in self.ties:
@@ -107,7 +107,7 @@ class LinkTree(Record, eq=False, dict=True):
         return RigidBodies(self, {name: first[lead(name)] for name in self.links})
 
     @cached_property
-    def held(self) -> frozenset[str]:
+    def links_fixed_to_world(self) -> frozenset[str]:
         """Links that fixed joints connect to the world, directly or through others."""
         fixed = (tie.child for tie in self.ties if tie.parent == WORLD and _is_fixed(tie))
         return self._with_their_bodies(fixed)
@@ -115,7 +115,7 @@ class LinkTree(Record, eq=False, dict=True):
     @cached_property
     def base(self) -> frozenset[str]:
         """Links that hang on nothing, and those that are fixed to them."""
-        return self._with_their_bodies(name for name in self.links if name not in self.above)
+        return self._with_their_bodies(name for name in self.links if name not in self.ties_above)
 
     def _with_their_bodies(self, names: Iterable[str]) -> frozenset[str]:
         bodies = self.rigid_bodies
@@ -128,8 +128,8 @@ class LinkTree(Record, eq=False, dict=True):
         for start in self.links:
             path: dict[str, Tie] = {}
             at = start
-            while at not in done and at not in path and at in self.above:
-                path[at] = self.above[at][0]
+            while at not in done and at not in path and at in self.ties_above:
+                path[at] = self.ties_above[at][0]
                 at = path[at].parent
             if at in path:
                 names = list(path)

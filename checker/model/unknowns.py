@@ -88,7 +88,7 @@ def _tied_by_broken_joints(tree: LinkTree, apart: Iterable[str]) -> tuple[set[st
 
 def _top(tree: LinkTree, group: list[str]) -> str | None:
     """Return the first link of a group that has no parent."""
-    return next((name for name in group if name not in tree.above), None)
+    return next((name for name in group if name not in tree.ties_above), None)
 
 
 def unplaced_part(robot: Robot) -> str:
@@ -106,7 +106,7 @@ def _unplaced(robot: Robot) -> Iterator[str]:
     for tie in tree.ties:
         if tie.parent == tie.child:
             yield f"joint {tie.joint.name.value!r} connects a link to itself"
-    for child, ties in tree.above.items():
+    for child, ties in tree.ties_above.items():
         if len(ties) > 1:
             yield f"link {child!r} has two parents"
     if any(tree.loops()):

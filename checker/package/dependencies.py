@@ -29,7 +29,7 @@ _CARRIES_NO_PLUGIN = re.compile(
 )
 
 
-class Lenders(Record):
+class AvailablePackages(Record):
     """The packages whose libraries a package can load.
 
     Attributes:
@@ -50,7 +50,7 @@ class Lenders(Record):
         return frozenset(name for package in self.at_hand for name in libraries_of(package))
 
 
-def lenders_of(package: Package) -> Lenders:
+def available_packages(package: Package) -> AvailablePackages:
     """Follow dependencies and loaded Ruby files through the workspace."""
     at_hand = {package.name: package}
     missing: dict[str, None] = {}
@@ -63,7 +63,7 @@ def lenders_of(package: Package) -> Lenders:
             elif dependency.name not in at_hand:
                 at_hand[dependency.name] = dependency
                 waiting.append(dependency)
-    return Lenders(tuple(at_hand.values()), tuple(missing))
+    return AvailablePackages(tuple(at_hand.values()), tuple(missing))
 
 
 def _needs(package: Package) -> Iterator[Reference]:
@@ -204,7 +204,7 @@ _TAKEN = re.compile(
 )
 
 
-def taken_in_vain(package: Package) -> Iterator[Use]:
+def duplicate_files(package: Package) -> Iterator[Use]:
     """Yield the files of other robots' packages that this package has under the same path.
 
     Launch files and robot descriptions are searched. A file that a package's own file of that path

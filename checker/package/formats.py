@@ -10,7 +10,7 @@ from functools import cache
 from importlib import import_module
 from typing import cast
 
-from checker.base.distributions import added
+from checker.base.distributions import load_entry_points
 from checker.base.record import Record
 from checker.base.resources import PACKAGE
 
@@ -42,7 +42,7 @@ class Format(Record):
 def formats() -> tuple[Format, ...]:
     """Return all formats, those of other distributions last."""
     ours = (import_module(f"{PACKAGE}.formats.{name}").FORMAT for name in FORMATS)
-    return (*ours, *(cast("Format", each) for each in added("formats")))
+    return (*ours, *(cast("Format", each) for each in load_entry_points("formats")))
 
 
 def format_of(root: str) -> Format:

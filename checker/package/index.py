@@ -107,7 +107,7 @@ class FileIndex(Record, eq=False, dict=True):
         """Return the files that end in one of the suffixes (`.sdf`), in any case."""
         return tuple(entry for entry in self.files if entry.path.lower().endswith(suffixes))
 
-    def similar(self, path: str) -> tuple[str, ...]:
+    def similar_files(self, path: str) -> tuple[str, ...]:
         """Return files that may be meant by a path that does not exist.
 
         First those that differ in case only, then those of other extension (`.jpg` for `.png`).

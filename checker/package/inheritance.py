@@ -116,7 +116,7 @@ def _may_lend_model(package: Package, other: Reference) -> bool:
     return sibling is not None and own_model(sibling) is not None
 
 
-def lender_of(package: Package, part: str) -> Reference | None:
+def inherited_from(package: Package, part: str) -> Reference | None:
     """Return the mention of the sibling that a part comes from when the package lacks it."""
     if part in NEVER_INHERITED:
         return None
@@ -152,7 +152,7 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
     holder = package
     seen = [package.name]
     while (path := holding(holder)) is None:
-        reference = lender_of(holder, part)
+        reference = inherited_from(holder, part)
         if reference is None or reference.package_name == holder.name:
             return Missing(
                 part, f"{' and '.join(seen)} {'has' if len(seen) == 1 else 'have'} no {part}"
@@ -188,7 +188,7 @@ def inherited_parts(package: Package) -> Iterator[Inherited]:
             yield from _loaded_ruby(package)
             continue
         file = package.model_path if part is Part.MODEL else package.part(part)
-        reference = lender_of(package, part)
+        reference = inherited_from(package, part)
         if reference is None:
             continue
         if isinstance(file, Found) and file.is_inherited:

@@ -16,7 +16,7 @@ from checker.package.kind import (
     holds_loose_models,
     looks_like_package,
 )
-from checker.package.no_package import WHAT_TO_GIVE, found_in, said_of_file
+from checker.package.no_package import WHAT_TO_GIVE, content_of, reason_not_checked
 from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
 from checker.package.workspace import Workspace
@@ -87,7 +87,7 @@ def open_input(
     elif real.is_file() and shown.lower().endswith(single_file_suffixes()):
         yield _open_single(path, real)
     else:
-        raise UnreadableInput(path, *said_of_file(shown))
+        raise UnreadableInput(path, *reason_not_checked(shown))
 
 
 def _resolved(path: Path) -> Path:
@@ -155,7 +155,7 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
         missing = f"contains no package except those that {found.ignored[0]} excludes"
-    elif not enclosing and (instead := found_in(folder)) is not None:
+    elif not enclosing and (instead := content_of(folder)) is not None:
         missing = f"contains no package, but {instead.kind} ({instead.name})"
         advice = instead.advice
     raise UnreadableInput(path, missing, advice)

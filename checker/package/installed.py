@@ -98,7 +98,7 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
     return LeftOut(instead, f"{holder.name}/{folder or path}")
 
 
-def listed(package: Package, path: str) -> tuple[Package, str]:
+def resolve_listed(package: Package, path: str) -> tuple[Package, str]:
     """Return the package that a listed path lies in, and its path there: `../arm/urdf/a.urdf`."""
     name, _, inside = path.removeprefix("../").partition("/")
     holder = package.workspace.package(name) if path.startswith("../") else None

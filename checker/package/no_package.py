@@ -49,7 +49,7 @@ class Instead(Record):
     name: str
 
 
-def said_of_file(name: str) -> tuple[str, str]:
+def reason_not_checked(name: str) -> tuple[str, str]:
     """Return why a file that is neither archive nor model is not checked, and what to give."""
     found = _instead([name])
     if found is None:
@@ -57,7 +57,7 @@ def said_of_file(name: str) -> tuple[str, str]:
     return f"is {found.kind}, not a package, archive or model file", found.advice
 
 
-def found_in(folder: Path) -> Instead | None:
+def content_of(folder: Path) -> Instead | None:
     """Return what a folder without a package holds; None where its names tell nothing."""
     return _instead(list(islice(_names(folder), _FILES_LIMIT)))
 

@@ -72,7 +72,7 @@ class Overlay(Record, eq=False):
             entries[path] = FileEntry(path, file, size, location, file)
         return replace(index, entries=dict(sorted(entries.items())))
 
-    def changed(self, other: Overlay) -> frozenset[Path]:
+    def changed_paths(self, other: Overlay) -> frozenset[Path]:
         """Return the places of files that hold another text in another overlay."""
         every = {*self.texts, *other.texts}
         return frozenset(at for at in every if self.texts.get(at) != other.texts.get(at))

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
+from checker.package.detected_target import simulator_signs
 from checker.package.distribution_sign import DistributionSign, distribution_sign
 from checker.package.formats import xml_suffixes
 from checker.package.index import (
@@ -44,7 +45,6 @@ from checker.package.references import (
     spawner_references,
 )
 from checker.package.repository import units_below
-from checker.package.told_target import simulator_signs
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
@@ -104,7 +104,7 @@ class Package(Record, eq=False, dict=True):
         """Return the package of another state of its workspace."""
         if not self.only:
             return workspace.at(self.root)
-        return self.kept(workspace, self.workspace.overlay.changed(workspace.overlay))
+        return self.kept(workspace, self.workspace.overlay.changed_paths(workspace.overlay))
 
     def kept(self, workspace: Workspace, changed: Collection[Path]) -> Package:
         """Return the package in another state of its workspace, with all that was read before.
@@ -149,7 +149,7 @@ class Package(Record, eq=False, dict=True):
         return (name.text.value if name is not None else "") or self.root.name
 
     @property
-    def others(self) -> tuple[Package, ...]:
+    def other_packages(self) -> tuple[Package, ...]:
         """The other available packages; what is edited in memory is the same package."""
         packages = self.workspace.packages.values()
         return tuple(package for package in packages if package.root != self.root)

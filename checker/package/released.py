@@ -42,7 +42,7 @@ class ReleasedNames:
     def _has(self, name: str) -> bool:
         return self._distro in distributions_with(name) or is_of_system(name)
 
-    def meant(self, name: str) -> str | None:
+    def correction_of(self, name: str) -> str | None:
         """Return the name of which another is a misspelling; None where it may be its own.
 
         Names of packages that are not available are near to others by chance: one letter may be

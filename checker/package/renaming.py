@@ -100,14 +100,14 @@ def _means_package(source: SourceText, start: int, name: str) -> bool:
 
 def _is_used_beside(package: Package, name: str) -> bool:
     """Whether a sibling bears the name or mentions it."""
-    named = (name in (other.root.name, other.declared_name) for other in package.others)
+    named = (name in (other.root.name, other.declared_name) for other in package.other_packages)
     return any(named) or is_mentioned_beside(package, [name])
 
 
 def is_mentioned_beside(package: Package, names: Collection[str]) -> bool:
     """Say whether the text of a sibling package mentions a name, or cannot be read."""
     encoded = [name.encode() for name in names]
-    for other in package.others:
+    for other in package.other_packages:
         for file in other.index.with_suffix(*TEXTS):
             data = other.read_bytes(file.path, _LIMIT)
             if isinstance(data, NotReadable) or any(name in data for name in encoded):

@@ -49,7 +49,7 @@ class Workspace(Record, eq=False, dict=True):
 
     def with_overlay(self, overlay: Overlay) -> Workspace:
         """Return the workspace as if files held other texts; what stays is not read again."""
-        changed = self.overlay.changed(overlay)
+        changed = self.overlay.changed_paths(overlay)
         other = Workspace(self.directories, self.within, overlay)
         for root, package in self._packages.items():
             other._packages[root] = package.kept(other, changed)

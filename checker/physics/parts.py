@@ -20,7 +20,7 @@ from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris, picked
 from checker.physics.mesh.process import MeshServer
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.physics.trial.run import RobotTrials
-from checker.physics.trial.settling import unrest_of
+from checker.physics.trial.settling import unsettled_reason
 from checker.physics.views.sensor_views import RobotViews
 from checker.robots.parts import PlainRobots
 
@@ -53,7 +53,7 @@ def link_inertias(robots: tuple[Robot, ...]) -> tuple[LinkInertias, ...]:
 @part
 def masses(robots: tuple[Robot, ...], cache: Cache, stages: Stages) -> tuple[MassProperties, ...]:
     """Return the robots as Pinocchio weighs them."""
-    PHYSICS.needed_by("mass properties")
+    PHYSICS.require_for("mass properties")
     from checker.physics.mass.robot_mass import weigh
 
     with stages.stage("weigh"):
@@ -65,7 +65,7 @@ def robot_views(
     robots: tuple[Robot, ...], cache: Cache, stages: Stages, reader: MeshServer, ends: ExitStack
 ) -> RobotViews:
     """Return the views of the robots' sensors, as they are being computed."""
-    PHYSICS.needed_by("the view of sensors")
+    PHYSICS.require_for("the view of sensors")
     views = RobotViews(robots, cache, stages, reader.server)
     ends.callback(views.stop)
     return views
@@ -80,22 +80,25 @@ def views(views: RobotViews) -> tuple[SensorViews, ...]:
 @part
 def trials(robots: tuple[Robot, ...], cache: Cache, stages: Stages, ends: ExitStack) -> RobotTrials:
     """Return the trials of the robots, as they are being driven."""
-    PHYSICS.needed_by("the trial")
+    PHYSICS.require_for("the trial")
     trials = RobotTrials(robots, cache, stages)
     ends.callback(trials.stop)
     return trials
 
 
 @part
-def driven(trials: RobotTrials) -> tuple[RobotTrial, ...] | NotAvailable:
+def robot_trials(trials: RobotTrials) -> tuple[RobotTrial, ...] | NotAvailable:
     """Return the robots and their trials."""
     return trials.once
 
 
 @part
-def settled(driven: tuple[RobotTrial, ...]) -> tuple[SettledTrial, ...] | NotAvailable:
+def settled_trials(driven: tuple[RobotTrial, ...]) -> tuple[SettledTrial, ...] | NotAvailable:
     """Return those of them that come to rest before they drive."""
-    reasons = [each.unlike or each.robot.stuck_wheel or unrest_of(each.trial) for each in driven]
+    reasons = [
+        each.invalid_reason or each.robot.stuck_wheel or unsettled_reason(each.trial)
+        for each in driven
+    ]
     fit = [each for each, reason in zip(driven, reasons, strict=True) if not reason]
     unfit = next(filter(None, reasons), "")
     if not fit:
@@ -105,6 +108,6 @@ def settled(driven: tuple[RobotTrial, ...]) -> tuple[SettledTrial, ...] | NotAva
 
 
 @part
-def driven_twice(trials: RobotTrials) -> tuple[RepeatedTrial, ...] | NotAvailable:
+def repeated_trials(trials: RobotTrials) -> tuple[RepeatedTrial, ...] | NotAvailable:
     """Return the robots and their trials, also at half the time step."""
     return trials.twice

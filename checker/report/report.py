@@ -21,7 +21,7 @@ FILES = "files"
 """What `NotChecked.rule` says where files or folders could not be read."""
 ROBOT = "robot"
 """What `NotChecked.rule` says where a robot could not be read."""
-NO_PHYSICS = PHYSICS.missing
+NO_PHYSICS = PHYSICS.missing_message
 """Why rules that need it did not look; like what the user switched off, it hides no error."""
 
 

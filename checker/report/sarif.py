@@ -70,7 +70,7 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
         "ruleId": finding.rule,
         "ruleIndex": index,
         "level": LEVELS[finding.severity],
-        "message": {"text": words(finding.message)},
+        "message": {"text": plain_text(finding.message)},
         "locations": [location(first, package, folder)],
         "partialFingerprints": {"subtCheck/v1": finding.fingerprint},
         "properties": {"package": plain(package.name)},
@@ -91,13 +91,13 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
     return members
 
 
-def words(message: str) -> str:
+def plain_text(message: str) -> str:
     """Return a message in which nothing is a link: SARIF reads `[text](target)` as one."""
     return plain(message).replace("](", "] (")
 
 
 def _related(place: Place, package: PackageReport, folder: str) -> Json:
-    text = words(place.note or place.message or "also here")
+    text = plain_text(place.note or place.message or "also here")
     return {**location(place, package, folder), "message": {"text": text}}
 
 
@@ -222,7 +222,7 @@ def _invocation(report: Report, left_out: int) -> Json:
     for item in report.not_opened:
         level = "error" if item.failed else "note"
         text = f"{plain(item.path)} {plain(item.reason)}"
-        notifications.append({"level": level, "message": {"text": words(text)}})
+        notifications.append({"level": level, "message": {"text": plain_text(text)}})
     notifications = sorted(notifications, key=lambda n: str(n["level"]))[:NOTIFICATIONS_LIMIT]
     if left_out:
         text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
@@ -237,6 +237,6 @@ def _notification(unseen: NotChecked, package: PackageReport) -> Json:
     text = f"{package.name}: {unseen.rule} was not checked: {unseen.reason}"
     return {
         "level": "error" if unseen.cause is Cause.CRASHED else "note",
-        "message": {"text": words(text)},
+        "message": {"text": plain_text(text)},
         "associatedRule": {"id": plain(unseen.rule)},
     }

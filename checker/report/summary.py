@@ -70,8 +70,8 @@ def _errors(package: PackageReport) -> str:
         where = f": {others}" if len(inherited) > 1 else f" in {plain(*inherited)}"
         return f"{count(inherited.total(), 'error')} to fix{where}"
     (first, number), *more = ((concern, own[concern]) for concern in Concern if own[concern])
-    phrases = [f"{count(number, 'error')} of {first.words}"]
-    phrases += [f"{number} of {concern.words}" for concern, number in more]
+    phrases = [f"{count(number, 'error')} of {first.label}"]
+    phrases += [f"{number} of {concern.label}" for concern, number in more]
     return f"{listed(phrases)} to fix" + (f", and {others}" if others else "")
 
 

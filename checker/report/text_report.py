@@ -157,7 +157,7 @@ class TextReport:
         while self._waiting and not self._must_wait(self._waiting[0]):
             yield self._package_text(self._waiting.pop(0))
 
-    def rest(self) -> Iterator[str]:
+    def deferred_lines(self) -> Iterator[str]:
         """Yield what had to wait."""
         self._awaited.clear()
         yield from self.add(())

@@ -46,7 +46,7 @@ class Candidate(Record):
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
-    def assumed(self, number: int, given: Collection[str]) -> dict[str, str]:
+    def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values that are taken for arguments which nobody gives.
 
         Args:

@@ -83,7 +83,7 @@ class PackageDescriptions:
 
     def _wish(self, candidate: Candidate, choice: int = 0) -> Wanted:
         """Return what to expand, with one of the choices for arguments that nobody gives."""
-        assumed = candidate.assumed(choice, self._args)
+        assumed = candidate.assumed_values(choice, self._args)
         args = {**SAMPLE_ARGUMENTS, **candidate.args, **assumed, **self._args}
         return Wanted(candidate.path, args)
 
@@ -222,8 +222,8 @@ class PackageDescriptions:
         The result takes its place in `expanded`. Return why the first one does not fit, and
         what is assumed, by path.
         """
-        assuming = [each for each in self._candidates if each.assumed(0, self._args)]
-        assumed = {each.path: _in_words(each.assumed(0, self._args)) for each in assuming}
+        assuming = [each for each in self._candidates if each.assumed_values(0, self._args)]
+        assumed = {each.path: _in_words(each.assumed_values(0, self._args)) for each in assuming}
         misfits = {each.path: _misfit(expanded.get(each.path), each.path) for each in assuming}
         unfit = [each for each in assuming if misfits[each.path]]
         tried = [(each, number) for each in unfit for number in _further(each)]
@@ -234,7 +234,7 @@ class PackageDescriptions:
             if isinstance(outcome, XmlDocument) and (why := misfits.pop(candidate.path, "")):
                 expanded[candidate.path] = outcome
                 self._taken[candidate.path] = self._wish(candidate, number)
-                taken = _in_words(candidate.assumed(number, self._args))
+                taken = _in_words(candidate.assumed_values(number, self._args))
                 unread.append((candidate, f"{why}; {taken} is used instead"))
                 assumed[candidate.path] = taken
         return unread, assumed

@@ -58,7 +58,7 @@ def resource_path(package: Package, graph: LaunchGraph, *, classic: bool = False
         graph: Of the launch file that starts Gazebo.
         classic: Whether that is Gazebo Classic.
     """
-    packages = (package, *package.others)
+    packages = (package, *package.other_packages)
     folders = [folder for each in packages for folder in searched_folders(each, classic=classic)]
     changes = [change for change in graph.environment if sets_path(change.name, classic=classic)]
     folders += (folder for change in changes for folder in _changed(change))

@@ -6,7 +6,7 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.launch.ros2.bridges.entry import BridgeEntry
-from checker.launch.ros2.bridges.reader import Bridges, loose_bridges, read_bridges
+from checker.launch.ros2.bridges.reader import Bridges, bridges_without_launch, read_bridges
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.model.robot import Robot
 from checker.model.world import World, systems_of
@@ -167,7 +167,7 @@ def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedRead
     graphs = launch.entries if launch is not None else ()
     launched = tuple(_simulation(package, graph, reader) for graph in graphs)
     named = {file for each in launched for file in each.bridges.files}
-    return Simulations(launched, Simulation(None, loose_bridges(package, named)))
+    return Simulations(launched, Simulation(None, bridges_without_launch(package, named)))
 
 
 def _simulation(package: Package, graph: LaunchGraph, reader: SpawnedReader) -> Simulation:

@@ -18,9 +18,9 @@ from checker.launch.ros2.graph import (
     LaunchGraph,
     Node,
     Parameter,
+    display_path,
     is_known,
     share_path,
-    shown,
 )
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -109,7 +109,7 @@ class SpawnedReader:
                     robots.append(spawned)
         return robots, unknown
 
-    def published(self, graph: LaunchGraph) -> Iterator[tuple[Node, Robot]]:
+    def published_robots(self, graph: LaunchGraph) -> Iterator[tuple[Node, Robot]]:
         """Yield the robot_state_publishers that start for certain, each with its robot if known."""
         for description in loaded_descriptions(self._package, graph):
             read = self._robot(description) if _publishes(description) else ""
@@ -128,7 +128,7 @@ class SpawnedReader:
     def _described_robot(self, load: Load) -> _Described | str:
         path = local_path(self._package, load.path)
         if path is None:
-            return f"{shown(load.path)} is not found"
+            return f"{display_path(load.path)} is not found"
         document: object = self._package.xml(path)
         if load.by_xacro:
             wanted = [Wanted(path, load.args)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.launch.ros2.graph import Include, LaunchGraph, Process, share_path, shown
+from checker.launch.ros2.graph import Include, LaunchGraph, Process, display_path, share_path
 from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
 
 _QUIET_COMMANDS = tuple(
@@ -21,7 +21,7 @@ def unread_parts(graph: LaunchGraph) -> Iterator[str]:
         yield "a command may start further nodes"
     for include in graph.includes:
         if include.is_unknown and not _is_of_gazebo(include):
-            yield f"{shown(include.target.value)} is not read"
+            yield f"{display_path(include.target.value)} is not read"
 
 
 def _is_of_gazebo(include: Include) -> bool:

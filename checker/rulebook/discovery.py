@@ -17,7 +17,7 @@ from typing import cast
 
 from msgspec.structs import replace
 
-from checker.base.distributions import added
+from checker.base.distributions import load_entry_points
 from checker.base.errors import CheckerError
 from checker.base.resources import RULES
 from checker.rule import Rule
@@ -46,7 +46,7 @@ def rules_in(package: str) -> tuple[Rule, ...]:
 
 
 def _registered_rules() -> Iterator[Rule]:
-    for module in added("rules"):
+    for module in load_entry_points("rules"):
         try:
             yield from list(_rules_below(cast("ModuleType", module)))
         except Exception as error:

@@ -28,16 +28,16 @@ class Option(Record):
     words: str
 
 
-def told_options(rule: Rule) -> tuple[Option, ...]:
+def options_of(rule: Rule) -> tuple[Option, ...]:
     """Return the options of a rule, in its order."""
-    words = words_of(rule)
+    words = option_texts(rule)
     return tuple(
         Option(name, as_toml(default), words.get(name, ""))
         for name, default in rule.options.items()
     )
 
 
-def words_of(rule: Rule) -> Mapping[str, str]:
+def option_texts(rule: Rule) -> Mapping[str, str]:
     """Return what a rule tells of options, by their names."""
     _, section = _parts(rule)
     return {name: " ".join(words.split()) for name, words in _ENTRY.findall(section)}

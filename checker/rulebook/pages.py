@@ -73,7 +73,7 @@ def _cut(block: str, label: str) -> tuple[str, bool, str]:
 _CODE = re.compile(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", re.DOTALL)
 
 
-def about(members: Sequence[Rule]) -> str:
+def group_description(members: Sequence[Rule]) -> str:
     """Return what a group is about: the docstring of its folder, without its letters."""
     folder = sys.modules[members[0].check.__module__.rpartition(".")[0]]
     docstring = inspect.getdoc(folder) or ""

@@ -8,8 +8,8 @@ from itertools import groupby
 from pathlib import PurePosixPath
 
 from checker.rule import Rule
-from checker.rulebook.options import told_options, work_of
-from checker.rulebook.pages import about, escaped, parse_page
+from checker.rulebook.options import options_of, work_of
+from checker.rulebook.pages import escaped, group_description, parse_page
 from checker.rulebook.profiles import Profile, profile, profile_names
 from checker.rulebook.shown_examples import ShownFile, shown_examples
 
@@ -41,7 +41,7 @@ def _index(book: Iterable[Rule]) -> str:
     lines = ["# Rules", ""]
     for group, members in groupby(book, lambda rule: rule.group):
         rules = list(members)
-        lines += [f"## {group}: {about(rules)}", ""]
+        lines += [f"## {group}: {group_description(rules)}", ""]
         lines += [f"- [{r.id}]({r.id}.md) {escaped(parse_page(r.page).title)}" for r in rules]
         lines.append("")
     return "\n".join(lines)
@@ -56,7 +56,7 @@ def rule_blocks(rule: Rule) -> Iterator[str]:
     """Yield the page of a rule below its heading, block by block."""
     page = parse_page(rule.page)
     judges = ", ".join(_profiles(rule))
-    yield f"Usually **{rule.severity}**; about {rule.concern.words}; in the profiles {judges}."
+    yield f"Usually **{rule.severity}**; about {rule.concern.label}; in the profiles {judges}."
     yield "## What it does"
     yield f"{escaped(page.title)}."
     yield escaped(work_of(rule))
@@ -100,7 +100,7 @@ def _options(rule: Rule) -> Iterator[str]:
         yield "None."
         return
     yield f"In `subt-check.toml`, below `[rules.{rule.id}]`:"
-    rows = [f"| `{o.name}` | `{o.default}` | {escaped(o.words)} |" for o in told_options(rule)]
+    rows = [f"| `{o.name}` | `{o.default}` | {escaped(o.words)} |" for o in options_of(rule)]
     yield "\n".join(["| option | default | meaning |", "|---|---|---|", *rows])
 
 

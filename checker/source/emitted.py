@@ -47,13 +47,13 @@ class Piece(Record):
             span = Span(span.source, span.start + start, span.start + end, span.holder)
         return replace(self, text=self.text[start:end], span=span)
 
-    def influenced(self, parameters: frozenset[str]) -> Piece:
+    def with_influence(self, parameters: frozenset[str]) -> Piece:
         """Return the piece as also influenced by `parameters`."""
         if parameters <= self.parameters:
             return self
         return replace(self, parameters=self.parameters | parameters)
 
-    def rooted(self, span: Span) -> Piece:
+    def with_origin(self, span: Span) -> Piece:
         """Return the piece with `span` as its origin, when it has none."""
         return replace(self, span=span) if self.span is None else self
 

@@ -22,7 +22,7 @@ _GLOBAL = re.compile(r"\$\w+")
 _ZEROS = re.compile(r"0_?\d")
 
 
-def refused(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> SyntaxFault | None:
+def first_refusal(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> SyntaxFault | None:
     """Return the first thing that Ruby refuses.
 
     Args:

@@ -40,7 +40,7 @@ _OPENING = re.compile(r"<<[-~]?[\"'`]?([A-Z]\w*)")
 _WORD_ALONE = re.compile(r"^[ \t]*([A-Z]\w*)[ \t]*$", re.MULTILINE)
 
 
-def repaired(
+def find_repair(
     tree: RubyNode, nodes: Sequence[RubyNode], errors: Sequence[RubyNode]
 ) -> SyntaxFault | None:
     """Return what a text lacks, if one piece, or the pieces that close it, mend all of it."""

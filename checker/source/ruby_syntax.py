@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from checker.source.ruby import RubyNode, heredoc_identifier
-from checker.source.ruby_refusals import refused
-from checker.source.ruby_repairs import SyntaxFault, innermost, repaired
+from checker.source.ruby_refusals import first_refusal
+from checker.source.ruby_repairs import SyntaxFault, find_repair, innermost
 from checker.source.text import Span
 
 _QUOTES = frozenset({'"', "'"})
@@ -31,11 +31,11 @@ def syntax_faults(tree: RubyNode) -> tuple[SyntaxFault, ...]:
     nodes = tree.walk()
     errors = _errors(nodes)
     first = min((_place(node) for node in innermost(errors)), default=len(tree.source.text))
-    for check in (_open_heredoc, _open_string, refused, _side_by_side):
+    for check in (_open_heredoc, _open_string, first_refusal, _side_by_side):
         fault = check(tree, nodes, first)
         if fault is not None:
             return (fault,)
-    fault = repaired(tree, nodes, errors) if errors else None
+    fault = find_repair(tree, nodes, errors) if errors else None
     return (fault,) if fault is not None else ()
 
 

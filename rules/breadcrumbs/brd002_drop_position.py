@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from checker.model.breadcrumbs import breadcrumbs
 from checker.model.geometry.boxes import Box
-from checker.model.geometry.placed_shapes import Placed, placed, union
+from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -52,7 +52,7 @@ def check(
         return
     if not plugins:
         return
-    shapes = [piece for link in robot.links for piece in placed(robot, link, link.collisions)]
+    shapes = [piece for link in robot.links for piece in place_shapes(robot, link, link.collisions)]
     for plugin in plugins:
         if plugin.drop is None:
             continue

@@ -41,7 +41,7 @@ def check(wiring: Wiring) -> Findings:
                 yield finding(
                     entry.passed.gz_topic,
                     f"{plugin.class_name} reports the odometry of {transform.child!r}, bridged to "
-                    f"{_TOPIC}, while {controller.called} publishes the transform of that frame",
+                    f"{_TOPIC}, while {controller.label} publishes the transform of that frame",
                     key=controller.name,
                     related=[(plugin, "reports odometry"), (controller, "also publishes it")],
                 )

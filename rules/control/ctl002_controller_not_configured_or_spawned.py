@@ -27,7 +27,9 @@ def check(control: ControlSystem) -> Findings:
 
 def _unconfigured_controllers(control: ControlSystem) -> Findings:
     """Report spawned controllers; another rule reports those configured in another namespace."""
-    missing = [spawned for spawned in control.spawned if spawned.name not in control.namesakes]
+    missing = [
+        spawned for spawned in control.spawned_controllers if spawned.name not in control.namesakes
+    ]
     if not missing or any(fault.hides for fault in control.faults):
         return
     if control.unread:
@@ -56,13 +58,13 @@ def _unconfigured_controllers(control: ControlSystem) -> Findings:
 def _misspelt(control: ControlSystem) -> dict[str, Controller]:
     """Return the controllers meant by names that are spawned but not configured."""
     names = Suggestions(control.namesakes)
-    spawned = {controller.name for controller in control.spawned}
+    spawned = {controller.name for controller in control.spawned_controllers}
     near = {name: names.near(name) for name in sorted(spawned - control.namesakes.keys())}
     return {name: control.namesakes[meant] for name, meant in near.items() if meant}
 
 
 def _without_type(control: ControlSystem) -> Findings:
-    for spawned in control.spawned:
+    for spawned in control.spawned_controllers:
         controller = control.namesakes.get(spawned.name)
         if controller is not None and controller.type is None:
             yield finding(
@@ -74,7 +76,7 @@ def _without_type(control: ControlSystem) -> Findings:
 
 
 def _never_spawned(control: ControlSystem) -> Findings:
-    started = {controller.name for controller in (*control.spawned, *control.dormant)}
+    started = {controller.name for controller in (*control.spawned_controllers, *control.dormant)}
     # One that a spawner misspells is reported there.
     started |= {controller.name for controller in _misspelt(control).values()}
     idle = [

@@ -30,7 +30,7 @@ def check(control: ControlSystem) -> Findings:
     if control.unread_robot:
         yield unchecked(control.unread_robot)
         return
-    for controller in control.configured.values():
+    for controller in control.configured_controllers.values():
         yield from _mismatches(control, controller)
 
 

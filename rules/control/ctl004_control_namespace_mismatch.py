@@ -26,9 +26,9 @@ def check(control: ControlSystem) -> Findings:
 
 
 def _parameters_elsewhere(control: ControlSystem) -> Findings:
-    for spawned in control.spawned:
+    for spawned in control.spawned_controllers:
         configured = control.namesakes.get(spawned.name)
-        if configured is None or spawned.full_name in control.configured:
+        if configured is None or spawned.full_name in control.configured_controllers:
             continue
         yield finding(
             spawned,
@@ -45,7 +45,7 @@ def _manager_elsewhere(control: ControlSystem) -> Findings:
     if not stated or len(stated) < len(control.plugins):
         return
     managed = {namespace.value for namespace in stated}
-    for spawned in control.spawned:
+    for spawned in control.spawned_controllers:
         if spawned.namespace not in managed:
             yield finding(
                 spawned,
@@ -60,20 +60,20 @@ def _manager_elsewhere(control: ControlSystem) -> Findings:
 
 def _untold_states(control: ControlSystem) -> Findings:
     hidden = any(fault.hides for fault in control.faults)
-    if not control.spawned or control.publishes_states or hidden:
+    if not control.spawned_controllers or control.publishes_states or hidden:
         return
     configured = [
         controller
         for controller in control.controllers
         if controller.kind == "JointStateController"
     ]
-    unknown = any(spawned.name not in control.namesakes for spawned in control.spawned)
+    unknown = any(spawned.name not in control.namesakes for spawned in control.spawned_controllers)
     if configured or unknown:
         return
     if control.unread:
         yield from map(unchecked, control.unread)
         return
-    source = control.namesakes[control.spawned[0].name].span.source
+    source = control.namesakes[control.spawned_controllers[0].name].span.source
     yield finding(
         source.whole(),
         f"no controller of {source.file} publishes the joint states: expected one of type "

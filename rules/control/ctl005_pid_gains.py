@@ -39,7 +39,7 @@ def check(control: ControlSystem, *, least_p: float = 0.0) -> Findings:
         least_p: Proportional gain `p` of a controller, in its own unit; a gain from 0 up to this
             value is reported.
     """
-    for controller in control.configured.values():
+    for controller in control.configured_controllers.values():
         yield from _missing(controller)
         for gains in {id(gain): gain for gain in controller.gains.values()}.values():
             yield from _proportional(controller, gains, least_p)

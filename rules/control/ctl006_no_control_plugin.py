@@ -32,7 +32,7 @@ def check(control: ControlSystem, context: Context) -> Findings:
             transmission,
             f"the robot has {len(control.transmissions)} transmissions, but no plugin "
             "gazebo_ros_control: nothing in Gazebo uses them",
-            severity=None if control.spawned else Severity.INFO,
+            severity=None if control.spawned_controllers else Severity.INFO,
             key="no gazebo_ros_control",
         )
 

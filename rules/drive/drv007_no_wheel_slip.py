@@ -44,7 +44,7 @@ def check(robot: Robot) -> Findings:
 
 def _most(drives: Sequence[WheelDrive]) -> int:
     """Return how many wheels drives turn on the side that has more, each counted once."""
-    sides = ({wheel.joint for drive in drives for wheel in drive.on(side)} for side in Side)
+    sides = ({wheel.joint for drive in drives for wheel in drive.wheels_on(side)} for side in Side)
     return max(map(len, sides))
 
 

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from checker.model.components import Plugin
 from checker.model.locomotion.rotors import GRAVITY
 from checker.model.locomotion.wheel_slip import SlippingWheel, slipping_wheels
-from checker.model.locomotion.wheels import stands_askew
+from checker.model.locomotion.wheels import is_misaligned
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -112,7 +112,7 @@ def _radii(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> I
     wheels = {link.scoped_name: wheel for wheel in robot.locomotion.wheels for link in wheel.body}
     for entry in listed:
         wheel = wheels.get(entry.link)
-        if wheel is None or entry.radius is None or not wheel.radius or stands_askew(robot, wheel):
+        if wheel is None or entry.radius is None or not wheel.radius or is_misaligned(robot, wheel):
             continue
         if abs(entry.radius.value - wheel.radius) > tolerance * wheel.radius:
             yield finding(

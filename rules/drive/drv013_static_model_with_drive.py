@@ -26,7 +26,7 @@ def check(robot: Robot) -> Findings:
         if plugin in moving:
             yield finding(
                 plugin,
-                f"model {robot.name.value!r} is static, so {plugin.called} cannot move it",
+                f"model {robot.name.value!r} is static, so {plugin.label} cannot move it",
                 key="static",
                 related=[(static, "says so")],
             )

@@ -16,7 +16,7 @@ import math
 
 from checker.model.geometry.placed_shapes import Placed
 from checker.model.locomotion.locomotion import Wheel
-from checker.model.locomotion.wheels import askew, tread
+from checker.model.locomotion.wheels import misalignment, tread
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
@@ -36,7 +36,7 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     judged = [(wheel, Severity.ERROR) for wheel in moved.wheels]
     judged += [(wheel, Severity.WARNING) for wheel in moved.undriven]
     for wheel, severity in judged:
-        angle = askew(robot, wheel)
+        angle = misalignment(robot, wheel)
         rolls = tread(robot, wheel)
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
             continue

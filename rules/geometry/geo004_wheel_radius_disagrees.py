@@ -11,7 +11,7 @@ Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.
 from collections.abc import Iterator
 
 from checker.model.locomotion.locomotion import Wheel, WheelDrive
-from checker.model.locomotion.wheels import stands_askew
+from checker.model.locomotion.wheels import is_misaligned
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -40,7 +40,7 @@ def _worst(
     stated = drive.wheel_radius
     off: list[tuple[float, float, Wheel]] = []
     for number, wheel in enumerate(drive.wheels):
-        if wheel.radius is not None and wheel.radius > 0 and not stands_askew(robot, wheel):
+        if wheel.radius is not None and wheel.radius > 0 and not is_misaligned(robot, wheel):
             off.append((abs(stated.value / wheel.radius - 1), -number, wheel))
     if not off:
         return
@@ -53,7 +53,7 @@ def _worst(
     says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
     yield finding(
         stated,
-        f"{drive.plugin.called} {says} {stated.value * times:g} m, but wheel "
+        f"{drive.plugin.label} {says} {stated.value * times:g} m, but wheel "
         f"{wheel.link.name.value!r} has a {length} of {(wheel.radius or 0.0) * times:.4g} m"
         + (f", and {count - 1} more wheels differ" if count > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,

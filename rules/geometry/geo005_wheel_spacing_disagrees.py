@@ -48,7 +48,7 @@ def _message(counted: CountedDistance, least: float, most: float) -> str:
     stated = counted.stated
     says = f"has {counted.tag}" if stated.stated else f"states no {counted.tag}, so it is"
     return (
-        f"{counted.plugin.called} {says} {stated.value:g} m, but its {counted.what} are "
+        f"{counted.plugin.label} {says} {stated.value:g} m, but its {counted.what} are "
         f"{counted.true:.4g} m apart: {stated.value / counted.true:.2g} times, expected {least:g} "
         f"to {most:g}"
     )

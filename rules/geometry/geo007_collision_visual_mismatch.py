@@ -24,9 +24,9 @@ from collections.abc import Iterator, Sequence
 
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box
-from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.placed_shapes import place_shapes, union
 from checker.model.locomotion.locomotion import Wheel
-from checker.model.locomotion.wheels import stands_askew, tread
+from checker.model.locomotion.wheels import is_misaligned, tread
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
@@ -58,7 +58,7 @@ def check(
     exempt = {rotor.link.scoped_name for rotor in robot.locomotion.rotors if rotor.link}
     moved = robot.locomotion
     rolling = {wheel.link.scoped_name: wheel for wheel in (*moved.wheels, *moved.undriven)}
-    exempt |= {name for name, wheel in rolling.items() if stands_askew(robot, wheel)}
+    exempt |= {name for name, wheel in rolling.items() if is_misaligned(robot, wheel)}
     least_mass = mass_share * robot.mass if not robot.unweighed else math.inf
     for link in robot.links:
         name = link.scoped_name
@@ -139,7 +139,7 @@ def _extent(
     robot: Robot, wheel: Wheel, shapes: Sequence[tuple[Link, Collision | Visual]]
 ) -> tuple[float, float] | None:
     """Return from where to where shapes reach along a wheel's axis; None if one is not known."""
-    known = [piece for link, shape in shapes for piece in placed(robot, link, (shape,))]
+    known = [piece for link, shape in shapes for piece in place_shapes(robot, link, (shape,))]
     if wheel.axis is None or not known or len(known) < len(shapes):
         return None
     x, y, z = wheel.axis
@@ -186,7 +186,7 @@ def _box(
 ) -> Box | None:
     """Return the box around all shapes; None when one of them is not known."""
     with_shape = [shape for shape in shapes if shape.geometry.shape]
-    known = list(placed(robot, link, with_shape))
+    known = list(place_shapes(robot, link, with_shape))
     return union(piece.box for piece in known) if len(known) == len(with_shape) else None
 
 

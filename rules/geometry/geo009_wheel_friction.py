@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from checker.formats.friction import Friction, FrictionReader
 from checker.model.components import Collision, Link
-from checker.model.geometry.placed_shapes import placed
+from checker.model.geometry.placed_shapes import place_shapes
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
@@ -33,7 +33,8 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
     reader = FrictionReader(robot)
     across = _mu2_meanings(robot)
     touching = [
-        (link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)
+        (link, shape, reader.friction_of(link, shape))
+        for link, shape in _ground(robot, foot_height)
     ]
     some_state = any(friction.first is not None for _, _, friction in touching)
     for link, shape, friction in touching:
@@ -106,11 +107,11 @@ def _feet(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]]:
         (shape, piece)
         for link in robot.links
         for shape in link.collisions
-        for piece in placed(robot, link, (shape,))
+        for piece in place_shapes(robot, link, (shape,))
     ]
     ground = min((piece.box.low[2] for _, piece in shapes), default=0.0)
     for shape, piece in shapes:
-        moves = piece.link.scoped_name in robot.tree.above
+        moves = piece.link.scoped_name in robot.tree.ties_above
         if moves and piece.box.low[2] <= ground + foot_height:
             yield piece.link, shape
 

@@ -9,7 +9,7 @@ Fix: raise or shrink the collision, or lower the wheels.
 Source: geometry of collisions in the robot's initial pose.
 """
 
-from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
@@ -40,7 +40,7 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
         name = link.scoped_name
         if name in rolling or bodies.of_link[name] not in carrying:
             continue
-        for piece in placed(robot, link, link.collisions):
+        for piece in place_shapes(robot, link, link.collisions):
             clearance = piece.box.low[2] - ground
             # What reaches below the wheels by no more than the tolerance has no room at all.
             if clearance < -tolerance or max(clearance, 0.0) < least_clearance * radius:

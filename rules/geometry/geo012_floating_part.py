@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
-from checker.model.geometry.placed_shapes import Placed, placed, union
+from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -63,7 +63,7 @@ def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
     """Return all shapes of a robot, and those whose extent or place is not known."""
     known: list[Placed] = []
     for link in robot.links:
-        known += placed(robot, link, (*link.collisions, *link.visuals))
+        known += place_shapes(robot, link, (*link.collisions, *link.visuals))
     placed_shapes = {piece.shape for piece in known}
     shapes = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
     return known, [shape for shape in shapes if shape not in placed_shapes]

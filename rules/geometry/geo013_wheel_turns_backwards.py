@@ -79,7 +79,7 @@ def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> 
         if across.get(joint, middle) != middle and is_on is not side:
             yield finding(
                 drive.plugin,
-                f"{drive.plugin.called} lists steering joint {name!r} as {side}, but it is on "
+                f"{drive.plugin.label} lists steering joint {name!r} as {side}, but it is on "
                 f"the {is_on}",
                 key=f"{drive.path} steering",
                 related=[(joint, "the joint")],
@@ -186,7 +186,7 @@ def _swapped_sides(drive: WheelDrive, left: Vector, least_share: float) -> Itera
                 how = f"takes {wheel.name.value!r} for {wheel.side}, unless <legacyMode> is false"
             yield finding(
                 wheel.name,
-                f"{drive.plugin.called} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
+                f"{drive.plugin.label} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
                 "the middle",
                 key=f"{drive.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],
@@ -199,7 +199,7 @@ def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
         if sides.setdefault(wheel.joint.scoped_name, wheel.side) is not wheel.side:
             yield finding(
                 wheel.name,
-                f"{drive.plugin.called} lists {wheel.name.value!r} as left and as right",
+                f"{drive.plugin.label} lists {wheel.name.value!r} as left and as right",
                 key=f"{drive.path} both",
                 related=[(wheel.joint, "the joint")],
             )

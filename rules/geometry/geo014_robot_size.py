@@ -10,7 +10,7 @@ Source: SDFormat and URDF use SI units; ground and air robots from 5 cm and 50 g
 25 m and 50 t.
 """
 
-from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.placed_shapes import place_shapes, union
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
@@ -41,7 +41,7 @@ def check(
     shapes = (
         piece.box
         for link in robot.links
-        for piece in placed(robot, link, (*link.collisions, *link.visuals))
+        for piece in place_shapes(robot, link, (*link.collisions, *link.visuals))
     )
     box = union(shapes)
     if box is not None:

@@ -38,7 +38,7 @@ def check(masses: MassProperties, context: Context) -> Findings:
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
     is_prop = robot.is_prop and not context.of_submissions
     for link in robot.links:
-        if link.scoped_name not in robot.tree.held and not robot.is_still(link):
+        if link.scoped_name not in robot.tree.links_fixed_to_world and not robot.is_still(link):
             for found in _missing(link, automatic=automatic):
                 yield replace(found, severity=Severity.INFO) if is_prop else found
 

@@ -59,7 +59,7 @@ def check(
         elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
             continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            fixed = is_prop or name in masses.robot.tree.held
+            fixed = is_prop or name in masses.robot.tree.links_fixed_to_world
             heavy = masses.share(name) > share and not fixed
             grave = ratio > error_above and not masses.robot.is_mounted(name)
             severity = Severity.ERROR if grave else Severity.WARNING

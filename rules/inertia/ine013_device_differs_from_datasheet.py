@@ -68,7 +68,7 @@ def _device(robot: Robot, link: Link, known: KnownDevices) -> Device | None:
     # Where sensors can be in other files, the name has to do.
     stated = robot.conventions.states_devices
     types = [sensor.type.value for sensor in link.sensors] if stated else None
-    device = known.named(text, types)
+    device = known.find_in_name(text, types)
     return device if device is not None and device.body else None
 
 

@@ -30,7 +30,7 @@ def check(robot: Robot, context: Context) -> Findings:
 
 
 def _second_parents(tree: LinkTree, severity: Severity | None) -> Iterator[Finding]:
-    for child, (first, *others) in tree.above.items():
+    for child, (first, *others) in tree.ties_above.items():
         for other in others:
             yield finding(
                 other.joint,

@@ -31,7 +31,9 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
-    top = next((link for link in robot.links if link.scoped_name not in robot.tree.above), None)
+    top = next(
+        (link for link in robot.links if link.scoped_name not in robot.tree.ties_above), None
+    )
     hint = f"; the root link is {top.scoped_name!r}" if top is not None else ""
     yield finding(robot.name, f"{robot.name.value!r} has no link {base!r}{hint}")
 

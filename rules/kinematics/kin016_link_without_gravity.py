@@ -50,7 +50,7 @@ def _carrying_links(robot: Robot) -> set[str]:
         name = waiting.pop()
         if name not in found:
             found.add(name)
-            waiting += [tie.parent for tie in robot.tree.above.get(name, ())]
+            waiting += [tie.parent for tie in robot.tree.ties_above.get(name, ())]
     return found
 
 

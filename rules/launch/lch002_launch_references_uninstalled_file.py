@@ -46,7 +46,7 @@ _Parts = dict[str, list[SharePath]]
 
 def _with_parts(package: Package, named: NamedPath, parts: _Parts) -> list[SharePath]:
     """Return a path, and the files that a description there includes."""
-    return [named.path, *parts.get(local_file(package, named.path.whole) or "", ())]
+    return [named.path, *parts.get(local_file(package, named.path.full_path) or "", ())]
 
 
 def _parts(package: Package, urdf: UrdfFiles) -> Iterator[tuple[str, list[SharePath]]]:

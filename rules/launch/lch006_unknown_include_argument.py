@@ -10,7 +10,7 @@ navigation2, slam_toolbox and ros_gz, humble to lyrical: arguments of their laun
 """
 
 from checker.base.words import Suggestions
-from checker.launch.ros2.graph import Ros2Launch, shown
+from checker.launch.ros2.graph import Ros2Launch, display_path
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
@@ -27,9 +27,8 @@ def check(launch: Ros2Launch) -> Findings:
                     near = names.near(name)
                     yield finding(
                         value,
-                        f"{include.path or shown(include.target.value)} neither declares nor uses "
-                        f"argument {name!r}"
-                        f"{names.hint(name)}",
+                        f"{include.path or display_path(include.target.value)} neither declares "
+                        f"nor uses argument {name!r}{names.hint(name)}",
                         severity=Severity.WARNING if near else None,
                     )
 

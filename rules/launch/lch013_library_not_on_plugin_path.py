@@ -26,7 +26,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("LCH013", "library-not-on-plugin-path", Severity.WARNING, Concern.INTERFACE)
 def check(simulations: Simulations, package: Package) -> Findings:
     """Report each library once."""
-    packages = (package, *package.others)
+    packages = (package, *package.other_packages)
     named = [
         (plugin, holder, folder)
         for simulation in simulations.launched

@@ -43,7 +43,7 @@ def _missing_names(
         shown = f"program {executable!r} in {what!r}" if executable else f"package {what!r}"
         instead = removed[key]["instead"]
         yield key, f"{distro.capitalize()} has no {shown}: expected {instead}"
-    elif key is None and not distributions_with(name) and (meant := released.meant(name)):
+    elif key is None and not distributions_with(name) and (meant := released.correction_of(name)):
         yield name, f"there is no package {name!r}; did you mean {meant!r}?"
 
 

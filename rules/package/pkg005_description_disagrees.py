@@ -107,7 +107,7 @@ def _described_sensors(description: Located[str], devices: KnownDevices) -> Iter
         mark = _LIST_MARK.match(clause.group())
         start = clause.start() + (mark.end() if mark else 0)
         words = " ".join(text[start : clause.end()].split())
-        device = devices.named_in(words)
+        device = devices.find_in_text(words)
         kind = _kind(words, device)
         if kind not in TYPES:
             # "A front and a rear camera" are two.

@@ -25,7 +25,7 @@ from checker.finding import Fix, Place
 from checker.launch.ros2.graph import Ros2Launch
 from checker.launch.ros2.package_launch import built_by_ament
 from checker.launch.ros2.used_packages import used_packages
-from checker.package.dependencies import Use, former_names, taken_in_vain, uses_in_ros2, uses_of
+from checker.package.dependencies import Use, duplicate_files, former_names, uses_in_ros2, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
@@ -80,7 +80,7 @@ def check(
     uses = [*uses_of(package), *(used_packages(launch) if launch is not None else ())]
     uses += uses_in_ros2(package) if ament else ()
     former = former_names(package, uses)
-    copied = {use.place for use in taken_in_vain(package)}  # PKG012: to be replaced, not declared
+    copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:
         name = use.package_name
         if name in (package.name, manifest.name.value) or use.place in copied:

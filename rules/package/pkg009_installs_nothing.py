@@ -53,7 +53,11 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         if package.exists(path):
             continue
         is_folder = install.kind == "DIRECTORY"
-        alike = [] if is_folder else [name for name in package.index.similar(path) if name != path]
+        alike = (
+            []
+            if is_folder
+            else [name for name in package.index.similar_files(path) if name != path]
+        )
         what = "folder" if is_folder else "file"
         yield finding(
             item,

@@ -13,7 +13,7 @@ another robot is an error, since that one then runs.
 
 from collections.abc import Iterator
 
-from checker.package.dependencies import taken_in_vain
+from checker.package.dependencies import duplicate_files
 from checker.package.inheritance import SHEET, SUBMISSION_NAME, own_sheet
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
@@ -49,7 +49,7 @@ def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TE
             yield from _copied_names(package, text)
         yield from _other_team(package, paperwork.config.description, teams)
     yield from _commands(package, paperwork)
-    for use in taken_in_vain(package):
+    for use in duplicate_files(package):
         yield finding(
             use.place,
             f"{use.how} is of another robot, but {package.name} has this file",

@@ -35,7 +35,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         if name in seen:
             continue
         seen.add(name)
-        meant = None if distributions_with(name) else names.meant(name)
+        meant = None if distributions_with(name) else names.correction_of(name)
         if meant is None:
             others.append(dependency)
         else:

@@ -21,14 +21,14 @@ from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
     classic_plugin,
     is_of_gazebo,
-    lender_of,
     library_stem,
     newer_name,
+    package_of_library,
     plugin_libraries,
     release_label,
     releases_with,
 )
-from checker.package.dependencies import Lenders, lenders_of
+from checker.package.dependencies import AvailablePackages, available_packages
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
@@ -45,7 +45,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
     if not of_release:
         yield unchecked(f"the plugins of {context.release or 'no release'} are not known")
         return
-    lenders = lenders_of(package)
+    lenders = available_packages(package)
     known = lenders.libraries() | of_release.keys()
     suggestions = Suggestions(sorted(known))
     for plugin in host.plugins:
@@ -74,15 +74,17 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
         )
 
 
-def _may_be_lent(stem: str, package: Package, lenders: Lenders) -> bool:
+def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> bool:
     """Whether the package depends on the one that has a library, or says not what it depends on."""
     is_silent = bool(package.only) or not package.exists("package.xml")
-    return lender_of(stem) in lenders.missing or (is_silent and bool(lender_of(stem)))
+    return package_of_library(stem) in lenders.missing or (
+        is_silent and bool(package_of_library(stem))
+    )
 
 
 def _successor(stem: str, package: Package, context: Context) -> str:
     """Say what took the place of a library whose package the distribution does not have."""
-    lender = lender_of(stem)
+    lender = package_of_library(stem)
     removed = table("removed_packages")["names"].get(lender)
     if removed is None or context.distro not in removed["missing_in"]:
         return ""
@@ -96,7 +98,7 @@ def _elsewhere(stem: str, context: Context) -> str:
     """Say which release or package has the library, as the end of a sentence."""
     if context.of_submissions:
         return ""
-    if lender := lender_of(stem):
+    if lender := package_of_library(stem):
         return f"; it is of {lender}, on which package.xml does not depend"
     return "".join(f"; {label} is the first that has it" for label in releases_with(stem)[:1])
 
@@ -119,7 +121,7 @@ def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity
         return None
     if context.of_classic and stem.startswith("gazebo_ros"):
         return None if suggestions.sure(stem) else Severity.INFO
-    return Severity.WARNING if lender_of(stem) else Severity.INFO
+    return Severity.WARNING if package_of_library(stem) else Severity.INFO
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)

@@ -65,7 +65,7 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
             hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
             yield finding(
                 element,
-                f"{plugin.called} does not read <{element.tag}>{hint}",
+                f"{plugin.label} does not read <{element.tag}>{hint}",
                 severity=Severity.INFO if element.tag in harmless else None,
             )
 

@@ -24,8 +24,8 @@ def check(robot: Robot) -> Findings:
         if is_of_gazebo(stem) and of_worlds.intersection(systems_of(plugin)):
             yield finding(
                 plugin,
-                f"{plugin.called} serves the whole world: a world that loads it too runs it twice",
-                key=plugin.called,
+                f"{plugin.label} serves the whole world: a world that loads it too runs it twice",
+                key=plugin.label,
             )
 
 

@@ -19,7 +19,7 @@ from checker.base.resources import table
 from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import library_stem, plugin_libraries
-from checker.package.dependencies import lenders_of
+from checker.package.dependencies import available_packages
 from checker.package.package import Package
 from checker.rule import (
     Concern,
@@ -48,7 +48,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
     if host.unread:
         yield unchecked(host.unread)
     here, renamed = plugin_libraries(context.release), table("gazebo_classic_ros2")["ros_1"]
-    built = lenders_of(package).libraries()
+    built = available_packages(package).libraries()
     for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
         known: Mapping[str, Any] | None = renamed["libraries"].get(stem)

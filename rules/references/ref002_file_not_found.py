@@ -16,7 +16,7 @@ resource_retriever: the share folder of the installed package.
 from collections.abc import Iterator
 
 from checker.model.robot import Robot
-from checker.package.installed import left_out, listed
+from checker.package.installed import left_out, resolve_listed
 from checker.package.package import Package
 from checker.package.uris import Unknown, path_behind
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -49,7 +49,7 @@ def check(package: Package, robot: Robot) -> Findings:
 
 def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:
     """Report a file that its package has and does not install."""
-    left = left_out(package, *listed(package, path))
+    left = left_out(package, *resolve_listed(package, path))
     if left is not None:
         yield finding(
             uri,
@@ -60,7 +60,7 @@ def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -
 
 
 def _hint(package: Package, path: str) -> str:
-    alike = [other for other in package.index.similar(path) if other != path]
+    alike = [other for other in package.index.similar_files(path) if other != path]
     return f"; did you mean {alike[0]}?" if alike else ""
 
 

@@ -26,7 +26,7 @@ from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Link, Plugin, Sensor
 from checker.model.plugin_library import gazebo_libraries, library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.package.dependencies import lenders_of
+from checker.package.dependencies import available_packages
 from checker.package.package import Package
 from checker.ros.topics import comparable, sensor_channels
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -128,7 +128,7 @@ def _own_libraries(package: Package, release: str) -> _Own:
 
     What nobody holds publishes nothing: PLG002 reports it.
     """
-    lenders, known = lenders_of(package), plugin_libraries(release)
+    lenders, known = available_packages(package), plugin_libraries(release)
     held, anywhere = lenders.libraries(), bool(lenders.unknown)
 
     def is_own(plugin: Plugin) -> bool:

@@ -117,7 +117,7 @@ def _by_device(bridge: Bridge, channel: Channel | None, devices: KnownDevices) -
         return
     words = spaced(_name(bridge)).lower()
     match = _DEVICE.search(words)
-    device = devices.named_in(words)
+    device = devices.find_in_text(words)
     if (match is None and device is None) or _PLACE.search(words):
         return
     called = match.group() if match is not None else device.name if device is not None else ""

@@ -9,7 +9,7 @@ Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 """
 
 from checker.formats.xacro.files import ROOT
-from checker.package.installed import left_out, listed
+from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import ParametersFile, RobotControl
@@ -31,7 +31,7 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
         if not manager.files:
             yield finding(
                 manager,
-                f"{manager.plugin.called} has no <parameters>: the controller manager that it "
+                f"{manager.plugin.label} has no <parameters>: the controller manager that it "
                 "starts has no parameters",
                 severity=Severity.WARNING,
             )
@@ -41,7 +41,7 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
             elif file.path is not None and not file.exists:
                 yield finding(file.text, f"{_label(file)} does not exist (looked for {file.path})")
             elif file.path is not None and file.package:
-                holder, path = listed(package, file.path)
+                holder, path = resolve_listed(package, file.path)
                 # Under another path than in the source it was found because it is installed there.
                 left = left_out(package, holder, path) if path == _path_below_share(file) else None
                 if left is not None:

@@ -58,14 +58,14 @@ def _faults(
             where = "is in no <ros2_control> tag" if exists else "the robot does not have"
             yield finding(
                 claim.joint,
-                f"{controller.called} names joint {name!r}, which {where}{suggestions.hint(name)}",
+                f"{controller.label} names joint {name!r}, which {where}{suggestions.hint(name)}",
                 key=f"{name} {controller.name}",
             )
     for sensor in sensors_of(controller):
         if sensor.value not in control.components:
             yield finding(
                 sensor,
-                f"{controller.called} reads {sensor.value!r}, which is not a sensor or gpio of "
+                f"{controller.label} reads {sensor.value!r}, which is not a sensor or gpio of "
                 f"<ros2_control>{suggestions.hint(sensor.value)}",
             )
 
@@ -81,7 +81,7 @@ def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iter
                 has = f"it offers {listed(names)}" if names else "it offers none"
                 yield finding(
                     claim.joint,
-                    f"{controller.called} needs the {kind} interface {name!r} of joint "
+                    f"{controller.label} needs the {kind} interface {name!r} of joint "
                     f"{claim.joint.value!r}, but {has}",
                     key=f"{controller.name} {kind} {name}",
                     related=[(joint, "the joint in <ros2_control>")],

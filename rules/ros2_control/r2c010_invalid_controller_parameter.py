@@ -58,7 +58,7 @@ def check(control: RobotControl, context: Context) -> Findings:
             declared = known.parameter(name)
             kind = declared.type if declared and known.known_in(name, distribution) else ""
             kind = kind or _OF_ALL.get(name, "")
-            yield from _mistyped(controller.parameters[name], kind, controller.called)
+            yield from _mistyped(controller.parameters[name], kind, controller.label)
 
 
 def _missing(
@@ -77,7 +77,7 @@ def _missing(
     lacks = f"has no {listed(wanting)}" if own else f"has no block, but needs {listed(wanting)}"
     yield finding(
         controller.span,
-        f"{controller.called} {lacks}{'' if own else blocks.hint(controller.name)}",
+        f"{controller.label} {lacks}{'' if own else blocks.hint(controller.name)}",
         severity=None if own else Severity.WARNING,
     )
 

@@ -51,7 +51,7 @@ def check(control: RobotControl, context: Context) -> Findings:
                 what = f"is not a parameter of it{suggestions.hint(name)}"
             yield finding(
                 parameter.key,
-                f"{name} of {controller.called} ({controller.type.value}) {what}",
+                f"{name} of {controller.label} ({controller.type.value}) {what}",
                 severity=Severity.INFO if elsewhere and not grave else None,
             )
 

@@ -39,9 +39,9 @@ def check(launched: LaunchedControl, package: Package) -> Findings:
     if not launched.managers and not in_gazebo:
         yield from _no_manager(launched)
         return
-    listed = launched.listed
+    listed = launched.listed_controllers
     for spawner in launched.spawners if listed is not None else ():
-        typed = launched.typed(spawner)
+        typed = launched.typed_controllers(spawner)
         if typed is None or listed is None or spawner.states_type or not spawner.complete:
             continue
         suggestions = Suggestions((*listed, *typed))

@@ -38,7 +38,7 @@ def check(control: RobotControl, launch: Ros2Launch) -> Findings:
             leaves = f"states no {_FRAME}, so it is {frame.value!r}"
         yield finding(
             frame,
-            f"{controller.called} {leaves}, which is not a link of robot "
+            f"{controller.label} {leaves}, which is not a link of robot "
             f"{control.robot.name.value!r}",
         )
 

@@ -17,9 +17,9 @@ from checker.base.resources import table
 from checker.formats.sdf.document import (
     QUATERNION_POSE,
     SdfDocument,
-    misread,
-    out_of_bounds,
+    misread_values,
     parse_version,
+    values_out_of_bounds,
 )
 from checker.formats.sdf.poses import in_degrees
 from checker.formats.sdf.schema import ElementType, type_of
@@ -78,9 +78,9 @@ def _text(
         value_type = QUATERNION_POSE if quaternion else value_type
         if quaternion and in_degrees(element):
             yield finding(element, "<pose> gives a quaternion, but says that it is in degrees")
-    faults = misread(text, value_type)
+    faults = misread_values(text, value_type)
     if all(fault.lossy for fault in faults):
-        faults += out_of_bounds(text, kind.bounds)
+        faults += values_out_of_bounds(text, kind.bounds)
     taken = kind.value_type != "pose" or not _counts_words_of_poses(context)
     for fault in faults:
         severity = Severity.WARNING if fault.lossy and taken else None
@@ -96,7 +96,7 @@ def _attributes(
             continue
         text = Located(written.value.strip(), written.span)
         label = f"{name!r} of <{element.tag}>"
-        for fault in misread(text, known[name][0]):
+        for fault in misread_values(text, known[name][0]):
             severity = Severity.WARNING if fault.lossy else None
             yield finding(fault.span, f"{label} {fault.problem}", severity=severity)
         yield from _word(text, label, words.get(f"{element.tag}/{name}"))

@@ -20,7 +20,7 @@ import re
 from collections.abc import Iterator
 
 from checker.formats.sdf.document import SdfDocument, sdf_version
-from checker.formats.sdf.names import KINDS, UNIQUE_SINCE, renamed
+from checker.formats.sdf.names import KINDS, UNIQUE_SINCE, renames_of
 from checker.formats.sdf.schema import ElementType
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
@@ -61,7 +61,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
 
 
 def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Finding]:
-    new_names = renamed(parent, version) if parent.tag == "model" else {}
+    new_names = renames_of(parent, version) if parent.tag == "model" else {}
     alike: dict[tuple[str, str], Element] = {}
     sharing: dict[str, Element] = {}
     for child in parent.children:

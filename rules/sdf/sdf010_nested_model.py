@@ -32,7 +32,7 @@ def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
     if not nested:
         return
     reason = obstacle(robot)
-    names = FlatNames.of(robot)
+    names = FlatNames.from_robot(robot)
     named = [] if reason else list(_named_elsewhere(package, names))
     edits = () if reason else (*Flattening(robot, names).edits, *(edit for _, edit in named))
     for number, (child, message) in enumerate(nested):
@@ -41,7 +41,7 @@ def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
             f"{message}; --fix cannot flatten it: {reason}" if reason else message,
             key="nested",
             related=[
-                (edit.place, f"names {scoped}, which becomes {names.flat(scoped)}")
+                (edit.place, f"names {scoped}, which becomes {names.flat_name(scoped)}")
                 for scoped, edit in named
                 if number == 0
             ],

@@ -38,7 +38,7 @@ def check(
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:
             continue
-        known = devices.of(sensor)
+        known = devices.device_of(sensor)
         if known is not None and "rays" in known.device.values:
             yield from _rays(sensor, lidar, known.device)
             continue

@@ -47,7 +47,7 @@ def check(
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:
             continue
-        known = devices.of(sensor)
+        known = devices.device_of(sensor)
         device = known.device if known is not None else None
         noise = lidar.noise
         figures = {"range_resolution": lidar.range_resolution}

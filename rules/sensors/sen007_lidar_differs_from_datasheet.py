@@ -72,7 +72,7 @@ def check(
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:
             continue
-        named = devices.of(sensor)
+        named = devices.device_of(sensor)
         if named is None:
             yield from _by_shape(sensor, lidar, known, tolerance, angle)
             continue

@@ -82,7 +82,7 @@ def check(
                 key=f"rgbd {_size(camera)}",
             )
             continue
-        known = devices.of(sensor)
+        known = devices.device_of(sensor)
         if known is not None and known.names_the_model:
             gaps = [
                 *_size_gap(camera, known.device),

@@ -11,7 +11,7 @@ around the robot's shapes or up to 5 cm outside it.
 
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box
-from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.placed_shapes import place_shapes, union
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted, mounted_sensors
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -54,7 +54,7 @@ def _box_around(robot: Robot, *, meshes_too: bool) -> Box | None:
     return union(
         piece.box
         for link in robot.links
-        for piece in placed(robot, link, _shapes(link, meshes_too=meshes_too))
+        for piece in place_shapes(robot, link, _shapes(link, meshes_too=meshes_too))
     )
 
 

@@ -62,18 +62,20 @@ def check(
 def _faults(view: View, most: float, most_of_picture: float, close: float) -> Iterator[str]:
     """Return what is wrong with a view, the worst first."""
     if view.mounted.sensor.kind.is_lidar:
-        if view.hidden > most:
-            yield _fault(view.hidden, "of its rays hit the robot itself", most)
+        if view.hidden_share > most:
+            yield _fault(view.hidden_share, "of its rays hit the robot itself", most)
         return
-    near = view.hidden_within(close)
+    near = view.hidden_share_within(close)
     if near > most:
         yield _fault(near, f"of its view is filled by the robot within {close:g} m", most)
     if view.cut > most:
         yield _fault(
             view.cut, "of its view passes through visuals that its near clip cuts open", most
         )
-    if view.hidden > most_of_picture:
-        yield _fault(view.hidden, "of its view is filled by the robot itself", most_of_picture)
+    if view.hidden_share > most_of_picture:
+        yield _fault(
+            view.hidden_share, "of its view is filled by the robot itself", most_of_picture
+        )
 
 
 def _fault(share: float, what: str, most: float) -> str:

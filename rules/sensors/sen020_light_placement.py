@@ -20,7 +20,7 @@ from checker.model.components import Light, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.convex import face_directions, overlap_depth
 from checker.model.geometry.interpenetration import is_convex
-from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.sensing.view import CoveredLight, SensorViews
@@ -68,7 +68,7 @@ def check(
             related=[(light, "another light") for _, light in lights[most + 1 :]],
         )
     yield from _without_range(light for _, light in lights)
-    visuals = [piece for link in robot.links for piece in placed(robot, link, link.visuals)]
+    visuals = [piece for link in robot.links for piece in place_shapes(robot, link, link.visuals)]
     enclosed = {at.light: at for at in seen.covered if min(at.around, at.ahead) > covered}
     for link, light in islice(lights, _PLACED):
         pose = robot.pose_of_part(link, light.pose)

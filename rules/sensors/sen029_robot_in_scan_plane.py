@@ -35,7 +35,7 @@ def check(seen: SensorViews, *, most: float = 0.3) -> Findings:
     """
     planar = [view for view in seen.views if _is_planar(view.mounted.sensor.lidar)]
     for view in planar:
-        if view.filled and view.hidden <= most:
+        if view.filled and view.hidden_share <= most:
             yield _finding(view)
     if planar and seen.unseen:
         yield unchecked(seen.unseen[0])
@@ -53,8 +53,8 @@ def _finding(view: View) -> Finding:
     parts = "; ".join(_parts(view))
     return finding(
         sensor.pose,
-        f"lidar {sensor.name.value!r} sees the robot itself in {view.hidden:.1%} of its rays, "
-        f"expected none: {parts}",
+        f"lidar {sensor.name.value!r} sees the robot itself in {view.hidden_share:.1%} "
+        f"of its rays, expected none: {parts}",
         related=[(nearest.by[1], f"this {nearest.by[1].element.tag}")],
     )
 

@@ -10,7 +10,7 @@ Source: experience; the robot starts 10 mm above the ground and gets no command 
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.physics.trial.settling import SETTLE_LIMITS, unrest
+from checker.physics.trial.settling import SETTLE_LIMITS, excess_figures
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
@@ -57,8 +57,8 @@ def check(
     """
     if not (driven.robot.drives or context.of_submissions):
         return
-    if driven.unlike:
-        yield unchecked(driven.unlike)
+    if driven.invalid_reason:
+        yield unchecked(driven.invalid_reason)
         return
     limits = {
         "settle_drop": settle_drop_above,
@@ -68,7 +68,7 @@ def check(
         "settle_speed": settle_speed_above,
         "rest_penetration": rest_penetration_above,
     }
-    symptoms = dict(unrest(driven.trial, limits))
+    symptoms = dict(excess_figures(driven.trial, limits))
     if symptoms:
         yield finding(
             driven.robot,

@@ -20,7 +20,7 @@ def check(description: UrdfDescription) -> Findings:
     if call is not None:
         yield finding(
             call,
-            f"macro {call.name!r} is not called by any file; checked with {call.shown}",
+            f"macro {call.name!r} is not called by any file; checked with {call.start_tag}",
         )
 
 

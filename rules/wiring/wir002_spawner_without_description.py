@@ -51,7 +51,7 @@ def check(wiring: Wiring) -> Findings:
 def _descriptions(node: WiredNode) -> Iterator[str]:
     """Yield the topic on which a robot_state_publisher publishes its robot."""
     if node.node.package.value == STATE_PUBLISHER:
-        yield from (topic for topic, types in node.published if _DESCRIPTION in types)
+        yield from (topic for topic, types in node.published_topics if _DESCRIPTION in types)
 
 
 def _topics(node: WiredNode) -> Iterator[Located[str]]:

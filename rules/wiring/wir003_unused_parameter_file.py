@@ -41,7 +41,7 @@ def check(wiring: Wiring) -> Findings:
             more = " …" if len(file.names) > 4 else ""
             yield finding(
                 node.node.name or file.given.span,
-                f"{node.called} gets no parameter from {file.path}, whose keys are {keys}{more}: "
+                f"{node.label} gets no parameter from {file.path}, whose keys are {keys}{more}: "
                 f"expected the key {node.full_name.removeprefix('/')}, or a node of that name",
                 key=f"{node.full_name} {file.path}",
                 related=[(block.span, "no node of this launch has this name")],

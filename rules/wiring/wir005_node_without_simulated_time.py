@@ -38,7 +38,7 @@ def check(wiring: Wiring) -> Findings:
     reason = "this launch starts Gazebo, whose messages have the time of /clock"
     if not _has_clock(wiring):
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
-        reason = f"{simulated[0].called} of this launch uses /clock" if elsewhere else ""
+        reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
     for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
         is_affected = node.node.package.value != STATE_PUBLISHER
@@ -46,9 +46,9 @@ def check(wiring: Wiring) -> Findings:
             stated = "no use_sim_time" if setting is None else "use_sim_time: false"
             yield finding(
                 node.node.span if setting is None else setting.span,
-                f"{node.called} has {stated}, expected true: {reason}",
+                f"{node.label} has {stated}, expected true: {reason}",
                 key=node.full_name,
-                related=[(it.settings[_PARAMETER].span, it.called) for it in simulated[:1]],
+                related=[(it.settings[_PARAMETER].span, it.label) for it in simulated[:1]],
             )
 
 

@@ -28,7 +28,7 @@ def check(wiring: Wiring) -> Findings:
             name = node.full_name.removeprefix("/") or "/**"
             yield finding(
                 file.refused,
-                f"{node.called} ends when it starts: {file.path} has a value outside of "
+                f"{node.label} ends when it starts: {file.path} has a value outside of "
                 f"ros__parameters, expected `{name}:`, below it `ros__parameters:`, then the "
                 "values",
                 key=file.path,

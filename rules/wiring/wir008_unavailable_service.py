@@ -14,7 +14,7 @@ Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design,
 
 from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
-from checker.ros.wiring.services import Wanted, offered, wanted
+from checker.ros.wiring.services import Wanted, offered_services, wanted_services
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -22,10 +22,10 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 @rule("WIR008", "unavailable-service", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
     """Report services and actions that known nodes wait for, and that no node offers."""
-    there = {name for node in wiring.every_node for name in offered(node)}
+    there = {name for node in wiring.every_node for name in offered_services(node)}
     others = [graph for graph in launch.entries if graph is not wiring.graph]
     for node in wiring.nodes:
-        for each in wanted(node):
+        for each in wanted_services(node):
             if each.name in there or any(_may_offer(graph, each) for graph in others):
                 continue
             if unknown := _unknown_cause(wiring):
@@ -34,8 +34,8 @@ def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
             what = f"node {each.item!r}" if each.item else each.name
             yield finding(
                 each.span,
-                f"{node.called} waits for {what}: nothing in this launch offers {each.name}",
-                key=f"{node.called} {each.name}",
+                f"{node.label} waits for {what}: nothing in this launch offers {each.name}",
+                key=f"{node.label} {each.name}",
             )
 
 

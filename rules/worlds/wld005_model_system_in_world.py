@@ -23,7 +23,7 @@ def check(world: World) -> Findings:
         if is_of_gazebo(stem) and of_models.intersection(systems_of(plugin)):
             yield finding(
                 plugin,
-                f"{plugin.called} has no effect in the world {world.name!r}: it works on the "
+                f"{plugin.label} has no effect in the world {world.name!r}: it works on the "
                 "model that contains it",
             )
 

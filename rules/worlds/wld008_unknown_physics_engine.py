@@ -13,7 +13,7 @@ from checker.base.words import Suggestions
 from checker.model.physics_engine import engine_library, engine_name, libraries_of
 from checker.model.plugin_library import release_label
 from checker.model.world import World
-from checker.package.dependencies import lenders_of
+from checker.package.dependencies import available_packages
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
@@ -29,7 +29,7 @@ def check(world: World, package: Package, context: Context) -> Findings:
     if name is None or not context.of_gazebo_sim or name.value.startswith(_IN_PLACE):
         return
     stem = engine_library(name.value)
-    if stem in known or stem in lenders_of(package).libraries():
+    if stem in known or stem in available_packages(package).libraries():
         return
     hint = Suggestions(known).hint(stem) or f"; expected one of {', '.join(known)}"
     yield finding(

@@ -93,7 +93,7 @@ def _systems(model: Robot, lacking: list[str]) -> Iterator[_Loss]:
     for plugin in model.all_plugins:
         systems = frozenset(systems_of(plugin))
         if any(holds(systems, system) for system in lacking):
-            yield _Loss("plugin", plugin, f"lacks a feature that {plugin.called} needs: {_DART}")
+            yield _Loss("plugin", plugin, f"lacks a feature that {plugin.label} needs: {_DART}")
 
 
 def _trees(model: Robot) -> Iterator[_Loss]:
@@ -113,7 +113,7 @@ def _friction(model: Robot) -> Iterator[_Loss]:
         for collision in link.collisions[:1]:
             if collision.element.child("surface", "friction", "bullet") is not None:
                 continue
-            stated = reader.of(link, collision).first
+            stated = reader.friction_of(link, collision).first
             if stated is not None and stated.value != 1.0:
                 effect = (
                     f"takes 1 as the friction of {link.name.value!r}, not {stated.value:g}: it "

@@ -237,7 +237,7 @@ def test_every_rule_has_a_page(rule: Rule, capsys: pytest.CaptureFixture[str]) -
     assert main(["rule", rule.id]) == 0
     page = capsys.readouterr()
     assert page.out.startswith(
-        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.words})\n\n"
+        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.label})\n\n"
     )
     assert not re.search(r"^ *@", page.out, re.MULTILINE)
 

@@ -37,8 +37,13 @@ def test_the_minimal_package(part: Part) -> None:
         "launch/control.launch",
         "launch/spawn.launch",
     ]
-    assert set(control.configured) == {"/arm/state_controller", "/arm/shoulder_controller"}
-    assert [each.full_name for each in control.spawned] == [*control.configured]
+    assert set(control.configured_controllers) == {
+        "/arm/state_controller",
+        "/arm/shoulder_controller",
+    }
+    assert [each.full_name for each in control.spawned_controllers] == [
+        *control.configured_controllers
+    ]
     assert control.interfaces["shoulder"].value == "EffortJointInterface"
     assert not control.unread
     assert not control.faults
@@ -51,7 +56,7 @@ def test_an_included_launch_file_is_no_entry_of_its_own(part: Part) -> None:
     )
     control = part(ControlSystem, {"launch/all.launch": f"<launch>{both}</launch>"})
     assert [launch.file for launch in control.launches] == ["launch/all.launch"]
-    assert len(control.spawned) == 2
+    assert len(control.spawned_controllers) == 2
 
 
 def test_a_file_that_a_condition_leaves_out_stays_an_entry(part: Part) -> None:
@@ -88,7 +93,7 @@ def test_parameters_within_a_launch_file_have_their_lines(part: Part) -> None:
   </rosparam>
 </launch>"""
     control = part(ControlSystem, {"launch/more.launch": text})
-    controller = control.configured["/arm/elbow_controller"]
+    controller = control.configured_controllers["/arm/elbow_controller"]
     place = controller.type.span.place()
     assert (place.file, place.line, place.column) == ("launch/more.launch", 5, 13)
     assert place.snippet.strip() == "type: a/B"

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from checker.cli import main
-from checker.cli.export import exported
+from checker.cli.export import export_package
 from checker.convert.mjcf_files import scene_of_trial
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
@@ -19,7 +19,7 @@ from checker.package.inputs import open_input
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
 from checker.physics.trial.trial import Replay
-from checker.physics.trial.worker import driven
+from checker.physics.trial.worker import run_trial
 from support.real_packages import CORPUS, named_folder, needs
 
 ROOM = 1e-9
@@ -70,7 +70,7 @@ def trial_of(package: Path) -> tuple[Plan, Replay]:
         assert isinstance(subject.all(Robot), tuple)
         scene, plan = scene_of_trial(subject.all(Robot)[0])
         subject.close()
-    replay = driven(scene, plan, TIMESTEP).replay
+    replay = run_trial(scene, plan, TIMESTEP).replay
     assert replay is not None
     return plan, replay
 
@@ -131,7 +131,7 @@ def test_its_sensors_can_be_read(samples: Path, tmp_path: Path) -> None:
 
 def test_one_file_holds_everything(samples: Path, tmp_path: Path) -> None:
     package = samples / "subtcheck_buggy_sensor_config_1"
-    text = exported(package, "mjcf").text
+    text = export_package(package, "mjcf").text
     assert "file=" not in text
     model = mujoco.MjModel.from_xml_string(text)
     assert [model.key(number).name for number in range(model.nkey)] == ["settled"]

@@ -24,7 +24,7 @@ MODELS = 14
 
 def root_of(robot: Robot, urdf: Robot) -> str:
     """Return the link of a robot that is the root of its URDF, whose frame is the URDF's."""
-    return next(name for name in robot.links_by_name if name not in urdf.tree.above)
+    return next(name for name in robot.links_by_name if name not in urdf.tree.ties_above)
 
 
 def assert_one_robot(robot: Robot, urdf: str) -> None:

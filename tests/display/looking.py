@@ -63,4 +63,4 @@ def looked(
     )
     changes = {"@fragment": f'<link name="a">{visuals}</link>', **files}
     with opened(write_example(changes, folder), cache) as (_, found):
-        return {uri.value: found.of(uri) for uri in found.meshes.uris}
+        return {uri.value: found.load(uri) for uri in found.meshes.uris}

@@ -58,7 +58,7 @@ def test_a_fault_of_ours_is_no_fault_of_the_package(monkeypatch: pytest.MonkeyPa
 class Large:
     """Mesh files of four megabytes each."""
 
-    def of(self, uri: Located[str]) -> tuple[Surface, ...]:
+    def load(self, uri: Located[str]) -> tuple[Surface, ...]:
         vertices = np.zeros((330_000, 3), dtype=np.float32)
         vertices[:, 0] = len(uri.value)
         return (Surface(vertices, np.array([[0, 1, 2]], dtype=np.uint32)),)

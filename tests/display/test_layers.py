@@ -35,7 +35,7 @@ class Files:
 
     surfaces: Mapping[str, tuple[Surface, ...] | str]
 
-    def of(self, uri: Located[str]) -> tuple[Surface, ...] | str:
+    def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:
         return self.surfaces.get(uri.value, "does not exist")
 
 

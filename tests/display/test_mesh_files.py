@@ -42,7 +42,7 @@ def _compare_boxes(package: Path) -> int:
     number = 0
     with opened(package) as (_, files):
         for uri in files.meshes.uris:
-            mesh, found = files.meshes.of(uri), files.of(uri)
+            mesh, found = files.meshes.load(uri), files.load(uri)
             if not isinstance(mesh, Mesh):
                 assert found == mesh.reason
                 continue

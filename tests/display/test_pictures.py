@@ -20,7 +20,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
-from checker.report.scene.drawing.request import FIELD_OF_VIEW, drawn_items, framed
+from checker.report.scene.drawing.request import FIELD_OF_VIEW, camera_framing, drawn_items
 from checker.report.scene.drawing.worker import LARGEST
 from checker.report.scene.pictures import ASPECT, HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
@@ -206,7 +206,7 @@ POINT = st.tuples(*(st.floats(-1e3, 1e3, width=32) for _ in range(3)))
 def test_a_camera_sees_all_that_it_frames(
     points: Sequence[tuple[float, float, float]], azimuth: float, elevation: float
 ) -> None:
-    camera = framed(np.array(points), azimuth, elevation, 4 / 3)
+    camera = camera_framing(np.array(points), azimuth, elevation, 4 / 3)
     turn, rise = np.radians(azimuth), np.radians(elevation)
     forward = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
     right = np.array([np.sin(turn), -np.cos(turn), 0.0])

@@ -17,7 +17,7 @@ from checker.report.scene.primitives import (
     capsule,
     cone,
     cylinder,
-    joined,
+    merge_surfaces,
     sphere,
 )
 
@@ -86,5 +86,5 @@ def test_a_bar_lies_between_its_ends(
 
 
 def test_surfaces_are_joined_without_mixing_their_corners() -> None:
-    whole = joined([box(), bar((2, 0, 0), (3, 0, 0), 0.5)])
+    whole = merge_surfaces([box(), bar((2, 0, 0), (3, 0, 0), 0.5)])
     assert solid(whole).volume == pytest.approx(1.25)

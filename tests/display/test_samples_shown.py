@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from checker.base.cache import Cache
-from checker.engine.display import BYTES, display_of, without
+from checker.engine.display import BYTES, display_of, without_layers
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
@@ -60,7 +60,7 @@ def test_every_sample_is_shown_as_large_as_it_is(name: str, kept: Path) -> None:
         surfaces = MeshFiles(robot.meshes)
         scene = scene_of(robot, None, surfaces)
         marks = set(Layer) - {Layer.VISUAL, Layer.COLLISION}
-        shown = trimesh.load(io.BytesIO(glb_of(without(scene, marks))), file_type="glb")
+        shown = trimesh.load(io.BytesIO(glb_of(without_layers(scene, marks))), file_type="glb")
         boxes = [robot.box_of(link) for link in robot.links if link.visuals or link.collisions]
         # What a broken sample cannot show has no box either.
         known = [box for box in boxes if box is not None]

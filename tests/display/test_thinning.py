@@ -12,7 +12,7 @@ from checker.physics.mesh.surface import (
     Surface,
     appearance_from_json,
     appearance_to_json,
-    joined,
+    merge_corners,
     shares,
     thinned,
 )
@@ -40,7 +40,7 @@ def _surface(colours: bool = False) -> Surface:
     corners = np.array(cylinder(1.0, 2.0, 500))
     painted = np.zeros((*corners.shape[:2], 4), np.uint8)
     painted[corners[..., 2] > 0.0] = 255
-    return joined(corners, GREY, painted if colours else None, None)
+    return merge_corners(corners, GREY, painted if colours else None, None)
 
 
 @pytest.mark.parametrize("colours", [False, True])
@@ -60,7 +60,7 @@ def test_thinned_surfaces_are_few_and_sound(most: int, colours: bool) -> None:
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 def test_thinning_keeps_the_shape_at_any_size(size: float) -> None:
     corners = np.array(cylinder(1.0, 2.0, 500)) * size + 5.0 * size
-    found = thinned(joined(corners, GREY, None, None), 400)
+    found = thinned(merge_corners(corners, GREY, None, None), 400)
     assert np.ptp(found.vertices, axis=0) == pytest.approx([2.0 * size] * 3, rel=0.02)
 
 
@@ -69,10 +69,10 @@ def test_equal_corners_become_one_where_they_have_the_same_place_in_the_picture(
     colours = np.full((12, 3, 4), 7, np.uint8)
     places = np.zeros((12, 3, 2))
     places[6:] = 0.5
-    assert len(joined(corners, GREY, None, None).vertices) == 8
-    assert len(joined(corners, GREY, colours, np.zeros((12, 3, 2))).vertices) == 8
-    assert len(joined(corners, GREY, colours, places).vertices) > 8
-    assert len(joined(-0.0 * corners, GREY, None, None).vertices) == 1
+    assert len(merge_corners(corners, GREY, None, None).vertices) == 8
+    assert len(merge_corners(corners, GREY, colours, np.zeros((12, 3, 2))).vertices) == 8
+    assert len(merge_corners(corners, GREY, colours, places).vertices) > 8
+    assert len(merge_corners(-0.0 * corners, GREY, None, None).vertices) == 1
 
 
 @pytest.mark.parametrize("colours", [False, True])
@@ -99,7 +99,7 @@ def test_surfaces_survive_json(colours: bool) -> None:
     ],
 )
 def test_nonsense_is_no_surface(changes: dict[str, object]) -> None:
-    said = appearance_to_json((joined(np.array(box(1, 1, 1)), GREY, None, None),))
+    said = appearance_to_json((merge_corners(np.array(box(1, 1, 1)), GREY, None, None),))
     said["surfaces"][0].update(changes)
     with pytest.raises(ValueError, match=r"."):
         appearance_from_json(said)

@@ -80,7 +80,7 @@ class OneMesh:
             hull=corners, volume=-6.0, hull_volume=8.0, watertight=watertight,
         )  # fmt: skip
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002
         return self.mesh
 
 

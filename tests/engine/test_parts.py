@@ -84,13 +84,13 @@ def test_a_part_is_made_once_of_the_parts_that_it_needs(subject: Subject) -> Non
     assert made == Bench((Seat(1), Seat(2)), "the package needs no spawner")
     assert subject.one(Bench) is made
     assert subject.all(Seat) is made.seats
-    assert subject.made(Seat) is made.seats
+    assert subject.cached_parts(Seat) is made.seats
 
 
 def test_a_part_is_missing_for_the_reason_of_what_it_needs(subject: Subject) -> None:
     assert subject.one(Ride) is subject.one(Spawner)
-    assert subject.made(Ride) == ()
-    assert subject.made(Bench) == ()
+    assert subject.cached_parts(Ride) == ()
+    assert subject.cached_parts(Bench) == ()
 
 
 def test_a_type_that_nothing_makes_is_no_part(subject: Subject) -> None:
@@ -100,10 +100,10 @@ def test_a_type_that_nothing_makes_is_no_part(subject: Subject) -> None:
 
 def test_another_part_takes_the_place_of_one_and_of_what_depends_on_it(subject: Subject) -> None:
     assert subject.one(Bench) is not None
-    other = subject.having(Seat(3), kept=[])
+    other = subject.with_part(Seat(3), kept=[])
     assert other.one(Bench).seats == (Seat(3),)
     assert subject.one(Bench).seats == (Seat(1), Seat(2))
-    assert subject.having(Seat(3)).one(Bench) is subject.one(Bench)
+    assert subject.with_part(Seat(3)).one(Bench) is subject.one(Bench)
 
 
 def test_modules_that_make_parts_load_no_heavy_library() -> None:

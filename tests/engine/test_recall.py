@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.child_process import Limits
-from checker.engine.report_cache import from_stored, memory_key, recalled, remember
+from checker.engine.report_cache import from_stored, memory_key, recall_report, remember
 from checker.package.inputs import open_input
 from checker.pipeline import check_package
 from checker.report.report import Cause, NotChecked, PackageReport
@@ -120,19 +120,19 @@ def test_what_is_remembered_is_recalled_under_the_path_of_now(tmp_path: Path) ->
     cache = Cache(tmp_path)
     report = replace(static_report(BROKEN), not_checked=())
     remember(cache, "key", report)
-    assert recalled(cache, "key", "other/path") == replace(report, path="other/path")
-    assert recalled(cache, "another", "other/path") is None
-    assert recalled(cache, "", "other/path") is None
+    assert recall_report(cache, "key", "other/path") == replace(report, path="other/path")
+    assert recall_report(cache, "another", "other/path") is None
+    assert recall_report(cache, "", "other/path") is None
 
 
 def test_what_crashed_or_failed_is_tried_again(tmp_path: Path) -> None:
     crashed = NotChecked("PKG001", "could not run", Cause.CRASHED)
     remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(crashed,)))
-    assert recalled(Cache(tmp_path), "key", "path") is None
+    assert recall_report(Cache(tmp_path), "key", "path") is None
     failed = Cache(tmp_path)
     failed.pass_over("mesh")
     remember(failed, "key", static_report(GOOD))
-    assert recalled(Cache(tmp_path), "key", "path") is None
+    assert recall_report(Cache(tmp_path), "key", "path") is None
 
 
 def test_what_was_disturbed_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -151,9 +151,9 @@ def test_a_missing_sibling_is_remembered_until_it_is_there(packages: Path) -> No
     with_hole = replace(static_report(GOOD), not_checked=(unseen_of(heir),))
     cache, key = Cache(packages.parent / "cache"), key_of(heir)
     remember(cache, key, with_hole)
-    assert recalled(cache, key_of(heir), "path") is not None
+    assert recall_report(cache, key_of(heir), "path") is not None
     shutil.copytree(SAMPLES / GOOD, packages / GOOD)
-    assert recalled(cache, key_of(heir), "path") is None
+    assert recall_report(cache, key_of(heir), "path") is None
 
 
 def unseen_of(package: Path) -> NotChecked:
@@ -168,7 +168,7 @@ def test_a_foreign_entry_counts_as_none(tmp_path: Path, content: str) -> None:
     remember(cache, "key", static_report(GOOD))
     (entry,) = tmp_path.glob("*/*/*.json")
     entry.write_text(content, "utf-8")
-    assert recalled(cache, "key", "path") is None
+    assert recall_report(cache, "key", "path") is None
 
 
 def test_a_reason_of_another_type_is_remembered_as_text(tmp_path: Path) -> None:
@@ -177,6 +177,6 @@ def test_a_reason_of_another_type_is_remembered_as_text(tmp_path: Path) -> None:
 
     missing = NotChecked("PKG001", Words("is missing"), Cause.NOT_AT_HAND)
     remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(missing,)))
-    again = recalled(Cache(tmp_path), "key", "path")
+    again = recall_report(Cache(tmp_path), "key", "path")
     assert again is not None
     assert again.not_checked[0].reason == "is missing"

@@ -64,7 +64,7 @@ def test_the_first_mesh_stands_for_the_reading_of_all(tmp_path: Path) -> None:
         assert isinstance(meshes, PackageMeshes)
         assert not meshes.read
         for uri, name in zip(meshes.uris, files, strict=True):
-            mesh = meshes.of(uri)
+            mesh = meshes.load(uri)
             assert isinstance(mesh, Mesh)
             assert mesh.path == name
         assert meshes.read

@@ -152,7 +152,7 @@ def flattened(text: str, files: Mapping[str, str] = NOTHING) -> str:
     """Return the text of a robot once it is flattened."""
     robot = read(text, files)
     assert not obstacle(robot)
-    edits = Flattening(robot, FlatNames.of(robot)).edits
+    edits = Flattening(robot, FlatNames.from_robot(robot)).edits
     edited = EditedText(robot.document.source)
     assert take(Fix(Safety.UNSAFE, edits), {"model.sdf": edited})
     return edited.result

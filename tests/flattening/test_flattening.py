@@ -20,22 +20,22 @@ BEFORE, SINCE = ("1.4", "1.5", "1.6"), ("1.7", "1.8", "1.9", "1.11")
 def assert_same(text: str, files: dict[str, str]) -> None:
     """Links, masses, poses, axes and the inertia of the joints are what they were."""
     before, after = read(text, files), read(flattened(text, files), {})
-    names = FlatNames.of(before)
+    names = FlatNames.from_robot(before)
     assert not after.models
     assert not after.faults
-    assert {names.flat(link.scoped_name): link.mass for link in before.links} == {
+    assert {names.flat_name(link.scoped_name): link.mass for link in before.links} == {
         link.scoped_name: link.mass for link in after.links
     }
     parts: tuple[Link | Frame | Model, ...] = (*before.links, *before.frames, *before.models)
     for part in parts:
         # Before SDF 1.7 nothing can name the place of a model, so nothing stands for it.
-        pose = after.pose_of(names.flat(part.scoped_name))
+        pose = after.pose_of(names.flat_name(part.scoped_name))
         if part not in before.models or sdf_version(before.document) >= (1, 7):
             assert_close(as_matrix(pose), as_matrix(before.pose_of(part.scoped_name)))
     for joint in before.joints:
-        same = after.joints_by_name[names.flat(joint.scoped_name)]
+        same = after.joints_by_name[names.flat_name(joint.scoped_name)]
         ends = (joint.scope + joint.parent.value, joint.scope + joint.child.value)
-        assert (same.parent.value, same.child.value) == tuple(map(names.flat, ends))
+        assert (same.parent.value, same.child.value) == tuple(map(names.flat_name, ends))
         poses = before.pose_of_joint(joint), after.pose_of_joint(same)
         assert_close(as_matrix(poses[0]), as_matrix(poses[1]))
         for axis, moved in zip(joint.axes, same.axes, strict=True):
@@ -58,7 +58,7 @@ def test_a_pose_in_degrees_is_turned() -> None:
 def assert_same_inertia(before: Robot, after: Robot, names: FlatNames) -> None:
     """Joints may come in another order; of each, the inertia is what it was."""
     nested, flat = pin_model(before), pin_model(after)
-    called = [names.flat(degree.part) for degree in nested.degrees]
+    called = [names.flat_name(degree.part) for degree in nested.degrees]
     order = [called.index(degree.part) + degree.number for degree in flat.degrees]
     inertia = nested.joint_space_inertia()[np.ix_(order, order)]
     scale = np.abs(inertia).max()

@@ -184,7 +184,7 @@ def test_what_may_mean_something_else_is_left_to_the_author(inside: str, reason:
 
 
 def test_other_files_name_nested_parts_by_scope_and_in_topics() -> None:
-    names = FlatNames.of(read(NESTED, {}))
+    names = FlatNames.from_robot(read(NESTED, {}))
     text = "rover::arm::hand /model/$(arg name)/model/arm/link/hand/sensor/eye arm::foot marm::hand"
     edits = [
         (scoped, edit.original, edit.replacement)

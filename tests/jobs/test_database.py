@@ -15,7 +15,7 @@ from bench.chaos import server_process, standing_still
 from checker.base.errors import CheckerError
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import database_url, open_database
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.workers import Workers, now
 from checker.service.jobs.port import JobsUnreachable, Order, Stage
 from checker.service.store.store import Store
@@ -33,7 +33,7 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
 def test_many_may_prepare_a_new_database_at_once(url: str) -> None:
     engines = [open_database(url) for _ in range(4)]
     with ThreadPoolExecutor(4) as pool:
-        list(pool.map(prepared, engines))
+        list(pool.map(prepare_database, engines))
     with engines[0].connect() as connection:
         names = sa.inspect(connection).get_table_names()
     assert {"subt_salts", "subt_workers"} <= set(names)
@@ -51,18 +51,18 @@ def test_its_clock_is_about_right(url: str) -> None:
 
 def test_it_knows_who_lives(url: str) -> None:
     engine = open_database(url)
-    prepared(engine)
+    prepare_database(engine)
     workers = Workers(engine)
     for name in ("one", "two", "one"):
-        workers.beat(name)
-    assert workers.living(60.0) == {"one", "two"}
-    assert workers.living(-1.0) == set()
+        workers.record_heartbeat(name)
+    assert workers.live_workers(60.0) == {"one", "two"}
+    assert workers.live_workers(-1.0) == set()
     workers.strike("one")
-    assert workers.living(60.0) == {"two"}
+    assert workers.live_workers(60.0) == {"two"}
     workers.strike_silent(60.0)
-    assert workers.living(60.0) == {"two"}
+    assert workers.live_workers(60.0) == {"two"}
     workers.strike_silent(-1.0)
-    assert workers.living(60.0) == set()
+    assert workers.live_workers(60.0) == set()
     engine.dispose()
 
 
@@ -102,7 +102,7 @@ def test_a_database_that_is_a_folder_cannot_be_written(tmp_path: Path) -> None:
 
 def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
     engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
-    prepared(engine)
+    prepare_database(engine)
     # Beside it lie what is written ahead and its index, as long as it is open.
     with engine.connect():
         found = {each.name: each.stat().st_mode & 0o777 for each in tmp_path.iterdir()}
@@ -113,7 +113,7 @@ def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
 def test_one_that_others_could_read_is_tightened(tmp_path: Path) -> None:
     url = f"sqlite:///{tmp_path}/jobs.sqlite"
     first = open_database(url)
-    prepared(first)
+    prepare_database(first)
     with first.connect():
         for each in tmp_path.iterdir():
             each.chmod(0o666)

@@ -12,7 +12,7 @@ import sqlalchemy as sa
 
 from checker.service.jobs.durable.admin import Admin
 from checker.service.jobs.durable.database import open_database
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import Receipt, Stage
 from support.postgres import DATABASES, fresh_database
@@ -104,7 +104,7 @@ def test_their_senders_can_delete_them(site: Site) -> None:
 def test_many_may_take_them_over_at_once(url: str) -> None:
     engines = [open_database(url) for _ in range(4)]
     with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(prepared, engines))
+        found = list(pool.map(prepare_database, engines))
     assert found[0].waiting() == {"static": 2, "trial": 0, "": 0}
     assert not sa.inspect(engines[0]).has_table("subt_checks")
     for engine in engines:
@@ -120,4 +120,4 @@ def test_one_that_had_failed_can_be_begun_anew(site: Site) -> None:
     [key] = admin.keys_of([RECEIPTS["failed.zip"].id], over=True)
     admin.requeue(key)
     assert site.state(RECEIPTS["failed.zip"].id).stage is Stage.STATIC
-    assert [each.key for each in admin.listed() if each.number == 2] == [key]
+    assert [each.key for each in admin.list_checks() if each.number == 2] == [key]

@@ -28,13 +28,13 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
 
 def test_it_knows_the_sandbox_of_each_worker(url: str, tmp_path: Path) -> None:
     jobs = durable_jobs(url, Store(tmp_path))
-    Workers(jobs.checks.engine, LAYERS).beat("walled")
-    Workers(jobs.checks.engine).beat("bare")
-    Workers(jobs.checks.engine, LAYERS).beat("again")
-    Workers(jobs.checks.engine).beat("again")
+    Workers(jobs.checks.engine, LAYERS).record_heartbeat("walled")
+    Workers(jobs.checks.engine).record_heartbeat("bare")
+    Workers(jobs.checks.engine, LAYERS).record_heartbeat("again")
+    Workers(jobs.checks.engine).record_heartbeat("again")
     alive = jobs.alive()
     assert alive.layers == {"walled": list(LAYERS), "bare": [], "again": []}
-    assert alive.living == alive.layers
+    assert alive.live_workers == alive.layers
     jobs.checks.engine.dispose()
 
 
@@ -92,13 +92,13 @@ def test_tables_of_another_version_are_made_anew(url: str, tmp_path: Path, chang
     """A newer one has a column more, an older one lacks one; what has our columns stays."""
     store = Store(tmp_path)
     engine = durable_jobs(url, store).checks.engine
-    Workers(engine).beat("of another version")
+    Workers(engine).record_heartbeat("of another version")
     partition = Senders(engine).digest("somebody")
     with engine.begin() as connection:
         connection.exec_driver_sql(change)
     jobs = durable_jobs(url, store)
     assert jobs.alive().workers == {}
-    Workers(jobs.checks.engine).beat("of this version")
+    Workers(jobs.checks.engine).record_heartbeat("of this version")
     durable_jobs(url, store).checks.engine.dispose()
     assert [*jobs.alive().workers] == ["of this version"]
     assert Senders(engine).digest("somebody") == partition

@@ -16,7 +16,7 @@ import pytest
 
 from checker.base.errors import UnreadableInput
 from checker.migrate.migration import migrate
-from checker.migrate.new_package import staged
+from checker.migrate.new_package import stage_package
 from checker.migrate.options import MigrationOptions, NotMigrated
 from tests.conftest import SAMPLES
 from tests.migrate.conftest import FOUR, MANIFEST, Write, body, urdf
@@ -178,7 +178,7 @@ def test_the_destination_is_a_file(write: Write, tmp_path: Path) -> None:
 
 def test_an_empty_destination_is_kept_after_a_failure(tmp_path: Path) -> None:
     (tmp_path / "made").mkdir()
-    with pytest.raises(RuntimeError), staged(tmp_path / "made", PACKAGE):
+    with pytest.raises(RuntimeError), stage_package(tmp_path / "made", PACKAGE):
         raise RuntimeError
     assert not list((tmp_path / "made").iterdir())
 

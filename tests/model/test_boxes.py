@@ -37,7 +37,7 @@ class OneMesh:
 
     mesh: Mesh
 
-    def of(self, uri: Located[str]) -> Mesh:
+    def load(self, uri: Located[str]) -> Mesh:
         assert uri.value == "a.stl"
         return self.mesh
 

@@ -106,7 +106,7 @@ def test_a_plugin_of_classic_is_none_of_gazebo_whatever_its_name() -> None:
     assert {drive.diameter_tag for drive in robot.locomotion.wheel_drives} == {"wheel_diameter"}
     assert robot.locomotion.kind is DriveKind.SKID_STEER
     assert list(bounded_motions(robot.locomotion)) == []
-    assert robot.plugins[0].called == "gazebo_ros_diff_drive"
+    assert robot.plugins[0].label == "gazebo_ros_diff_drive"
 
 
 def test_gazebo_drives_urdf_too() -> None:

@@ -13,7 +13,7 @@ KNOWN = known_devices()
 
 
 def named(text: str, types: tuple[str, ...] | None = None) -> str:
-    device = KNOWN.named_in(text, types)
+    device = KNOWN.find_in_text(text, types)
     return device.id if device is not None else ""
 
 
@@ -51,19 +51,19 @@ def test_running_text(text: str, id: str) -> None:
     ],
 )
 def test_type_codes(text: str, name: str, figure: str, value: float) -> None:
-    device = KNOWN.named_in(text)
+    device = KNOWN.find_in_text(text)
     assert device is not None
     assert device.name == name
     assert device.values[figure] == pytest.approx(value)
     assert device.is_from_memory(figure)
-    assert device is KNOWN.named_in(f"two of {text}")
+    assert device is KNOWN.find_in_text(f"two of {text}")
 
 
 def test_the_number_of_a_ueye_stands_for_its_sensor() -> None:
-    device = KNOWN.named_in("IDS uEye UI-3240CP-C")
+    device = KNOWN.find_in_text("IDS uEye UI-3240CP-C")
     assert device is not None
     assert (device.name, device.values) == ("IDS uEye UI-3240CP", {"image_sizes": [[1280, 1024]]})
-    other = KNOWN.named_in("IDS uEye UI-3000SE")
+    other = KNOWN.find_in_text("IDS uEye UI-3000SE")
     assert other is not None
     assert not other.values
 
@@ -83,21 +83,21 @@ def test_devices_of_other_types_do_not_count() -> None:
 
 @pytest.mark.parametrize("name", ["vlp16", "front_vlp16_link", "/robot/vlp-16/points", "VLP_16"])
 def test_names_of_a_model(name: str) -> None:
-    device = KNOWN.named(name)
+    device = KNOWN.find_in_name(name)
     assert device is not None
     assert device.id == "velodyne_vlp16"
 
 
 def test_a_users_device_is_asked_first() -> None:
     own = {**DEVICE, "id": "own_vlp16", "match": r"\bVLP[- ]?16\b"}
-    device = known_devices([own]).named_in("Velodyne VLP-16")
+    device = known_devices([own]).find_in_text("Velodyne VLP-16")
     assert device is not None
     assert device.id == "own_vlp16"
     assert not device.is_from_memory("rows")
 
 
 def test_what_is_from_memory_says_so() -> None:
-    device = KNOWN.named_in("VLP-16")
+    device = KNOWN.find_in_text("VLP-16")
     assert device is not None
     assert device.is_from_memory("body")
     assert not device.is_from_memory("rows")
@@ -105,5 +105,5 @@ def test_what_is_from_memory_says_so() -> None:
 
 @given(st.text(max_size=700))
 def test_any_text_can_be_searched(text: str) -> None:
-    KNOWN.named_in(text)
-    KNOWN.named(text)
+    KNOWN.find_in_text(text)
+    KNOWN.find_in_name(text)

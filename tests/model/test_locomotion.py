@@ -190,7 +190,7 @@ class TestWheels:
         content = BASE + "".join(wheel(name) for name in names)
         joints = tags(**{f"{name}_joint": f"{name}_axle" for name in names})
         (drive,) = sdf(content + plugin("MecanumDrive", joints)).locomotion.wheel_drives
-        assert [each.joint.name.value for each in drive.on(Side.LEFT)] == [
+        assert [each.joint.name.value for each in drive.wheels_on(Side.LEFT)] == [
             "front_left_axle",
             "back_left_axle",
         ]

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.model.geometry.convex import face_directions, overlap_depth
-from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from tests.model.robots import sdf
@@ -29,7 +29,7 @@ def pair(one: str, other: str) -> tuple[Robot, Placed, Placed]:
         for i, each in enumerate((one, other))
     ]
     robot = sdf("".join(links))
-    first, second = (next(placed(robot, link, link.collisions)) for link in robot.links)
+    first, second = (next(place_shapes(robot, link, link.collisions)) for link in robot.links)
     return robot, first, second
 
 

@@ -94,7 +94,7 @@ class TestLevel:
 class OneMesh:
     mesh: Mesh
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:
         known = uri.value == self.mesh.path
         return self.mesh if known else MeshFault(MeshTrouble.MISSING, "is missing")
 

@@ -127,7 +127,7 @@ class OneMesh:
     def __init__(self, hull: tuple[Vector, ...]) -> None:
         self.mesh = Mesh("a.stl", "stl", 1, (-1, -1, -1), (1, 1, 1), hull=hull)
 
-    def of(self, uri: Located[str]) -> Mesh:  # noqa: ARG002 - as a `Meshes` has it
+    def load(self, uri: Located[str]) -> Mesh:  # noqa: ARG002 - as a `Meshes` has it
         return self.mesh
 
 

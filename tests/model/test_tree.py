@@ -33,7 +33,7 @@ def test_a_sound_robot_is_one_group_without_loops() -> None:
     robot = linked(4, (0, 1), (1, 2), (0, 3))
     assert robot.tree.groups == [["0", "1", "2", "3"]]
     assert loops(robot) == []
-    assert set(robot.tree.above) == {"1", "2", "3"}
+    assert set(robot.tree.ties_above) == {"1", "2", "3"}
 
 
 def test_what_nothing_ties_is_a_group_of_its_own() -> None:
@@ -103,7 +103,7 @@ def test_groups_and_loops_agree_with_a_search(pairs: list[tuple[int, int]]) -> N
     assert {frozenset(group) for group in robot.tree.groups} == {
         frozenset(map(str, group)) for group in near.values()
     }
-    above = {name: found[0].parent for name, found in robot.tree.above.items()}
+    above = {name: found[0].parent for name, found in robot.tree.ties_above.items()}
     circling = set()
     for name, parent in above.items():
         at: str | None = parent

@@ -8,7 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.formats.sdf.document import QUATERNION_POSE, Misread, misread, out_of_bounds
+from checker.formats.sdf.document import (
+    QUATERNION_POSE,
+    Misread,
+    misread_values,
+    values_out_of_bounds,
+)
 from checker.source.text import Located, SourceText, Span
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
@@ -20,7 +25,7 @@ def located(text: str) -> Located[str]:
 
 
 def faults(text: str, value_type: str) -> list[Misread]:
-    return misread(located(text), value_type)
+    return misread_values(located(text), value_type)
 
 
 @given(NUMBERS)
@@ -92,8 +97,8 @@ def test_a_whole_number_with_a_point_is_only_lossy() -> None:
 @given(NUMBERS, NUMBERS, NUMBERS)
 def test_bounds(number: float, low: float, high: float) -> None:
     outside = not low <= number <= high
-    assert bool(out_of_bounds(located(repr(number)), (low, high))) is outside
-    assert not out_of_bounds(located(repr(number)), (-math.inf, math.inf))
+    assert bool(values_out_of_bounds(located(repr(number)), (low, high))) is outside
+    assert not values_out_of_bounds(located(repr(number)), (-math.inf, math.inf))
 
 
 def test_a_long_value_of_nonsense_is_reported_in_brief() -> None:

@@ -127,12 +127,12 @@ def test_name_that_is_no_utf8(rover: Path) -> None:
 def test_similar_paths_are_offered(rover: Path, path: str) -> None:
     package = package_at(rover)
     assert not package.exists(path)
-    assert package.index.similar(path) == ("meshes/Wheel.dae",)
+    assert package.index.similar_files(path) == ("meshes/Wheel.dae",)
 
 
 def test_case_comes_before_extension(rover: Path) -> None:
     (rover / "meshes" / "wheel.STL").touch()
-    found = package_at(rover).index.similar("meshes/wheel.stl")
+    found = package_at(rover).index.similar_files("meshes/wheel.stl")
     assert found == ("meshes/wheel.STL", "meshes/Wheel.dae")
 
 

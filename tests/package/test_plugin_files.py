@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checker.package.dependencies import lenders_of, libraries_of
+from checker.package.dependencies import available_packages, libraries_of
 from checker.package.package import Package
 from checker.package.workspace import Workspace
 from tests.package.conftest import Write
@@ -42,7 +42,7 @@ def test_dependencies_lend_theirs_in_turn(write: Write) -> None:
         "hand/package.xml": MANIFEST.format("hand", depends.format("rover")),
         "hand/libHand.so": "",
     }
-    lenders = lenders_of(package(write, files))
+    lenders = available_packages(package(write, files))
     assert [each.name for each in lenders.at_hand] == ["rover", "arm", "hand"]
     assert lenders.missing == ("far",)
     assert lenders.libraries() == {"Hand"}

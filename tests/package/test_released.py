@@ -29,4 +29,4 @@ def test_who_has_a_package() -> None:
     ],
 )
 def test_a_slip_of_the_pen(name: str, meant: str | None) -> None:
-    assert ReleasedNames("jazzy").meant(name) == meant
+    assert ReleasedNames("jazzy").correction_of(name) == meant

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checker.package.dependencies import taken_in_vain, uses_of
+from checker.package.dependencies import duplicate_files, uses_of
 from checker.package.package import Package
 from checker.package.workspace import Workspace
 
@@ -68,5 +68,5 @@ def test_files_of_another_robot_that_the_package_has_itself(tmp_path: Path) -> N
         (folder / part).mkdir(parents=True)
     (folder / "meshes/a.dae").touch()
     (folder / "urdf/a.xacro").write_text(COPIED, "utf-8")
-    taken = list(taken_in_vain(Package(folder, Workspace((tmp_path,)))))
+    taken = list(duplicate_files(Package(folder, Workspace((tmp_path,)))))
     assert [(use.place.line, use.package_name) for use in taken] == [(2, OTHER), (9, OTHER)]

@@ -139,7 +139,7 @@ def test_a_package_waits_for_those_whose_files_it_reports() -> None:
     told = list(text.add([base], "m/base"))
     assert [block.split()[0] for block in told] == ["a", "b", "base"]
     assert "1 finding in base: listed there" in told[0]
-    assert list(text.rest()) == []
+    assert list(text.deferred_lines()) == []
 
 
 def test_the_caret_stays_below_the_marked_words_of_a_long_line() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checker.launch.ros2.graph import LaunchFaultKind, Parameter, shown
+from checker.launch.ros2.graph import LaunchFaultKind, Parameter, display_path
 from tests.ros2_launch.conftest import NAME, Read
 
 XML = f"""\
@@ -62,13 +62,18 @@ def test_xml_and_yaml_say_the_same(read: Read) -> None:
         assert not graph.unread, file
         assert not graph.faults, file
         view, other = graph.nodes
-        assert [shown(word.value) for word in view.arguments] == ["-d", f"{share}/my view.rviz"]
+        assert [display_path(word.value) for word in view.arguments] == [
+            "-d",
+            f"{share}/my view.rviz",
+        ]
         assert (view.namespace, view.starts) == ("/r1", True)
         values = [
-            (p.name, shown(str(p.value))) for p in view.parameters if isinstance(p, Parameter)
+            (p.name, display_path(str(p.value)))
+            for p in view.parameters
+            if isinstance(p, Parameter)
         ]
         assert values[1] == ("robot_description", f"$(command xacro {share}/a.xacro x:=1)")
-        assert [shown(p.path) for p in view.parameter_files] == [f"{share}/p.yaml"]
+        assert [display_path(p.path) for p in view.parameter_files] == [f"{share}/p.yaml"]
         assert [(remap.source, remap.target) for remap in view.remaps] == [("/tf", "tf")]
         assert (other.executable.value, other.namespace) == ("1", "/")
         assert [word.value for word in graph.processes[0].words] == ["ros2", "topic", "list"]

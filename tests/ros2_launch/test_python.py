@@ -12,7 +12,7 @@ from checker.launch.ros2.graph import (
     NodeKind,
     Parameter,
     ParameterFile,
-    shown,
+    display_path,
 )
 from checker.launch.ros2.package_launch import launch_files
 from checker.package.inputs import open_input
@@ -20,7 +20,7 @@ from tests.ros2_launch.conftest import NAME, PACKAGE_XML, Read, python
 
 
 def words(graph: LaunchGraph, number: int = 0) -> list[str]:
-    return [shown(word.value) for word in graph.nodes[number].arguments]
+    return [display_path(word.value) for word in graph.nodes[number].arguments]
 
 
 def test_a_node_with_all_its_parts(read: Read) -> None:
@@ -44,7 +44,7 @@ def test_a_node_with_all_its_parts(read: Read) -> None:
     values = {p.name: p.value for p in node.parameters if isinstance(p, Parameter)}
     assert values == {"use_sim_time": True, "a.b": 2.5}
     (file,) = (p for p in node.parameters if isinstance(p, ParameterFile))
-    assert shown(file.path) == f"$(find-pkg-share {NAME})/config/p.yaml"
+    assert display_path(file.path) == f"$(find-pkg-share {NAME})/config/p.yaml"
     assert [(remap.source, remap.target) for remap in node.remaps] == [("/tf", "tf")]
     assert node.starts is True
     assert not graph.unread

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.launch.ros2.graph import shown
+from checker.launch.ros2.graph import display_path
 from tests.ros2_launch.conftest import NAME, Read
 
 SHARE = f"$(find-pkg-share {NAME})"
@@ -86,7 +86,7 @@ def test_a_style_comes_to_its_words(style: str, read: Read) -> None:
     statements, expected = STYLES[style]
     end = "return LaunchDescription([Node(package='a', executable='b', arguments=x)])"
     graph = read(f"{statements}\n{end}", others=ROBOT)
-    assert [shown(word.value) for word in graph.nodes[0].arguments] == expected
+    assert [display_path(word.value) for word in graph.nodes[0].arguments] == expected
     assert not graph.unread
 
 
@@ -107,7 +107,7 @@ def test_what_a_function_performs(read: Read) -> None:
             OpaqueFunction(function=setup)])
         """
     )
-    assert [shown(word.value) for word in graph.nodes[0].arguments] == [
+    assert [display_path(word.value) for word in graph.nodes[0].arguments] == [
         *("--path", "config/rover.yaml", "5.0")
     ]
     assert not graph.unread

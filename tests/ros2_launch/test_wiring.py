@@ -9,7 +9,7 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-from checker.ros.wiring.services import wanted
+from checker.ros.wiring.services import wanted_services
 from checker.ros.wiring.wiring import Wiring
 from checker.rule_testing import write_example
 
@@ -172,4 +172,6 @@ def test_the_nodes_that_a_lifecycle_manager_waits_for(
     manager = f'Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", {node})'
     launched = wiring(manager, tmp_path)
 
-    assert [it.name for it in wanted(launched.nodes[0])] == [f"{name}/get_state" for name in names]
+    assert [it.name for it in wanted_services(launched.nodes[0])] == [
+        f"{name}/get_state" for name in names
+    ]

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from checker.service.store.locks import forget, living, the_dead
+from checker.service.store.locks import dead_processes, forget, hold_lock
 
 LIVES = """
 import sys, time
@@ -28,29 +28,29 @@ def process(folder: Path, name: str) -> subprocess.Popen[bytes]:
 
 def test_one_that_is_killed_is_dead_until_it_is_back(tmp_path: Path) -> None:
     folder = tmp_path / "workers"
-    assert the_dead(folder) == set()
+    assert dead_processes(folder) == set()
     with process(folder, "one") as one, process(folder, "other") as other:
-        assert the_dead(folder) == set()
+        assert dead_processes(folder) == set()
         one.kill()
         one.wait()
-        assert the_dead(folder) == {"one"}
-        with living(folder, "one"):
-            assert the_dead(folder) == set()
+        assert dead_processes(folder) == {"one"}
+        with hold_lock(folder, "one"):
+            assert dead_processes(folder) == set()
         other.kill()
-    assert the_dead(folder) == {"other"}
+    assert dead_processes(folder) == {"other"}
     forget(folder, "other")
     forget(folder, "other")
-    assert the_dead(folder) == set()
+    assert dead_processes(folder) == set()
     assert list(folder.iterdir()) == []
 
 
 def test_two_of_the_same_name_are_let_be(tmp_path: Path) -> None:
-    with living(tmp_path, "one"), living(tmp_path, "one"):
-        assert the_dead(tmp_path) == set()
-    assert the_dead(tmp_path) == set()
+    with hold_lock(tmp_path, "one"), hold_lock(tmp_path, "one"):
+        assert dead_processes(tmp_path) == set()
+    assert dead_processes(tmp_path) == set()
 
 
 def test_one_that_ends_leaves_nothing(tmp_path: Path) -> None:
-    with living(tmp_path, "one"):
+    with hold_lock(tmp_path, "one"):
         assert [path.name for path in tmp_path.iterdir()] == ["one"]
     assert list(tmp_path.iterdir()) == []

@@ -12,7 +12,7 @@ import pytest
 from checker.base.errors import InvalidSettings
 from checker.service.store.objects import Kind, StoreUnreachable
 from checker.service.store.s3 import COPY_SECONDS, s3_objects
-from checker.service.store.store import SUMMARY, Store, opened
+from checker.service.store.store import SUMMARY, Store, open_store
 from tests.store.filled import KEY, OTHER, made, uploaded
 
 Machine = Callable[[str], Store]
@@ -147,11 +147,11 @@ def test_a_store_that_is_away_is_said_soon(
 def test_the_environment_says_where(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("SUBT_CHECK_DATA", str(tmp_path))
     monkeypatch.delenv("SUBT_CHECK_STORE", raising=False)
-    assert opened() == Store(tmp_path)
+    assert open_store() == Store(tmp_path)
     monkeypatch.setenv("SUBT_CHECK_STORE", "s3://bucket/prefix")
-    shared = opened().shared
+    shared = open_store().shared
     assert "bucket" in str(getattr(shared, "bucket", ""))
     for wrong in ("bucket", "gs://bucket", "s3://"):
         monkeypatch.setenv("SUBT_CHECK_STORE", wrong)
         with pytest.raises(InvalidSettings, match="expected for example 's3://bucket/prefix'"):
-            opened()
+            open_store()

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from checker.finding import Concern, Place, Severity
 from checker.report.report import ReportedFinding
 from checker.rulebook.suppression.baseline import BaselineEntry
-from checker.rulebook.suppression.baseline_match import Held, Matched, matched
+from checker.rulebook.suppression.baseline_match import Held, Matched, match_entries
 from checker.rulebook.suppression.finding_places import (
     NAME_LIMIT,
     Spot,
@@ -43,7 +43,7 @@ def entries(*before: Spot) -> list[BaselineEntry]:
 
 
 def held(now: list[Spot], before: list[Spot]) -> Matched:
-    return matched(now, entries(*before))
+    return match_entries(now, entries(*before))
 
 
 def new(now: list[Spot], before: list[Spot]) -> list[str]:
@@ -72,7 +72,7 @@ def test_what_did_not_change_is_in_the_baseline(said: list[Spot]) -> None:
 @given(_spots, _spots)
 def test_no_place_is_taken_twice_nor_by_what_is_graver(now: list[Spot], before: list[Spot]) -> None:
     known = entries(*before)
-    found = matched(now, known)
+    found = match_entries(now, known)
     taken = [
         (entry, each.place)
         for each, entry in zip(now, found.entries, strict=True)

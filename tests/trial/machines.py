@@ -12,7 +12,7 @@ from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.mjcf.scene import build_scene
 from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
-from checker.physics.trial.worker import driven
+from checker.physics.trial.worker import run_trial
 from tests.model.robots import sdf
 
 STEP = 0.002
@@ -166,7 +166,7 @@ def trial_of(robot: Robot, timestep: float = STEP) -> Trial:
     belts = [belt.link for belt in plan.belts]
     scene = build_scene(robot, servos=(*plan.speeds, *plan.places), belts=belts)
     assert not scene.unusable
-    trial = driven(scene, plan, timestep)
+    trial = run_trial(scene, plan, timestep)
     assert not trial.refused
     return trial
 

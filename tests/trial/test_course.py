@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from checker.physics.trial.course import driving_legs, gentle_speed, linear_command
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.plan import Plan
-from checker.physics.trial.profile import Limits, mixed, value_at
+from checker.physics.trial.profile import Limits, mix_lines, value_at
 from tests.trial.machines import four_wheels, tracks
 
 limits = st.builds(
@@ -70,7 +70,7 @@ def test_without_limits_nothing_is_compared_with_them() -> None:
 
 
 def test_commands_that_are_no_numbers_are_none() -> None:
-    assert mixed((((0.0, 1.0),),), lambda v: v / 1e-320 * 0.0 + math.nan) == ((0.0, 0.0),)
+    assert mix_lines((((0.0, 1.0),),), lambda v: v / 1e-320 * 0.0 + math.nan) == ((0.0, 0.0),)
     assert value_at((), 1.0) == 0.0
 
 

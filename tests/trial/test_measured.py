@@ -9,7 +9,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from checker.engine.facts import measured
+from checker.engine.facts import trial_facts
 from checker.engine.judge import TRIALS, Judge
 from checker.engine.run import Outcome, run_rules
 from checker.physics.trial.robot_trial import RobotTrial
@@ -37,7 +37,7 @@ class Parts:
 def shown(trial: Trial, **settings: Any) -> dict[str, Any]:
     parts = Parts(trial)
     outcome = run_rules(OF_TRIAL, parts, Judge(profile("subt"), Settings(**settings)))
-    said = json.loads(json.dumps(measured(parts.driven, outcome, all_rules())))
+    said = json.loads(json.dumps(trial_facts(parts.driven, outcome, all_rules())))
     jsonschema.validate(said, {**SCHEMA["$defs"]["TrialJson"], "$defs": SCHEMA["$defs"]})
     return dict(said)
 
@@ -97,7 +97,7 @@ def test_a_torque_beyond_its_limit_is_not_ok_because_the_rule_is_silent(
         Measurement("torque_limit", 20.0, "left_front"),
     )
     silent = Outcome((), (), {"TRI009": {"warning_above": option}})
-    said = measured(RobotTrial(rover(), trial_of(*figures)), silent, all_rules())["measurements"]
+    said = trial_facts(RobotTrial(rover(), trial_of(*figures)), silent, all_rules())["measurements"]
     assert said[0]["verdict"] == verdict
 
 

@@ -94,7 +94,7 @@ class OneMesh:
     def __init__(self, mesh: Mesh | MeshFault) -> None:
         self.mesh = mesh
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:
         assert uri.value
         return self.mesh
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from checker.base.cache import NO_CACHE
 from checker.base.output import say_nothing
-from checker.engine.review import judged
+from checker.engine.review import judge_package
 from checker.formats.urdf.fixed_joints import Lumping
 from checker.package.inputs import open_input
 from checker.robots.urdf_files import UrdfFiles
@@ -55,7 +55,7 @@ def test_a_loop_of_fixed_joints_ends(describe: Describe) -> None:
 
 def profile_of(path: Path, settings: Settings) -> str:
     with open_input(path) as opened:
-        return judged(opened.packages[0], "", settings, NO_CACHE, say_nothing).profile
+        return judge_package(opened.packages[0], "", settings, NO_CACHE, say_nothing).profile
 
 
 def test_a_urdf_robot_gets_its_own_profile(describe: Describe, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.forked_work import in_fork
+from checker.base.forked_work import run_in_fork
 from checker.base.parts import NotAvailable, WorkerFailed
 from checker.formats.xacro import worker
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
@@ -148,6 +148,6 @@ def test_behind_the_guard_nothing_opens(way: str) -> None:
             return json.dumps(f"refused: {refusal}").encode()
         return b'"escaped"'
 
-    result = in_fork(work, 5)
+    result = run_in_fork(work, 5)
     assert not isinstance(result, WorkerFailed)
     assert json.loads(result).startswith("refused")

@@ -11,7 +11,7 @@ from checker.base.cache import NO_CACHE
 from checker.engine.subject import Subject
 from checker.model.sensing.view import SensorViews
 from checker.package.inputs import open_input
-from checker.physics.views.lights import covered
+from checker.physics.views.lights import covered_shares
 from checker.rule_testing import write_example
 from tests.mesh.files import binary_stl, box
 
@@ -26,14 +26,14 @@ def lamp(at: tuple[float, float, float], along: tuple[float, float, float]) -> d
 
 class TestCovered:
     def test_a_light_in_a_closed_mesh_shines_at_nothing_else(self) -> None:
-        assert covered(CUBE, {"at": (0.1, 0.2, 0.0)}) == pytest.approx((1.0, 1.0), abs=0.01)
+        assert covered_shares(CUBE, {"at": (0.1, 0.2, 0.0)}) == pytest.approx((1.0, 1.0), abs=0.01)
 
     def test_which_way_triangles_face_does_not_matter(self) -> None:
         inside_out = CUBE[:, ::-1]
-        assert covered(inside_out, {"at": (0, 0, 0)}) == pytest.approx((1.0, 1.0), abs=0.01)
+        assert covered_shares(inside_out, {"at": (0, 0, 0)}) == pytest.approx((1.0, 1.0), abs=0.01)
 
     def test_a_light_beside_a_wall_has_half_of_its_surroundings(self) -> None:
-        around, ahead = covered(CUBE, {"at": (0.5001, 0.0, 0.0)})
+        around, ahead = covered_shares(CUBE, {"at": (0.5001, 0.0, 0.0)})
         assert around == pytest.approx(0.5, abs=0.05)
         assert ahead == around
 
@@ -43,7 +43,7 @@ class TestCovered:
     def test_a_beam_meets_what_is_ahead(
         self, along: tuple[float, float, float], share: float
     ) -> None:
-        _, ahead = covered(CUBE, lamp((0.7, 0.0, 0.0), along))
+        _, ahead = covered_shares(CUBE, lamp((0.7, 0.0, 0.0), along))
         assert ahead == share
 
 

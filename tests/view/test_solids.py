@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.physics.views.obstacles import SOLIDS, entered, met
+from checker.physics.views.obstacles import SOLIDS, entry_distances, first_hits
 from checker.physics.views.rays import Grid, Steps
 from tests.effort import examples
 from tests.mesh.files import box
@@ -27,7 +27,7 @@ SIZES = {
 def reach(kind: str, at: tuple[float, float, float]) -> np.ndarray:
     """Return where the rays from the origin enter a shape that stands at a place."""
     origin = -np.array([at])
-    return entered(kind, np.array([SIZES[kind]]), origin, GRID.directions[None])[0]
+    return entry_distances(kind, np.array([SIZES[kind]]), origin, GRID.directions[None])[0]
 
 
 def outside(kind: str, points: np.ndarray) -> np.ndarray:
@@ -67,13 +67,13 @@ def test_from_inside_nothing_is_entered(kind: str) -> None:
 
 def test_a_box_is_the_same_as_its_triangles() -> None:
     found = reach("box", (2.0, 0.1, 0.2))
-    first, _ = met(np.array(box(0.6, 0.4, 0.8, (2.0, 0.1, 0.2))), GRID)
+    first, _ = first_hits(np.array(box(0.6, 0.4, 0.8, (2.0, 0.1, 0.2))), GRID)
     assert np.allclose(np.where(np.isfinite(found), found, math.inf), first)
 
 
 def test_rays_along_a_cylinder_meet_its_end() -> None:
     rays = np.array([[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
     origin = np.array([[0.1, 0.0, -2.0]])
-    found = entered("cylinder", np.array([[0.3, 1.0]]), origin, rays)
+    found = entry_distances("cylinder", np.array([[0.3, 1.0]]), origin, rays)
     assert found[0, 0] == pytest.approx(1.5)
     assert math.isnan(found[0, 1])

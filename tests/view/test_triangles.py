@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.physics.views.obstacles import ball_around, in_view, met
+from checker.physics.views.obstacles import ball_around, first_hits, in_view
 from checker.physics.views.rays import Grid, Steps
 from tests.effort import examples
 from tests.mesh.files import box
@@ -48,7 +48,7 @@ def test_same_as_every_triangle_with_every_ray(seed: int, grid: Grid, size: floa
     random = np.random.default_rng(seed)
     middles = random.normal(size=(60, 1, 3)) * 1.5
     corners = middles + size * random.normal(size=(60, 3, 3))
-    found, expected = met(corners, grid), plainly(corners, grid)
+    found, expected = first_hits(corners, grid), plainly(corners, grid)
     assert np.allclose(found[0], expected[0])
     assert (found[1] == expected[1]).all()
 
@@ -56,10 +56,10 @@ def test_same_as_every_triangle_with_every_ray(seed: int, grid: Grid, size: floa
 def test_a_closed_surface_is_seen_from_outside_only() -> None:
     around = np.array(box(1.0, 1.0, 1.0))
     for grid in GRIDS:
-        first, cut = met(around, grid)
+        first, cut = first_hits(around, grid)
         assert not np.isfinite(first).any()
         assert not cut.any()
-    first, _ = met(np.array(box(1.0, 1.0, 1.0, (2.0, 0.0, 0.0))), GRIDS[2])
+    first, _ = first_hits(np.array(box(1.0, 1.0, 1.0, (2.0, 0.0, 0.0))), GRIDS[2])
     assert first.min() == pytest.approx(1.5, rel=0.02)
 
 
@@ -67,9 +67,9 @@ def test_a_closed_surface_is_seen_from_outside_only() -> None:
 def test_corners_that_are_nowhere_do_no_harm(value: float) -> None:
     corners = np.array(box(1.0, 1.0, 1.0, (2.0, 0.0, 0.0)))
     corners[0, 0, 0] = value
-    first, _ = met(corners, GRIDS[0])
+    first, _ = first_hits(corners, GRIDS[0])
     assert np.isfinite(first).any()
-    assert met(np.empty((0, 3, 3)), GRIDS[0])[0].shape == (288,)
+    assert first_hits(np.empty((0, 3, 3)), GRIDS[0])[0].shape == (288,)
 
 
 @settings(max_examples=examples(300))
@@ -83,7 +83,7 @@ def test_nothing_out_of_view_is_met(seed: int, grid: Grid, size: float, away: fl
     random = np.random.default_rng(seed)
     corners = away * random.normal(size=3) + size * random.normal(size=(30, 3, 3))
     if not in_view(*ball_around(corners), grid):
-        first, cut = met(corners, grid)
+        first, cut = first_hits(corners, grid)
         assert not np.isfinite(first).any()
         assert not cut.any()
 

@@ -59,9 +59,9 @@ def solid(text: str, pose: str = "0.05 0 0 0 0 0") -> str:
 )
 def test_a_wall_before_the_lens_fills_the_view(visual: str, tmp_path: Path) -> None:
     (view,) = views(visual, tmp_path).views
-    assert view.hidden == pytest.approx(1.0, abs=1e-3)
-    assert view.hidden_within(0.03) == 0.0
-    assert view.hidden_within(1.0) == pytest.approx(1.0, abs=1e-3)
+    assert view.hidden_share == pytest.approx(1.0, abs=1e-3)
+    assert view.hidden_share_within(0.03) == 0.0
+    assert view.hidden_share_within(1.0) == pytest.approx(1.0, abs=1e-3)
     assert view.cut == 0.0
     assert view.by is not None
 
@@ -69,25 +69,25 @@ def test_a_wall_before_the_lens_fills_the_view(visual: str, tmp_path: Path) -> N
 def test_half_a_wall_fills_half_the_view(tmp_path: Path) -> None:
     half = solid("<box><size>0.02 2 2</size></box>", "0.05 1 0 0 0 0")
     (view,) = views(half, tmp_path).views
-    assert view.hidden == pytest.approx(0.5, abs=0.01)
+    assert view.hidden_share == pytest.approx(0.5, abs=0.01)
 
 
 def test_what_is_nearer_than_the_near_clip_is_cut(tmp_path: Path) -> None:
     (view,) = views(solid("<box><size>0.01 1 1</size></box>", "0.01 0 0 0 0 0"), tmp_path).views
-    assert view.hidden == 0.0
+    assert view.hidden_share == 0.0
     assert view.cut == pytest.approx(1.0, abs=1e-3)
 
 
 def test_a_mesh_is_as_good_as_a_box_with_scale_and_pose(tmp_path: Path) -> None:
     turned = mesh("meshes/a.stl", "0.05 0 0 3.1416 0 0", "<scale>0.5 2 2</scale>")
     (view,) = views(turned, tmp_path, {"meshes/a.stl": PLATE}).views
-    assert view.hidden == pytest.approx(1.0, abs=1e-3)
+    assert view.hidden_share == pytest.approx(1.0, abs=1e-3)
     assert view.filled[0].metres == pytest.approx(0.045, rel=0.3)
 
 
 def test_without_sensors_or_visuals_nothing_is_asked(tmp_path: Path) -> None:
     found = views("", tmp_path)
-    assert [view.hidden for view in found.views] == [0.0]
+    assert [view.hidden_share for view in found.views] == [0.0]
     assert not found.unseen
 
 
@@ -128,7 +128,7 @@ def test_what_cannot_be_looked_at_is_said(
     cache = Cache(tmp_path / "cache")
     found = views(visual, tmp_path / "package", {"meshes/a.stl": content}, cache)
     assert found.unseen[0].startswith(reason)
-    assert [view.hidden for view in found.views] == [0.0]
+    assert [view.hidden_share for view in found.views] == [0.0]
     # A report that says so can be remembered: the file is at fault, and stays so.
     assert cache.is_whole
 
@@ -147,7 +147,7 @@ def test_a_part_that_is_centred_stands_at_the_origin(tmp_path: Path) -> None:
         views(mesh("a.dae", more=pick.format(center)), tmp_path / center, {"a.dae": plate})
         for center in ("false", "true")
     ]
-    assert [found.views[0].hidden for found in hidden] == pytest.approx([0.0, 1.0], abs=0.01)
+    assert [found.views[0].hidden_share for found in hidden] == pytest.approx([0.0, 1.0], abs=0.01)
     assert [found.unseen for found in hidden] == [(), ()]
 
 

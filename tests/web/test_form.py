@@ -19,8 +19,8 @@ from checker.service.web.uploads.form import (
     LENGTH_LIMIT,
     PARTS_LIMIT,
     UploadForm,
-    misfit,
     safe_name,
+    signature_mismatch,
 )
 from tests.web.server import BOUNDARY, form, left_behind
 
@@ -173,4 +173,4 @@ def test_the_limit_is_the_files(store: Store) -> None:
     ],
 )
 def test_the_first_bytes_tell_the_kind(name: str, head: bytes, fits: bool) -> None:
-    assert (misfit(name, head) == "") is fits
+    assert (signature_mismatch(name, head) == "") is fits

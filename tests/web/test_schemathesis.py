@@ -81,7 +81,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     folder = tmp_path_factory.mktemp("api")
     store = Store(folder / "data")
     jobs = durable_jobs(f"sqlite:///{folder}/jobs.sqlite", store)
-    Workers(jobs.checks.engine).beat("worker")
+    Workers(jobs.checks.engine).record_heartbeat("worker")
     app = create_app(jobs, store, Config())
     cancelled = jobs.submit(Order("a" * 64, "a.zip"))
     assert jobs.cancel(cancelled.id, cancelled.secret)

@@ -37,7 +37,7 @@ def test_to_announce_uploads_takes_no_room_from_others() -> None:
         with disk.space.reserve("one", 95 * MB) as claim:
             for _ in range(95):
                 disk.write(claim, MB)
-        assert claim.to_come == 95 * MB  # the copy that its index is read from
+        assert claim.bytes_to_come == 95 * MB  # the copy that its index is read from
 
 
 def test_an_upload_ends_where_the_disk_gets_full_meanwhile() -> None:
@@ -122,7 +122,7 @@ def test_what_is_promised_can_be_written(free: int, uploads: list[tuple[str, int
             with suppress(Refused):
                 disk.write(claim, int(claim.size * share))
         for claim in claims:
-            disk.free -= claim.to_come
+            disk.free -= claim.bytes_to_come
         assert not claims or disk.free >= KEPT
 
 

@@ -64,7 +64,7 @@ class Reader:
 
     async def _read(self, watchers: Watchers, id: str, after: int) -> None:
         with ExitStack() as place:
-            check = place.enter_context(watchers.following(id))
+            check = place.enter_context(watchers.follow(id))
             await watchers.look([check])
             lines: AsyncIterator[str] = check.lines(after)
             async for line in lines:

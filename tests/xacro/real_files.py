@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from checker.base.forked_work import in_fork
+from checker.base.forked_work import run_in_fork
 from checker.base.parts import WorkerFailed
 from checker.formats.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
@@ -46,7 +46,7 @@ def compared(gathered: Gathered, path: str) -> dict[str, Any]:
     """Return `number` of expressions evaluated for a file, and those that differ, as `others`."""
     for _ in range(_ROUNDS):
         request = gathered.request
-        result = in_fork(lambda request=request: _compare(request, path), _SECONDS)  # type: ignore[misc]
+        result = run_in_fork(lambda request=request: _compare(request, path), _SECONDS)  # type: ignore[misc]
         assert not isinstance(result, WorkerFailed), (path, result)
         found: dict[str, Any] = json.loads(result)
         if "missing" not in found:

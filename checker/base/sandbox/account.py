@@ -23,7 +23,9 @@ def free_account() -> int:
     return _FIRST + secrets.randbelow(_LAST - _FIRST + 1)
 
 
-def become(account: int, needed: Iterable[str], folder: str = "", *, read_all: bool = False) -> str:
+def switch_user(
+    account: int, needed: Iterable[str], folder: str = "", *, read_all: bool = False
+) -> str:
     """Permanently become another user; the rights of root go, whether or not this can be done.
 
     Args:

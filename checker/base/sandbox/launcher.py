@@ -25,10 +25,10 @@ from checker.base.record import Record
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.account import free_account
 from checker.base.sandbox.layers import Layer, Sandbox
-from checker.base.sandbox.priority import stand_back
+from checker.base.sandbox.priority import lower_priority
 from checker.base.sandbox.program_files import program_paths
 from checker.base.sandbox.task import DEBUG
-from checker.base.sandbox.usage import Usage, below, usage_below
+from checker.base.sandbox.usage import Usage, descendant_ids, usage_below
 
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
@@ -184,10 +184,10 @@ class OwnLauncher(Launcher):
         """Return what all that was started uses together; see `usage_below`."""
         return usage_below(self._process.pid, folder, most)
 
-    def stand_back(self, by: int) -> None:
+    def lower_priority(self, by: int) -> None:
         """Have all that was started stand back further behind others, as `nice` counts it."""
-        if processes := below(self._process.pid):
-            stand_back(processes, by)
+        if processes := descendant_ids(self._process.pid):
+            lower_priority(processes, by)
 
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""
@@ -238,7 +238,7 @@ def _command(
     arguments = (str(control), json.dumps(to_builtins(sandbox)), *paths)
     own = [sys.executable, "-P", "-m", module, *arguments]
     folder = "" if work is None else str(work)
-    return namespaces.wrapped(own, sandbox.read, folder) if sandbox.wrapped else own
+    return namespaces.sandboxed_command(own, sandbox.read, folder) if sandbox.wrapped else own
 
 
 def module_path() -> str:

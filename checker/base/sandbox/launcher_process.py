@@ -26,8 +26,8 @@ from time import monotonic
 from typing import Any
 
 from checker.base.sandbox.layers import ACCOUNT, NAMESPACES, Layer, Sandbox, enter
-from checker.base.sandbox.priority import stand_back
-from checker.base.sandbox.task import FAILED, prepared, run
+from checker.base.sandbox.priority import lower_priority
+from checker.base.sandbox.task import FAILED, load_prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
 #
@@ -263,9 +263,9 @@ def _limit_processes(layers: Sequence[Layer]) -> None:
 def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
-        stand_back([os.getpid()], niceness)
+        lower_priority([os.getpid()], niceness)
     if loaded:
-        prepared(loaded)
+        load_prepared(loaded)
     with socket.socket(fileno=descriptor) as control:
         LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 

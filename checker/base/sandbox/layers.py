@@ -80,7 +80,7 @@ def _namespaces(sandbox: Sandbox) -> Layer:
 
 def _account(sandbox: Sandbox) -> Layer:
     limited = LANDLOCK in sandbox.names and landlock.version() > 0
-    blocked = account.become(sandbox.account, sandbox.read, sandbox.work, read_all=limited)
+    blocked = account.switch_user(sandbox.account, sandbox.read, sandbox.work, read_all=limited)
     but = f"; it may read all files that Landlock leaves, as {blocked} is closed to other users"
     return Layer(ACCOUNT, True, f"user {sandbox.account}{but if blocked else ''}", not blocked)
 

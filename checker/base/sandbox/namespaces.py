@@ -28,7 +28,7 @@ _LINKS = ("/bin", "/lib", "/lib32", "/lib64")
 _TRY_SECONDS = 60
 
 
-def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list[str]:
+def sandboxed_command(command: Sequence[str], read: Iterable[str], work: str = "") -> list[str]:
     """Return the command that runs a command where nothing but some files can be seen.
 
     Args:
@@ -77,7 +77,7 @@ def bubblewrap() -> str:
     """Return why bubblewrap cannot be used here; empty if it is."""
     if shutil.which("bwrap") is None:
         return "bubblewrap (bwrap) is not installed"
-    command = wrapped(["/usr/bin/true"], program_paths())
+    command = sandboxed_command(["/usr/bin/true"], program_paths())
     try:
         tried = subprocess.run(  # noqa: S603 - a fixed command
             command, capture_output=True, timeout=_TRY_SECONDS, check=False

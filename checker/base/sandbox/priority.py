@@ -12,7 +12,7 @@ _LAST = 19
 _TRIES, _SECONDS = 20, 0.1
 
 
-def stand_back(processes: Sequence[int], by: int) -> None:
+def lower_priority(processes: Sequence[int], by: int) -> None:
     """Lower the priority of all threads of some processes; what has ended is passed over.
 
     Args:

@@ -61,7 +61,7 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
             inherit(inner)
         hold_to(order["seconds"], order["memory"])
         narrow(sandbox, works=order["works"], draws=order["draws"])
-        module = prepared(order["module"])
+        module = load_prepared(order["module"])
         if order["serves"]:
             module.serve(socket.socket(fileno=request))
         elif order.get("lasts"):
@@ -78,7 +78,7 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
     return 0
 
 
-def prepared(name: str) -> ModuleType:
+def load_prepared(name: str) -> ModuleType:
     """Return a module that is loaded and, if it can be, prepared."""
     module = import_module(name)
     if hasattr(module, "prepare"):
@@ -167,10 +167,10 @@ def tighten(kind: int, soft: int, hard: int) -> None:
     """Set one limit of this process, of `resource.RLIMIT_…`; none that there is is raised."""
     import resource
 
-    resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
+    resource.setrlimit(kind, tighter_limits(resource.getrlimit(kind), soft, hard))
 
 
-def tightened(limits: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+def tighter_limits(limits: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
     """Return the soft and the hard limit to set where others are set already: the tighter of each.
 
     Args:

@@ -35,7 +35,7 @@ class Usage(Record):
     files: int = 0
     processes: int = 0
 
-    def beyond(self, most: Usage) -> str:
+    def excess_over(self, most: Usage) -> str:
         """Return what is more than there may be, the end of "needs more than"; empty for none."""
         if self.processes > most.processes:
             return f"{most.processes} processes"
@@ -54,7 +54,7 @@ def usage_below(ancestor: int, folder: Path, most: Usage) -> Usage:
         folder: Where they work.
         most: What they may use.
     """
-    processes = below(ancestor)
+    processes = descendant_ids(ancestor)
     if len(processes) > most.processes:
         return Usage(processes=len(processes))
     memory, disk, known = sum(map(_memory, processes)), 0, set[tuple[int, int]]()
@@ -67,7 +67,7 @@ def usage_below(ancestor: int, folder: Path, most: Usage) -> Usage:
     return Usage(memory, disk, len(known), len(processes))
 
 
-def below(ancestor: int) -> list[int]:
+def descendant_ids(ancestor: int) -> list[int]:
     """Return the ids of all processes below another one; none where the system has no /proc."""
     children: dict[int, list[int]] = {}
     with suppress(OSError), os.scandir("/proc") as entries:

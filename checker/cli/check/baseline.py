@@ -16,7 +16,7 @@ from checker.rulebook.suppression.baseline import (
     baseline_text,
     read_baseline,
 )
-from checker.rulebook.suppression.baseline_match import matched
+from checker.rulebook.suppression.baseline_match import match_entries
 from checker.rulebook.suppression.finding_places import spots_of
 
 
@@ -88,7 +88,7 @@ def _entries(
     spots = [
         (at, spot) for at, finding in enumerate(package.findings) for spot in spots_of(finding)
     ]
-    known = matched([spot for _, spot in spots], before)
+    known = match_entries([spot for _, spot in spots], before)
     reasons: dict[int, str] = {}
     for (at, _), entry in zip(spots, known.entries, strict=True):
         if entry is not None and before[entry].reason:

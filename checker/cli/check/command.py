@@ -10,7 +10,7 @@ from typing import Any
 
 from checker.base.errors import InvalidSettings, UnreadableInput
 from checker.base.garbage_collection import collection_put_off
-from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, empty_of, here, show
+from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, current_folder, empty_of, show
 from checker.cli.check.arguments import add_arguments, refuse_contradictions
 from checker.cli.check.baseline import baseline_to_renew, write_baseline
 from checker.cli.check.results import check_and_print, write_results
@@ -27,7 +27,7 @@ __all__ = ["add_arguments", "run"]
 def run(options: argparse.Namespace) -> int:
     """Check packages and print the report."""
     refuse_contradictions(options)
-    folder = here()
+    folder = current_folder()
     # What cannot be written is said before all is checked.
     renewed = _to_renew(options) if options.write_baseline else None
     if options.report:
@@ -93,7 +93,7 @@ def _to_renew(options: argparse.Namespace) -> Baseline:
         with suppress(UnreadableInput):  # said when it is to be checked
             named |= {settings.baseline.path for settings in settings_of(path)}
     only = named.pop() if len(named) == 1 else None
-    return baseline_to_renew(_relative(here(), only) if only else Path(DEFAULT_FILE))
+    return baseline_to_renew(_relative(current_folder(), only) if only else Path(DEFAULT_FILE))
 
 
 def _relative(folder: Path, path: Path) -> Path:

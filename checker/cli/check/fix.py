@@ -199,7 +199,7 @@ def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Packag
             settings = task.settings_for(given)
             package = with_package_path(given, settings.package_path)
             fixed = fix_package(package, _judge(settings), allowed)
-            yield package, FixedPackage(package.name, task.shown_of(package), fixed)
+            yield package, FixedPackage(package.name, task.display_path_of(package), fixed)
 
 
 def _judge(settings: Settings) -> FindingsOf:

@@ -11,11 +11,11 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.output import empty_of, here, say_nothing, say_progress, show, write
+from checker.base.output import current_folder, empty_of, say_nothing, say_progress, show, write
 from checker.base.progress import ProgressLine
 from checker.base.resources import processors
 from checker.base.words import plain, shortened
-from checker.pipeline import Checked, Task, check_tasks, joined_report, tasks_of
+from checker.pipeline import Checked, Task, check_tasks, join_reports, tasks_of
 from checker.report.files import STALE, artefacts
 from checker.report.formats import FORMATS
 from checker.report.render_settings import RenderSettings, palette_for
@@ -49,17 +49,17 @@ def check_and_print(
         tasks = [replace(task, say=say_nothing) for task in tasks]
     is_printed = options.format in _LINES and not (options.output or options.write_baseline)
     settings = _render_settings(options)
-    text = TextReport(settings, [task.shown for task in tasks])
+    text = TextReport(settings, [task.display_path for task in tasks])
     done: list[Checked] = []
     for task, checked in zip(tasks, _watched(tasks, jobs, progress), strict=True):
         done.append(checked)
         _complain(checked)
         packages = [item for item in checked if isinstance(item, PackageReport)]
-        for block in text.add(packages, task.shown) if is_printed else ():
+        for block in text.add(packages, task.display_path) if is_printed else ():
             show(block)
-    report = joined_report(done)
+    report = join_reports(done)
     if is_printed:
-        show("".join((*text.rest(), closing_text(report, settings))))
+        show("".join((*text.deferred_lines(), closing_text(report, settings))))
     return report
 
 
@@ -82,7 +82,7 @@ def _complain(checked: Checked) -> None:
 def _render_settings(options: argparse.Namespace) -> RenderSettings:
     return RenderSettings(
         palette_for(options.color, None if options.output else sys.stdout),
-        str(here()),
+        str(current_folder()),
         shlex.join(("subt-check", *options.words)),
         options.info,
         options.quiet,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import partial
 
-from checker.base.forked_work import in_fork
+from checker.base.forked_work import run_in_fork
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 
@@ -18,7 +18,7 @@ def answer(_request: bytes, _files: Files) -> bytes:
     """Return the name of the first renderer that works, or `none`."""
     # A renderer that is not there ends MuJoCo's import, so each is tried in a process of its own.
     for renderer, name in _RENDERERS.items():
-        drawn = in_fork(partial(_draw, renderer), _SECONDS_EACH)
+        drawn = run_in_fork(partial(_draw, renderer), _SECONDS_EACH)
         if not isinstance(drawn, WorkerFailed) and drawn == b"light":
             return name.encode()
     return b"none"

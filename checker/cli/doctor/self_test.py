@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 
 from checker.base.extras import PHYSICS
-from checker.base.resources import beside
+from checker.base.resources import project_folder
 from checker.base.words import plain, shortened
 from checker.cli.doctor.installation import INSTALL_AGAIN, Result, State
 from checker.pipeline import check_package
@@ -44,7 +44,7 @@ def self_test() -> Result:
 
 def sample() -> Path:
     """Return the folder of the sample."""
-    return beside("samples") / SAMPLE
+    return project_folder("samples") / SAMPLE
 
 
 def _trouble(report: PackageReport) -> str:

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from checker.editor.completion import elements, expressions, plugins
 from checker.editor.completion.files import files
-from checker.editor.completion.item import Completion, Request, by_rank
+from checker.editor.completion.item import Completion, Request, sort_by_rank
 from checker.editor.completion.names import names
 from checker.editor.target import usual_target
 from checker.editor.xacro_names import PREFIX
@@ -34,7 +34,7 @@ def completions_at(
     xml = xml_context(text, offset)
     at = min(max(offset, 0), len(text))
     judged = target or usual_target(subject.package)
-    return by_rank(_items(Request(subject, path, text, at, xml, judged)))
+    return sort_by_rank(_items(Request(subject, path, text, at, xml, judged)))
 
 
 def _items(request: Request) -> Iterator[Completion]:

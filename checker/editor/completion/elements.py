@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.convert.gazebo_tags import short_tags
 from checker.editor.completion.item import Completion, CompletionKind, Request
-from checker.editor.completion.snippet import escaped, plain_element, sdf_element, usual
+from checker.editor.completion.snippet import escaped, plain_element, sdf_element, writable_default
 from checker.editor.meanings import (
     meaning_of,
     urdf_attributes,
@@ -30,11 +30,11 @@ def elements(request: Request) -> Iterator[Completion]:
     """Yield the elements that may stand at the caret."""
     if not request.xml.tags:
         yield from _roots(request)
-    elif request.around.path == "gazebo":
+    elif request.enclosing_place.path == "gazebo":
         yield from _of_gazebo(request)
-    elif request.around.language == "sdf":
-        yield from _of_sdf(request, request.around.tags)
-    elif request.around.language == "urdf":
+    elif request.enclosing_place.language == "sdf":
+        yield from _of_sdf(request, request.enclosing_place.tags)
+    elif request.enclosing_place.language == "urdf":
         yield from _of_urdf(request)
 
 
@@ -92,7 +92,7 @@ def _frame_ids(request: Request) -> Iterator[Completion]:
     """Yield the elements of a sensor that name the frame of its messages, those that are read."""
     known = frame_ids(request.target.release)
     for rank, tag in enumerate(known.read if known is not None else ()):
-        words = meaning_of("sdf", (*request.around.tags, tag)).words
+        words = meaning_of("sdf", (*request.enclosing_place.tags, tag)).words
         snippet = f"{tag}>$1</{tag}>"
         yield request.element(tag, snippet, documentation=words, rank=min(5 + rank, 9))
 
@@ -111,7 +111,7 @@ def _part_of_sensor(request: Request) -> str:
 
 
 def _of_urdf(request: Request) -> Iterator[Completion]:
-    path, present = request.around.path, _present(request)
+    path, present = request.enclosing_place.path, _present(request)
     prefix = "" if path == "robot" else f"{path}/"
     for number, tag in enumerate(urdf_children(path)):
         below = prefix + tag
@@ -132,12 +132,12 @@ _READ = ("link", "joint")
 
 def attributes(request: Request) -> Iterator[Completion]:
     """Yield the attributes that may stand at the caret."""
-    place = request.own
+    place = request.own_place
     if place.language == "sdf":
         kind = schema_type(place.tags, request.version)
         known = {} if kind is None else kind.attributes
         for name, (value_type, default, needed) in known.items():
-            written = usual(default)
+            written = writable_default(default)
             yield from _attribute(request, name, written, value_type, is_needed=needed == "1")
     elif place.language == "urdf":
         for name, spec in urdf_attributes(place.path).items():
@@ -150,14 +150,16 @@ def _attribute(
 ) -> Iterator[Completion]:
     """Yield an attribute that is not there yet."""
     if name not in request.xml.attributes:
-        words = meaning_of(request.own.language, request.own.tags or ("robot",), name).words
+        words = meaning_of(
+            request.own_place.language, request.own_place.tags or ("robot",), name
+        ).words
         rank = 0 if is_needed else 5
         yield request.attribute(name, default, detail, words, rank)
 
 
 def values(request: Request) -> Iterator[Completion]:
     """Yield the words that the schema knows for the attribute or text at the caret."""
-    place, name = request.own, request.xml.attribute
+    place, name = request.own_place, request.xml.attribute
     words: list[str] = []
     default = ""
     if place.language == "sdf" and (kind := schema_type(place.tags, request.version)) is not None:
@@ -175,9 +177,9 @@ def values(request: Request) -> Iterator[Completion]:
 def _type_of(kind: ElementType, attribute: str) -> tuple[str, str]:
     """Return the type and the default of an element's text, or of an attribute."""
     if not attribute:
-        return kind.value_type, usual(kind.default or "")
+        return kind.value_type, writable_default(kind.default or "")
     value_type, default, _ = kind.attributes.get(attribute, ("", "", ""))
-    return value_type, usual(default)
+    return value_type, writable_default(default)
 
 
 def closing(request: Request) -> Iterator[Completion]:

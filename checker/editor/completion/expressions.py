@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from checker.editor.card import code, words
+from checker.editor.card import code, escaped_words
 from checker.editor.completion.item import Completion, CompletionKind, Request
 from checker.editor.completion.snippet import Snippet
 from checker.editor.xacro_names import PREFIX, Macro
@@ -49,7 +49,7 @@ def _values(request: Request, written: str) -> Iterator[Completion]:
     start = _start(request, written)
     for parameter in _macro_parameters(request):
         yield _expression_word(
-            request, parameter.name, CompletionKind.PARAMETER, parameter.words, 0, start
+            request, parameter.name, CompletionKind.PARAMETER, parameter.requirement, 0, start
         )
     for name, known in request.names.properties.items():
         yield _expression_word(request, name, CompletionKind.PROPERTY, known.value[:80], 2, start)
@@ -115,7 +115,9 @@ def tags(request: Request) -> Iterator[Completion]:
         text = f"{PREFIX}{name}{first}{inside}"
         yield request.element(PREFIX + name, text, detail="xacro", rank=8)
     for macro in request.names.macros.values():
-        told = "\n".join(f"- {code(it.name)}: {words(it.words)}" for it in macro.parameters)
+        told = "\n".join(
+            f"- {code(it.name)}: {escaped_words(it.requirement)}" for it in macro.parameters
+        )
         yield request.element(
             PREFIX + macro.name,
             _call(macro),
@@ -145,7 +147,7 @@ def attributes(request: Request) -> Iterator[Completion]:
         for it in macro.parameters:
             if not it.block and it.name not in request.xml.attributes:
                 rank = 0 if it.default is None else 5
-                yield request.attribute(it.name, it.default or "", it.words, rank=rank)
+                yield request.attribute(it.name, it.default or "", it.requirement, rank=rank)
 
 
 def values(request: Request) -> Iterator[Completion]:

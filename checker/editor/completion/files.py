@@ -73,7 +73,7 @@ def _wanted_kind(request: Request) -> _Wanted | None:
 def _starts(request: Request, wanted: _Wanted) -> Iterator[Completion]:
     """Yield how a URI may begin, and whole URIs of the package's own files."""
     package = request.subject.package
-    is_urdf = request.around.language == "urdf" or request.around.is_extension
+    is_urdf = request.enclosing_place.language == "urdf" or request.enclosing_place.is_extension
     if request.xml.tag == "xacro:include":
         start = f"$(find {package.declared_name})/"
     else:

@@ -160,12 +160,12 @@ class Request(Record, eq=False, dict=True):
         return self.text[self.xml.end : self.xml.end + 1]
 
     @cached_property
-    def around(self) -> Place:
+    def enclosing_place(self) -> Place:
         """Where the innermost element around the caret stands."""
         return place_of(self.xml.tags, refers=self.refers)
 
     @cached_property
-    def own(self) -> Place:
+    def own_place(self) -> Place:
         """Where the element stands in whose start tag, or in whose text, the caret is."""
         tags = (*self.xml.tags, self.xml.tag) if self.xml.tag else self.xml.tags
         return place_of(tags, refers=self.refers)
@@ -179,7 +179,7 @@ class Request(Record, eq=False, dict=True):
     def version(self) -> str:
         """SDF version to judge by."""
         outer = self.xml.around[0].attributes if self.xml.around else {}
-        stated = "" if self.around.is_extension else outer.get("version", "")
+        stated = "" if self.enclosing_place.is_extension else outer.get("version", "")
         return schema_version(stated.strip(), self.target)
 
     @property
@@ -204,14 +204,14 @@ class Request(Record, eq=False, dict=True):
         return plugin_facts(stated.get("filename", ""), stated.get("name", ""), self.target)
 
     @property
-    def below_plugin(self) -> tuple[str, ...]:
+    def tags_below_plugin(self) -> tuple[str, ...]:
         """The tags between that plugin and the caret."""
         tags = tuple(tag for tag in self.xml.tags if not tag.startswith(PREFIX))
         at = len(tags) - list(reversed(tags)).index("plugin") if "plugin" in tags else len(tags)
         return tags[at:]
 
 
-def by_rank(items: Iterable[Completion]) -> tuple[Completion, ...]:
+def sort_by_rank(items: Iterable[Completion]) -> tuple[Completion, ...]:
     """Return items as a list shows them; of two with one label, the first.
 
     What a list cannot show, such as a name with a line break, is left out.

@@ -42,7 +42,7 @@ def names(request: Request) -> Iterator[Completion]:
         if kind in kinds and name and name not in known:
             yield request.item(name, CompletionKind(kind.value), rank=1 + kinds.index(kind))
     for name in _SPECIAL.get(xml.attribute or tags[-1], ()):
-        if request.own.language == "sdf":
+        if request.own_place.language == "sdf":
             yield request.item(name, CompletionKind.FRAME, rank=8)
 
 

@@ -46,7 +46,7 @@ def parameters(request: Request) -> Iterator[Completion]:
     facts = request.plugin_facts
     if request.plugin is None or facts is None:
         return
-    below = "".join(f"{tag}/" for tag in request.below_plugin)
+    below = "".join(f"{tag}/" for tag in request.tags_below_plugin)
     for path, parameter in facts.parameters.items():
         if "@" in path:
             continue
@@ -86,9 +86,9 @@ def parameter_attributes(request: Request) -> Iterator[Completion]:
 def parameter_values(request: Request) -> Iterator[Completion]:
     """Yield what the parameter at the caret usually says."""
     facts = request.plugin_facts
-    if request.plugin is None or facts is None or not request.below_plugin:
+    if request.plugin is None or facts is None or not request.tags_below_plugin:
         return
-    path = "/".join(request.below_plugin)
+    path = "/".join(request.tags_below_plugin)
     known = facts.parameters.get(path) or facts.parameters.get(path.rpartition("/")[2])
     if known is None:
         return

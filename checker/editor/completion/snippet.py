@@ -32,7 +32,7 @@ def escaped(text: str) -> str:
     return text.replace("\\", "\\\\").replace("$", "\\$").replace("}", "\\}")
 
 
-def usual(default: str) -> str:
+def writable_default(default: str) -> str:
     """Return a default that an author could write; nothing for one that stands for another."""
     return "" if default.startswith(_NO_VALUE) else default
 
@@ -44,13 +44,13 @@ def sdf_element(kind: ElementType) -> str:
 
 def _sdf_element(kind: ElementType, snippet: Snippet, indent: str, *, nested: bool) -> str:
     required = [
-        (name, usual(default))
+        (name, writable_default(default))
         for name, (_, default, needed) in kind.attributes.items()
         if needed == "1"
     ]
     start = f"{kind.name}{snippet.attributes(required)}"
     if kind.value_type:
-        return f"{start}>{snippet.place(usual(kind.default or ''))}</{kind.name}>"
+        return f"{start}>{snippet.place(writable_default(kind.default or ''))}</{kind.name}>"
     if not kind.children and not kind.free:
         return f"{start}/>"
     inner = indent + _INDENT

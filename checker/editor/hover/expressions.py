@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.editor.card import card, code, names, words
+from checker.editor.card import card, code, escaped_words, names
 from checker.editor.hover.pointed import Pointed
 from checker.editor.robot_parts import RobotParts
 from checker.editor.xacro_names import PREFIX, TAGS, Macro, XacroNames, macro_around
@@ -89,7 +89,10 @@ def _named_in(
     parameters = {} if macro is None else {it.name: it for it in macro.parameters}
     for name in dict.fromkeys(inner):
         if (parameter := parameters.get(name)) is not None and macro is not None:
-            yield f"parameter {code(name)}", f"of {code(macro.name)}, {words(parameter.words)}"
+            yield (
+                f"parameter {code(name)}",
+                f"of {code(macro.name)}, {escaped_words(parameter.requirement)}",
+            )
         elif (found := known.properties.get(name)) is not None:
             value = code(found.value) if found.value else "elements"
             yield f"property {code(name)}", f"{value}, in {_place(found.element)}"
@@ -145,7 +148,9 @@ def _documents(package: Package, path: str) -> tuple[XmlDocument, ...]:
 
 def macro_card(macro: Macro) -> str:
     """Return the parameters of a macro and where it is defined, as Markdown."""
-    rows = [(code(f"{it.block}{it.name}"), words(it.words)) for it in macro.parameters]
+    rows = [
+        (code(f"{it.block}{it.name}"), escaped_words(it.requirement)) for it in macro.parameters
+    ]
     makes = [it.tag for it in macro.element.children if not it.tag.startswith(PREFIX)]
     rows.append(("makes", names(list(dict.fromkeys(makes)))))
     return card(f"**macro** {code(macro.name)} of {_place(macro.element)}", rows)
@@ -153,4 +158,4 @@ def macro_card(macro: Macro) -> str:
 
 def _place(element: Element) -> str:
     span: Span = element.span
-    return words(f"{span.source.file}:{span.line}")
+    return escaped_words(f"{span.source.file}:{span.line}")

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import count
-from checker.editor.card import card, code, names, words
+from checker.editor.card import card, code, escaped_words, names
 from checker.editor.hover.elements import element_card
 from checker.editor.hover.expressions import (
     Expression,
@@ -122,10 +122,10 @@ class _Search:
         parts = robot_parts(self.subject, self.path)
         if kinds:
             scopes = _scopes(element)
-            found = (parts.named(name, kinds, scopes) for name in self._values(parts))
+            found = (parts.part_named(name, kinds, scopes) for name in self._values(parts))
             named = next((part for part in found if part is not None), None)
             return None if named is None else self._card(named)
-        described = parts.of(element)
+        described = parts.parts_of(element)
         return self._card(described[0], _others(described)) if described else None
 
     def _values(self, parts: RobotParts) -> Iterator[str]:
@@ -153,12 +153,12 @@ class _Search:
 
     def _of_include(self, element: Element) -> str:
         """Return what is known of the model that an `<include>` puts in."""
-        described = robot_parts(self.subject, self.path).of(element)
+        described = robot_parts(self.subject, self.path).parts_of(element)
         if described:
             return self._card(described[0])
         found = included_model(element, ModelIncludes(self.subject.package))
         if isinstance(found, str):
-            return card(f"**include** {code(self.pointed.value)}", [], f"{words(found)}.")
+            return card(f"**include** {code(self.pointed.value)}", [], f"{escaped_words(found)}.")
         return robot_card(read_robot(found, ModelIncludes(self.subject.package)))
 
     def _kinds(self) -> Sequence[NameKind]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.editor.card import card, code, words
+from checker.editor.card import card, code, escaped_words
 from checker.editor.figures import angle, limit, number, numbers, span_of
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Axis, Joint
@@ -22,7 +22,7 @@ def joint_card(robot: Robot, joint: Joint, note: str = "") -> str:
         rows += _axis(joint, axis, title)
     rows.append(("copies", ", ".join(code(it.value) for it in joint.mimics)))
     rows.append(("moved by", _driver(robot, joint)))
-    title = f"**{words(joint.type.value)} joint** {code(joint.scoped_name)}"
+    title = f"**{escaped_words(joint.type.value)} joint** {code(joint.scoped_name)}"
     return card(title, rows, note)
 
 
@@ -60,7 +60,7 @@ def _driver(robot: Robot, joint: Joint) -> str:
     name = joint.scoped_name
     found = []
     if (plugin := robot.driven_joints.get(name)) is not None:
-        found.append(f"plugin {code(plugin.called)}")
+        found.append(f"plugin {code(plugin.label)}")
     for controller in robot.controllers:
         texts = (text for it in controller.parameters.values() for text in it.texts)
         if any(text.value == joint.name.value for text in texts):

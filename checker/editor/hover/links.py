@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from checker.base.words import count
-from checker.editor.card import card, code, names, words
+from checker.editor.card import card, code, escaped_words, names
 from checker.editor.figures import number, numbers, pose
 from checker.model.components import Inertial, Link
 from checker.model.robot import Robot
@@ -93,8 +93,8 @@ def _chain(robot: Robot, link: Link) -> list[Tie]:
     chain: list[Tie] = []
     at = link.scoped_name
     seen = {at}
-    while at in robot.tree.above:
-        tie = robot.tree.above[at][0]
+    while at in robot.tree.ties_above:
+        tie = robot.tree.ties_above[at][0]
         chain.insert(0, tie)
         at = tie.parent
         if at in seen:
@@ -111,7 +111,7 @@ def _in_words(chain: Sequence[Tie]) -> str:
 
 
 def _joint(tie: Tie) -> str:
-    return f"{code(tie.joint.name.value)} ({words(tie.joint.type.value) or 'no type'})"
+    return f"{code(tie.joint.name.value)} ({escaped_words(tie.joint.type.value) or 'no type'})"
 
 
 def _contents(link: Link) -> str:

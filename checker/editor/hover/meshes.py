@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from checker.base.extras import PHYSICS
 from checker.base.parts import NotAvailable
-from checker.editor.card import card, code, words
+from checker.editor.card import card, code, escaped_words
 from checker.editor.figures import number, numbers, size
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault
@@ -35,7 +35,7 @@ def file_card(
     """
     path = path_behind(subject.package, Robot.folder_of(uri), uri.value)
     if isinstance(path, Unknown):
-        return card(f"**file** {code(uri.value)}", [], f"It {words(path.reason)}.")
+        return card(f"**file** {code(uri.value)}", [], f"It {escaped_words(path.reason)}.")
     entry = subject.package.resolve(path)
     if entry is None:
         return card(f"**file** {code(path)}", [], "It does not exist.")
@@ -54,7 +54,7 @@ def _mesh_card(
     rows.append(("file", size(entry.size)))
     note = f"Not read: {found}." if isinstance(found, str) else ""
     if isinstance(found, MeshFault):
-        note = f"{code(posixpath.basename(path))} {words(found.reason)}."
+        note = f"{code(posixpath.basename(path))} {escaped_words(found.reason)}."
     return card(f"**mesh** {code(path)}", rows, note)
 
 
@@ -63,19 +63,19 @@ def _mesh(subject: Subject, uri: Located[str], entry: FileEntry) -> Mesh | MeshF
     robots = subject.all(Robot)
     for meshes in () if isinstance(robots, NotAvailable) else (it.meshes for it in robots):
         if isinstance(meshes, PackageMeshes) and _names(meshes, uri):
-            known = meshes.known(uri)
+            known = meshes.load_known(uri)
             if known is not None:
                 return known
     reader = subject.one(MeshServer)
     server = None if isinstance(reader, NotAvailable) else reader.server
     alone = PackageMeshes(subject.package, (uri,), subject.cache, subject.stages, server)
-    if (known := alone.known(uri)) is not None:
+    if (known := alone.load_known(uri)) is not None:
         return known
     if not PHYSICS.is_installed:
         return code(PHYSICS.remedy)
     if entry.size > READ_AT_ONCE:
         return f"a file of {size(entry.size)} is read when the package is checked"
-    return alone.of(uri)
+    return alone.load(uri)
 
 
 def _names(meshes: PackageMeshes, uri: Located[str]) -> bool:

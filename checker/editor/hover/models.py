@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.base.words import count
-from checker.editor.card import card, code, words
+from checker.editor.card import card, code, escaped_words
 from checker.editor.figures import number, pose
 from checker.model.components import Frame, Model
 from checker.model.locomotion.drive import NO_DRIVE, drive_name
@@ -16,7 +16,11 @@ def robot_card(robot: Robot, note: str = "") -> str:
     """Return what is known of a robot as a whole, as Markdown."""
     parts = [count(len(robot.links), "link"), count(len(robot.joints), "joint")]
     parts += [count(len(robot.sensors), "sensor"), count(len(robot.all_plugins), "plugin")]
-    mass = f"not known: {words(robot.unweighed)}" if robot.unweighed else f"{number(robot.mass)} kg"
+    mass = (
+        f"not known: {escaped_words(robot.unweighed)}"
+        if robot.unweighed
+        else f"{number(robot.mass)} kg"
+    )
     drive = drive_name(robot.plugins)
     rows = [("mass", mass), ("holds", ", ".join(parts))]
     rows.append(("moves by", "" if drive == NO_DRIVE else drive))

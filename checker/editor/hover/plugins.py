@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.base.resources import table
-from checker.editor.card import card, code, names, words
+from checker.editor.card import card, code, escaped_words, names
 from checker.editor.plugin_facts import Parameter, PluginFacts, plugin_facts
 from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.plugin_library import library_stem, release_label
@@ -36,16 +36,16 @@ def plugin_card(element: Element, target: Context, note: str = "") -> str:
 def _rows(facts: PluginFacts, element: Element, target: Context) -> Iterator[tuple[str, str]]:
     last = (element.get("name") or "").rpartition("::")[2]
     yield "is", DRIVE_CLASSES.get(last, "")
-    yield "library", f"{code(facts.library)} of {words(facts.title)}"
+    yield "library", f"{code(facts.library)} of {escaped_words(facts.title)}"
     is_title = facts.classes == (element.get("name"),)
     yield "classes", "" if is_title else names(facts.classes)
-    yield "in", ", ".join(map(words, facts.releases))
+    yield "in", ", ".join(map(escaped_words, facts.releases))
     labels = table("gazebo_plugins")["releases"]
     if facts.releases and target.release in labels:
         label = release_label(target.release).removesuffix(" and SubT")
         if facts.title.startswith(("Gazebo Sim", "Ignition")) and label not in facts.releases:
             yield "target", f"{label} does not have it"
-    yield "note", words(facts.note)
+    yield "note", escaped_words(facts.note)
     used = _set_here(element)
     yield "sets", ", ".join(_as_set(facts, element, path) for path in used[:_SHOWN])
     left = [it for path, it in sorted(facts.parameters.items()) if path not in used]
@@ -85,7 +85,7 @@ def _tags(facts: PluginFacts) -> set[str]:
 
 def _as_known(parameter: Parameter) -> str:
     return (
-        f"{code(parameter.path)} ({words(parameter.words)})"
+        f"{code(parameter.path)} ({escaped_words(parameter.words)})"
         if parameter.words
         else code(parameter.path)
     )
@@ -97,8 +97,8 @@ def hardware_card(name: str) -> str | None:
     entry = next((it for it in known if it["name"] == name), None)
     if entry is None:
         return None
-    rows = [("kind", words(entry["kind"])), ("package", code(entry["package"]))]
-    rows += [("in", ", ".join(entry["distros"])), ("note", words(entry.get("note", "")))]
+    rows = [("kind", escaped_words(entry["kind"])), ("package", code(entry["package"]))]
+    rows += [("in", ", ".join(entry["distros"])), ("note", escaped_words(entry.get("note", "")))]
     return card(f"**hardware** {code(name)}", rows)
 
 
@@ -120,8 +120,8 @@ def parameter_card(plugin: Element, path: str, value: str, target: Context) -> s
     title = f"**parameter** {code(path)} of {code(called)}"
     if known is None:
         inner = _tag_of(path) in _tags(facts)
-        note = "" if inner else f"{words(facts.title)} reads no parameter of this name."
+        note = "" if inner else f"{escaped_words(facts.title)} reads no parameter of this name."
         return card(title, [], note) if note else None
     usual = code(known.usual) if known.usual else ""
-    rows = [("type", words(known.words)), ("here", code(value) if value else "")]
+    rows = [("type", escaped_words(known.words)), ("here", code(value) if value else "")]
     return card(title, [*rows, ("SubT packages often set", usual)])

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from checker.report.sarif import help_uri
 from checker.rule import Rule
-from checker.rulebook.options import told_options
+from checker.rulebook.options import options_of
 from checker.rulebook.pages import escaped, parse_page
 
 
@@ -22,7 +22,7 @@ def _blocks(rule: Rule) -> Iterator[str]:
         if text:
             told = "\n\n".join(map(_paragraph, text.split("\n\n")))
             yield f"**{label.strip()}** {told}" if label else told
-    options = told_options(rule)
+    options = options_of(rule)
     if options:
         lines = (f"- `{it.name}` = `{it.default}`: {escaped(it.words)}" for it in options)
         yield "\n".join((f"**Options**, below `[rules.{rule.id}]`:", "", *lines))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from checker.base.parts import NotAvailable
 from checker.base.words import count
-from checker.editor.card import card, code, words
+from checker.editor.card import card, code, escaped_words
 from checker.editor.figures import angle, number
 from checker.engine.subject import Subject
 from checker.model.components import Sensor
@@ -32,17 +32,17 @@ def sensor_card(subject: Subject, robot: Robot, sensor: Sensor, note: str = "") 
     if sensor.imu is not None and sensor.imu.noises:
         rows.append(("noise", "stated for " + ", ".join(_quantities(sensor))))
     rows.append(("topic", _topics(robot, sensor)))
-    title = f"**{words(sensor.type.value)} sensor** {code(sensor.name.value)}"
+    title = f"**{escaped_words(sensor.type.value)} sensor** {code(sensor.name.value)}"
     return card(title, rows, note)
 
 
 def _device(subject: Subject, sensor: Sensor) -> Iterator[tuple[str, str]]:
     devices = subject.one(SensorDevices)
-    known = None if isinstance(devices, NotAvailable) else devices.of(sensor)
+    known = None if isinstance(devices, NotAvailable) else devices.device_of(sensor)
     if known is None:
         return
     source = "the specification sheet" if known.from_sheet else "its name"
-    yield "device", f"**{words(known.device.name)}**, as {source} says"
+    yield "device", f"**{escaped_words(known.device.name)}**, as {source} says"
     yield "datasheet", "; ".join(_figures(known.device))
     if (mass := known.device.body.get("mass_kg")) is not None:
         yield "device's mass", f"{number(mass)} kg"
@@ -71,7 +71,10 @@ def _figures(device: Device) -> Iterator[str]:
 
 def _camera(camera: Camera) -> Iterator[tuple[str, str]]:
     width, height = camera.width.value, camera.height.value
-    yield "picture", f"{number(width)} × {number(height)} pixels, {words(camera.format.value)}"
+    yield (
+        "picture",
+        f"{number(width)} × {number(height)} pixels, {escaped_words(camera.format.value)}",
+    )
     field = f"horizontal {angle(camera.horizontal_fov.value)}"
     if (pinhole := camera.pinhole) is not None:
         vertical = 2.0 * math.atan(height / (2.0 * pinhole.fy))
@@ -108,7 +111,7 @@ def _scan(scan: Scan) -> str:
 def _noise(noise: Noise | None, unit: str) -> str:
     if noise is None or noise.type.value in ("", "none"):
         return ""
-    return f"{words(noise.type.value)}, deviation {number(noise.stddev.value)} {unit}"
+    return f"{escaped_words(noise.type.value)}, deviation {number(noise.stddev.value)} {unit}"
 
 
 def _quantities(sensor: Sensor) -> list[str]:

@@ -11,7 +11,7 @@ from checker.editor.names.included_files import Scopes, included_path, scopes_of
 from checker.editor.names.mention import FileNames, Mention, NameKind
 from checker.editor.names.readers.expressions import is_composed, may_come_to
 from checker.editor.names.readers.file_names import file_names, holds_names
-from checker.editor.names.rename.edits import renamed
+from checker.editor.names.rename.edits import rename_edits
 from checker.editor.names.resolved import ComposedDefinition, Key, Lookup, key_of
 from checker.finding import Edit
 from checker.package.inheritance import Found
@@ -62,7 +62,7 @@ class NameIndex(Record, eq=False, dict=True):
         """All mentions in the files of the package, and the definitions in siblings."""
         return tuple(self._lookup.mentions)
 
-    def composed(self, kind: NameKind) -> tuple[ComposedDefinition, ...]:
+    def composed_definitions(self, kind: NameKind) -> tuple[ComposedDefinition, ...]:
         """Return the definitions of a kind whose names are composed."""
         return tuple(self._lookup.composed.get(kind, ()))
 
@@ -74,12 +74,12 @@ class NameIndex(Record, eq=False, dict=True):
             return None
         return places[min(around, key=lambda place: (place[1] - place[0], -place[0]))][0]
 
-    def beside(self, mention: Mention) -> tuple[Mention, ...]:
+    def possible_mentions(self, mention: Mention) -> tuple[Mention, ...]:
         """Return all that the name at the place of a mention may mean, the mention included."""
         place = (mention.start, mention.end)
         return tuple(self._by_place.get(mention.path, {}).get(place, ()))
 
-    def same(self, mention: Mention) -> tuple[Mention, ...]:
+    def mentions_of_same(self, mention: Mention) -> tuple[Mention, ...]:
         """Return all mentions of one thing.
 
         Robots that have a part of one name are told apart, unless a text names it that tells of no
@@ -89,7 +89,7 @@ class NameIndex(Record, eq=False, dict=True):
         waiting = [*keys]
         while waiting:
             for other in self._groups.get(waiting.pop(), ()):
-                for twin in self.beside(other):
+                for twin in self.possible_mentions(other):
                     if twin.kind is mention.kind and key_of(twin) not in keys:
                         keys[key_of(twin)] = None
                         waiting.append(key_of(twin))
@@ -97,21 +97,21 @@ class NameIndex(Record, eq=False, dict=True):
 
     def definitions(self, mention: Mention) -> tuple[Mention, ...]:
         """Return where the thing of a mention is made; also by a name that is composed."""
-        written = tuple(it for it in self.same(mention) if it.is_definition)
+        written = tuple(it for it in self.mentions_of_same(mention) if it.is_definition)
         return written or tuple(self._composing(mention))
 
     def _composing(self, mention: Mention) -> Iterator[Mention]:
-        for definition in self.composed(mention.kind):
+        for definition in self.composed_definitions(mention.kind):
             if definition.mention.scope == mention.scope and definition.may_be(mention.name):
                 yield definition.mention
 
     def references(self, mention: Mention) -> tuple[Mention, ...]:
         """Return all mentions of the thing, its definitions among them, by file and place."""
-        found = [*self.same(mention)]
+        found = [*self.mentions_of_same(mention)]
         if not any(it.is_definition for it in found):
             found += self._composing(mention)
         elif is_composed(mention.name):
-            found += self.made(mention)
+            found += self.mentions_from_composed(mention)
         return tuple(sorted(set(found), key=lambda it: (it.path, it.start, it.end)))
 
     def rename(self, mention: Mention, new: str) -> tuple[Edit, ...] | str:
@@ -122,7 +122,7 @@ class NameIndex(Record, eq=False, dict=True):
             new: The new name of what stands at the mention, which is that of the thing without
                 the models around it; of a topic, without the model's name in front.
         """
-        edits = renamed(self, mention, new)
+        edits = rename_edits(self, mention, new)
         if isinstance(edits, str) or not edits:
             return edits
         named = next(self._in_siblings(mention), None)
@@ -133,9 +133,11 @@ class NameIndex(Record, eq=False, dict=True):
 
     def _in_siblings(self, mention: Mention) -> Iterator[tuple[str, int]]:
         """Yield where siblings that include the files of this package mention its thing."""
-        own = {(it.kind, it.name, it.path) for it in self.same(mention) if it.is_definition}
+        own = {
+            (it.kind, it.name, it.path) for it in self.mentions_of_same(mention) if it.is_definition
+        }
         folder = f"../{self.package.root.name}/"
-        for sibling in self.package.others:
+        for sibling in self.package.other_packages:
             if not _names_package(sibling, self.package):
                 continue
             index = names_of(sibling)
@@ -143,13 +145,13 @@ class NameIndex(Record, eq=False, dict=True):
                 path = it.path.removeprefix(folder)
                 if path == it.path or (it.kind, it.name, path) not in own:
                     continue
-                for other in index.same(it):
+                for other in index.mentions_of_same(it):
                     if not other.path.startswith("../"):
                         source = index.files[other.path].source
                         shown = f"../{sibling.root.name}/{other.path}"
                         yield shown, source.position(other.start)[0]
 
-    def made(self, mention: Mention) -> Iterator[Mention]:
+    def mentions_from_composed(self, mention: Mention) -> Iterator[Mention]:
         """Yield mentions by the names that a composed one may come to."""
         kind = mention.kind
         values = self.scopes.values.get(self.scopes.xacro.get(mention.path, ""), frozenset())

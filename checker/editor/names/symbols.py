@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from checker.editor.names.outline.robot_symbols import sdf_symbols, urdf_symbols
 from checker.editor.names.outline.symbol import Symbol, SymbolKind, element_symbol
-from checker.launch.ros2.python.launch_file import parsed
+from checker.launch.ros2.python.launch_file import parse_source
 from checker.package.package import Package
 from checker.source.python_places import span_of_node
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
@@ -110,7 +110,7 @@ def _of_ruby(source: SourceText) -> Iterator[Symbol]:
 
 
 def _of_python(source: SourceText) -> Iterator[Symbol]:
-    tree = parsed(source)
+    tree = parse_source(source)
     if isinstance(tree, str):
         return
     yield from _functions(tree, source)

@@ -44,7 +44,7 @@ QUATERNION_POSE = "pose quat_xyzw"
 """The type of a pose whose `rotation_format` is `quat_xyzw`."""
 
 
-def misread(text: Located[str], value_type: str) -> list[Misread]:
+def misread_values(text: Located[str], value_type: str) -> list[Misread]:
     """Say what is wrong with a text.
 
     Args:
@@ -55,7 +55,7 @@ def misread(text: Located[str], value_type: str) -> list[Misread]:
     return list(read(text)) if read is not None else []
 
 
-def out_of_bounds(text: Located[str], bounds: tuple[float, float]) -> list[Misread]:
+def values_out_of_bounds(text: Located[str], bounds: tuple[float, float]) -> list[Misread]:
     """Say which numbers of a text lie outside what the schema allows."""
     low, high = bounds
     if (low, high) == (-math.inf, math.inf):

@@ -20,7 +20,7 @@ The URI's place tells the file that includes, where relative URIs start.
 """
 
 
-def not_at_hand(uri: Located[str]) -> XmlDocument | str:
+def read_no_include(uri: Located[str]) -> XmlDocument | str:
     """Read no include at all."""
     return f"{uri.value} is not available"
 

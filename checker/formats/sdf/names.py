@@ -12,7 +12,7 @@ UNIQUE_SINCE = (1, 7)
 """SDF version from which on a name that is given twice is an error."""
 
 
-def renamed(model: Element, version: tuple[int, int]) -> Mapping[Element, str]:
+def renames_of(model: Element, version: tuple[int, int]) -> Mapping[Element, str]:
     """Return the new names of parts whose name another kind of part has: `hinge_joint`.
 
     libsdformat renames them in files before SDF 1.7; two parts of one kind it never takes.

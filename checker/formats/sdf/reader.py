@@ -9,9 +9,9 @@ from msgspec.structs import replace
 from checker.formats.sdf.conventions import CONVENTIONS
 from checker.formats.sdf.document import sdf_version
 from checker.formats.sdf.frame_faults import unknown_frames
-from checker.formats.sdf.includes import IncludeReader, included_model, not_at_hand
+from checker.formats.sdf.includes import IncludeReader, included_model, read_no_include
 from checker.formats.sdf.links import read_frame, read_joint, read_link, read_plugin
-from checker.formats.sdf.names import KINDS, name_of, renamed
+from checker.formats.sdf.names import KINDS, name_of, renames_of
 from checker.formats.sdf.scope import Scope
 from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.faults import FaultKind
@@ -27,7 +27,7 @@ MAX_INCLUDES = 100
 """Of one robot in all: files that include one another twice would double at each level."""
 
 
-def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
+def read_sdf(document: XmlDocument, include: IncludeReader = read_no_include) -> tuple[Robot, ...]:
     """Read the models that stand at the top of a file or directly in its worlds.
 
     A model that is included at the top is the file's own; what worlds include is not.
@@ -50,13 +50,13 @@ def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tup
 
 
 def read_robot(
-    element: Element, include: IncludeReader = not_at_hand, placed: Element | None = None
+    element: Element, include: IncludeReader = read_no_include, placed: Element | None = None
 ) -> Robot:
     """Read one `<model>` as a robot of its own; an include places it and may name it anew."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
     version = sdf_version(document)
-    scope = Scope("", MODEL_FRAME, version, values, graph, renamed(element, version))
+    scope = Scope("", MODEL_FRAME, version, values, graph, renames_of(element, version))
     pose = scope.pose(element if placed is None else _posing(element, placed))
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
     collected = _Collected(include, [document])
@@ -207,7 +207,7 @@ class _Collected:
     def _scope_inside(model: Element, placed: Element, name: str, scope: Scope) -> Scope:
         """Return the scope of a nested model; a merged one (SDF 1.9) shares its parent's names."""
         version = sdf_version(model.document)
-        new_names = renamed(model, version)
+        new_names = renames_of(model, version)
         if _merges(placed):
             frame = f"{scope.prefix}_merged__{name}__model__"
             return Scope(scope.prefix, frame, version, scope.values, scope.graph, new_names)

@@ -48,7 +48,7 @@ class MacroCall(Record, eq=False):
     span: Span
 
     @property
-    def shown(self) -> str:
+    def start_tag(self) -> str:
         """The start tag of the call."""
         stated = "".join(f' {name}="{escape(value)}"' for name, value in self.arguments.items())
         return f"<xacro:{self.name}{stated}>"
@@ -63,7 +63,7 @@ class MacroCall(Record, eq=False):
         """What a robot's file would hold: the link that it hangs on, and the call."""
         link = f'<link name="{WORLD}"/>' if WORLD in self.arguments.values() else ""
         blocks = '<origin xyz="0 0 0" rpy="0 0 0"/>' * len(self.blocks)
-        call = f"{self.shown}{blocks}</xacro:{self.name}>"
+        call = f"{self.start_tag}{blocks}</xacro:{self.name}>"
         return f'<robot xmlns:xacro="http://ros.org/wiki/xacro">{link}{call}</robot>'
 
 

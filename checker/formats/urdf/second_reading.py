@@ -53,7 +53,7 @@ def second_readings(
     descriptions: tuple[UrdfDescription, ...], cache: Cache
 ) -> tuple[SecondReading, ...] | NotAvailable:
     """Return the robots of URDF files as yourdfpy reads them."""
-    PHYSICS.needed_by("a second reader of URDF")
+    PHYSICS.require_for("a second reader of URDF")
     read = read_again([description.robot for description in descriptions], cache)
     return NotAvailable(f"yourdfpy {read.reason}") if isinstance(read, WorkerFailed) else read
 

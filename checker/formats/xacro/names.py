@@ -35,7 +35,7 @@ class MacroParameter(Record):
     block: str
 
     @property
-    def words(self) -> str:
+    def requirement(self) -> str:
         """What a call may leave out, or has to give."""
         if self.block:
             return "an element inside the call"

@@ -26,7 +26,7 @@ from checker.formats.xacro.expression.function import (
     Function,
     Work,
     functions,
-    refused,
+    unavailable_function,
     weighed,
 )
 from checker.formats.xacro.expression.operators import multiply
@@ -104,7 +104,7 @@ CONSTANTS: Mapping[str, float] = MappingProxyType(
 )
 NAMES: Mapping[str, Any] = MappingProxyType(
     {
-        **{name: refused(f"math.{name}") for name in _PUBLIC},
+        **{name: unavailable_function(f"math.{name}") for name in _PUBLIC},
         **{name: Function(f"math.{name}", work) for name, work in _WORKS.items()},
         **CONSTANTS,
     }
@@ -214,7 +214,7 @@ def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:
 
 def python_symbols() -> dict[str, Any]:
     """Return all of Python's own names; most of them are refused."""
-    known = {name: refused(name) for name in dir(builtins) if not name.startswith("_")}
+    known = {name: unavailable_function(name) for name in dir(builtins) if not name.startswith("_")}
     return {**known, **FUNCTIONS, **_TRUTH}
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
-from checker.base.forked_work import forks_time, in_fork
+from checker.base.forked_work import forks_time, run_in_fork
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox import seccomp
 from checker.base.sandbox.files import NO_FILES, Files
@@ -86,7 +86,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
         if seconds < _SHORTEST:
             done.append({"unread": f"the other files took {SECONDS_FOR_ALL:g} s of processor time"})
             continue
-        result = in_fork(lambda job=job: work(job), seconds)  # type: ignore[misc]
+        result = run_in_fork(lambda job=job: work(job), seconds)  # type: ignore[misc]
         if isinstance(result, WorkerFailed) and result.momentary:
             done.append(result.entry)
         elif isinstance(result, WorkerFailed):

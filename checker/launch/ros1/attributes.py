@@ -132,7 +132,7 @@ class Reader:
         text = self.text(element, attribute, scope)
         return default if text is None else text.value
 
-    def enabled(self, element: Element, scope: Scope) -> bool:
+    def is_enabled(self, element: Element, scope: Scope) -> bool:
         """Whether `if` and `unless` let an element count; what is not known does not."""
         for attribute, wanted in (("if", True), ("unless", False)):
             condition = self.text(element, attribute, scope)
@@ -153,7 +153,7 @@ class Reader:
         self.fault(LaunchFaultKind.CONDITION, condition.span, message)
 
 
-def words(written: Located[str], scope: Scope) -> Iterator[Located[str]]:
+def split_words(written: Located[str], scope: Scope) -> Iterator[Located[str]]:
     """Yield the words of an attribute, substituted, each with the text it was written as.
 
     Faults of the substitutions are said where the attribute is read as a whole.

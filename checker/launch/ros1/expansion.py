@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from checker.launch.ros1.assumed_files import assumed_bridges, assumed_nodes
-from checker.launch.ros1.attributes import Reader, left_outside, words
+from checker.launch.ros1.attributes import Reader, left_outside, split_words
 from checker.launch.ros1.bridge import Bridge, read_bridges
 from checker.launch.ros1.graph import (
     EnvironmentVariable,
@@ -116,7 +116,7 @@ class _Expansion:
             if not self._reader.charge(element, 1):
                 return False
             handler = self._handlers.get(element.tag)
-            if handler and self._reader.enabled(element, scope):
+            if handler and self._reader.is_enabled(element, scope):
                 handler(element, scope)
             elif element.tag in ("group", "include", "node") and not self._asleep:
                 self._read_dormant(element, scope)
@@ -225,7 +225,7 @@ class _Expansion:
         """Read what stands inside a node, and return its own remaps."""
         own: list[Remap] = []
         for child in element.children:
-            if not self._reader.enabled(child, scope):
+            if not self._reader.is_enabled(child, scope):
                 continue
             match child.tag:
                 case "remap":
@@ -242,7 +242,7 @@ class _Expansion:
         written = element.attribute("args") or left_outside(element).get("args")
         if written is None or not self._reader.charge(element, len(written.value) // 100):
             return ()
-        result = tuple(words(written, scope))
+        result = tuple(split_words(written, scope))
         if (shown_at := scope.file.shown_at) is not None:
             result = tuple(Located(word.value, shown_at) for word in result)
         self._reader.charge(element, len(result))

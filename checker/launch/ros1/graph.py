@@ -37,7 +37,9 @@ def resolve_name(name: str, namespace: str, node: str = "") -> str:
     return "/" + "/".join(part for part in parts if part)
 
 
-def remapped(name: str, remaps: Iterable[tuple[str, str]], namespace: str, node: str = "") -> str:
+def apply_remaps(
+    name: str, remaps: Iterable[tuple[str, str]], namespace: str, node: str = ""
+) -> str:
     """Return the absolute name that a node gets when it asks for one: the first remap of it counts.
 
     Args:
@@ -140,7 +142,7 @@ class Node(Record, eq=False):
     def resolve(self, name: str) -> str:
         """Return the absolute name that the node gets when it asks for `name`."""
         remaps = ((remap.source, remap.target) for remap in self.remaps)
-        return remapped(name, remaps, self.namespace, self.name)
+        return apply_remaps(name, remaps, self.namespace, self.name)
 
 
 class Param(Record, eq=False):

@@ -205,7 +205,7 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
     arguments = dict(scope.args) if passes_all else {}
     places: dict[str, Span] = {}
     for child in element.all("arg"):
-        if not reader.enabled(child, scope):
+        if not reader.is_enabled(child, scope):
             continue
         value = reader.text(child, "value", scope) or reader.text(child, "default", scope)
         if value is not None:

@@ -51,9 +51,11 @@ def launch_graph(
     graphs += _expanded(package, usual, files)
     if isinstance(started, NotAvailable):
         return (
-            joined(graphs, started.reason) if graphs else NotAvailable("no launch file can be read")
+            join_graphs(graphs, started.reason)
+            if graphs
+            else NotAvailable("no launch file can be read")
         )
-    return joined(graphs)
+    return join_graphs(graphs)
 
 
 def _expanded(package: Package, paths: Sequence[str], files: LaunchFiles) -> list[LaunchGraph]:
@@ -79,7 +81,7 @@ def _started(command: LaunchCommand, span: Span, files: LaunchFiles) -> LaunchGr
     return LaunchGraph(unresolved_includes=(missing,))
 
 
-def joined(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
+def join_graphs(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
     """Return several graphs as one; `reasons` say what else is not known."""
     missing = (
         include
@@ -198,7 +200,7 @@ class LaunchEntries(Record, eq=False):
     @property
     def graph(self) -> LaunchGraph:
         """All of them as one."""
-        return joined([entry.graph for entry in self.entries], *self.unread)
+        return join_graphs([entry.graph for entry in self.entries], *self.unread)
 
 
 def launch_entries(package: Package) -> LaunchEntries:

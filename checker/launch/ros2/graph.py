@@ -44,7 +44,7 @@ class SharePath(Record):
     path: str
 
     @property
-    def whole(self) -> str:
+    def full_path(self) -> str:
         """The path below `ROOT`, see `share_path`."""
         return f"{ROOT}/{self.package}/{self.path}"
 
@@ -61,7 +61,7 @@ def share_path(text: str) -> SharePath | None:
     return SharePath(package, path) if package and package != ".." else None
 
 
-def shown(text: str) -> str:
+def display_path(text: str) -> str:
     """Return a text for messages: share folders as a launch file in XML writes them."""
     if text == SHARE:
         return "share"

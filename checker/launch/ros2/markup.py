@@ -152,7 +152,7 @@ class Markup:
             return None
         return AttributeText(written, self._context.allowance, self._report).value()
 
-    def words(self, entity: Entity, name: str) -> list[Value] | None:
+    def command_words(self, entity: Entity, name: str) -> list[Value] | None:
         """Return the words of an attribute that is a command line."""
         written = entity.get(name)
         if written is None:
@@ -229,8 +229,8 @@ class Markup:
         values = self.attributes(
             entity, package="pkg", executable="exec", name="name", namespace="namespace"
         )
-        arguments = self.words(entity, "args")
-        rest = self.words(entity, "ros_args")
+        arguments = self.command_words(entity, "args")
+        rest = self.command_words(entity, "ros_args")
         values |= {
             "arguments": arguments,
             "ros_arguments": rest,
@@ -301,7 +301,7 @@ class Markup:
     def command(self, entity: Entity) -> Made:
         """Return a command."""
         shell = entity.get("shell")
-        values = {"cmd": self.words(entity, "cmd"), "shell": shell.value if shell else None}
+        values = {"cmd": self.command_words(entity, "cmd"), "shell": shell.value if shell else None}
         return Made("ExecuteProcess", values, entity.span)
 
 

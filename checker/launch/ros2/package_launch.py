@@ -65,7 +65,7 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
         package: That ought to be named, as in `FindPackageShare("arm_description")`.
     """
     left = OTHERS_LIMIT
-    others = package.others if built_by_ament(package) and not package.only else ()
+    others = package.other_packages if built_by_ament(package) and not package.only else ()
     for other in filter(built_by_ament, others):
         files = [file for file in launch_files(other) if _names(other, file, package)][:left]
         left -= len(files)

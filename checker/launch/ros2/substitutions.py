@@ -17,7 +17,7 @@ from checker.launch.ros2.values import (
     PlacedText,
     Unknown,
     Value,
-    chosen,
+    chosen_value,
     span_of,
 )
 from checker.source.text import Span
@@ -43,7 +43,7 @@ def perform(  # noqa: PLR0911 - one per kind of value
         span: The place of a value that has none.
     """
     context.allowance.spend()
-    value = chosen(value)
+    value = chosen_value(value)
     match value:
         case Unknown():
             return value
@@ -122,7 +122,7 @@ def _configuration(made: Made, context: Context) -> Text:
 
 
 def _path(made: Made, context: Context) -> Text:
-    parts = chosen(made.values.get("substitutions"))
+    parts = chosen_value(made.values.get("substitutions"))
     if not isinstance(parts, list | tuple):
         return parts if isinstance(parts, Unknown) else perform(parts, context, made.span)
     texts = []
@@ -166,7 +166,7 @@ def _expression(made: Made, context: Context) -> Text:
         return text
     if not is_known(text):
         return PlacedText(f"$(eval {text})", made.span)
-    result = chosen(context.evaluate(str(text), made.span))
+    result = chosen_value(context.evaluate(str(text), made.span))
     if isinstance(result, str | bool | int | float | list | tuple):
         return PlacedText(str(result), made.span)
     reason = result.reason if isinstance(result, Unknown) else "has no value"
@@ -194,7 +194,7 @@ def _this_folder(made: Made, context: Context) -> Text:
 
 def _strings(made: Made, context: Context) -> Text:
     delimiter = _value(made, "delimiter", context, "")
-    parts = chosen(made.values.get("substitutions"))
+    parts = chosen_value(made.values.get("substitutions"))
     if isinstance(delimiter, Unknown) or not isinstance(parts, list | tuple):
         return Unknown("the joined text is not known", made.span)
     texts = []

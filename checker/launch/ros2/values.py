@@ -100,7 +100,7 @@ class FileText(PlacedText):
     path: str
 
     @classmethod
-    def of(cls, path: str, span: Span) -> FileText:
+    def read(cls, path: str, span: Span) -> FileText:
         """Return the text of a file."""
         self = cls(f"$(file-content {path})", span)
         self.path = path
@@ -182,7 +182,7 @@ class Choice(Record, eq=False):
     values: tuple[Guarded, ...]
 
 
-def chosen(value: Value) -> Value:
+def chosen_value(value: Value) -> Value:
     """Return the value that counts with the defaults, of one that is guarded or chosen."""
     while isinstance(value, Guarded | Choice):
         if isinstance(value, Guarded):
@@ -203,7 +203,7 @@ def _undecided(value: Guarded) -> str:
     return f"depends on {condition.text.value[:80]!r}"
 
 
-def placed(value: Value, span: Span) -> Value:
+def add_place(value: Value, span: Span) -> Value:
     """Return a value; a text without a place is given one."""
     return PlacedText(value, span) if type(value) is str else value
 

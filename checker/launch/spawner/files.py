@@ -14,7 +14,7 @@ from checker.launch.spawner.limits import (
     MAX_NUMBER_LENGTH,
     MAX_PATH_LENGTH,
 )
-from checker.launch.spawner.literals import computed
+from checker.launch.spawner.literals import computed_string
 from checker.launch.spawner.methods.call import Call, Methods
 from checker.launch.spawner.values import RubyArray, RubyHash, RubyString, Value, key_of
 from checker.source.text import SourceText, Span
@@ -114,7 +114,7 @@ def _exist(call: Call, path: Value) -> Value:
 
 def _read(call: Call, path: Value) -> Value:
     source = call.run.read(resolve(call, path), call.span)
-    return call.run.string(computed(source.text, source.whole(), call.run.influences))
+    return call.run.string(computed_string(source.text, source.whole(), call.run.influences))
 
 
 FILE: Methods = {
@@ -201,7 +201,9 @@ def _yaml_value(
     data = maker.construct_object(node)
     if isinstance(data, str):
         here = span or Span(source, node.start_mark.index, node.end_mark.index)
-        return Value(RubyString(computed(data, here, call.run.influences)), call.run.influences)
+        return Value(
+            RubyString(computed_string(data, here, call.run.influences)), call.run.influences
+        )
     if isinstance(data, int) and data.bit_length() > MAX_INTEGER_BITS:
         raise call.refuse(f"but {source.file} contains an integer that is too large")
     if data is not None and not isinstance(data, (bool, int, float)):

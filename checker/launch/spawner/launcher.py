@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from checker.launch.spawner.files import SpawnerFiles
 from checker.launch.spawner.limits import MAX_FILE_LENGTH
-from checker.launch.spawner.literals import computed
+from checker.launch.spawner.literals import computed_string
 from checker.launch.spawner.values import RubyString, Value
 from checker.source.text import SourceText
 
@@ -58,5 +58,5 @@ def _constants(text: str) -> Iterator[tuple[str, str | float | bool | None]]:
 def _value(data: str | float | bool | None, name: str) -> Value:
     influences = frozenset({name})
     if isinstance(data, str):
-        return Value(RubyString(computed(data, None, influences)), influences)
+        return Value(RubyString(computed_string(data, None, influences)), influences)
     return Value(data, influences)

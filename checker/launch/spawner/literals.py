@@ -48,27 +48,27 @@ class TracedString(Record, eq=False, dict=True):
             parts.append(TracedString(tuple(kept) if end > start else ()))
         return parts
 
-    def influenced(self, parameters: frozenset[str]) -> TracedString:
+    def with_influence(self, parameters: frozenset[str]) -> TracedString:
         """Return the text as also influenced by `parameters`."""
         if not parameters:
             return self
-        return TracedString(tuple(piece.influenced(parameters) for piece in self.pieces))
+        return TracedString(tuple(piece.with_influence(parameters) for piece in self.pieces))
 
-    def rooted(self, span: Span) -> TracedString:
+    def with_origin(self, span: Span) -> TracedString:
         """Return the text with `span` as the origin of what has none."""
-        return TracedString(tuple([piece.rooted(span) for piece in self.pieces]))
+        return TracedString(tuple([piece.with_origin(span) for piece in self.pieces]))
 
     def computed_by(self, span: Span) -> TracedString:
         """Return the text with `span` as the origin of what a part of `span` computed."""
         return TracedString(tuple([piece.computed_by(span) for piece in self.pieces]))
 
 
-def joined(parts: Iterable[TracedString]) -> TracedString:
+def join_strings(parts: Iterable[TracedString]) -> TracedString:
     """Return the texts one behind the other."""
     return TracedString(tuple(piece for part in parts for piece in part.pieces))
 
 
-def computed(text: str, span: Span | None, parameters: frozenset[str]) -> TracedString:
+def computed_string(text: str, span: Span | None, parameters: frozenset[str]) -> TracedString:
     """Return a text that the expression at `span` computed."""
     return TracedString((Piece(text, span, False, parameters),) if text else ())
 
@@ -95,7 +95,7 @@ def single_quoted(quotes: str) -> re.Pattern[str]:
     return re.compile(rf"\r\n|\\[\\{re.escape(quotes)}]")
 
 
-def decoded(
+def decode_literal(
     source: SourceText,
     ranges: Iterable[Range],
     escapes: re.Pattern[str],

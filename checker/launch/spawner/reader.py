@@ -21,7 +21,7 @@ from checker.launch.spawner.launcher import (
     launcher_globals,
 )
 from checker.launch.spawner.limits import MAX_FILE_LENGTH, LimitReached
-from checker.launch.spawner.literals import computed
+from checker.launch.spawner.literals import computed_string
 from checker.launch.spawner.scope import Function, Scope
 from checker.launch.spawner.signals import (
     Broken,
@@ -208,7 +208,7 @@ class _Program:
         if not isinstance(result.data, RubyString):
             return Unread(span, f"returns {class_name(result.data)} instead of a string")
         traced = run.traced(result, span)
-        pieces = tuple(piece.rooted(span) for piece in traced.pieces)
+        pieces = tuple(piece.with_origin(span) for piece in traced.pieces)
         return EmittedText(span.source.file, traced.text, origin=span, pieces=pieces)
 
 
@@ -224,7 +224,7 @@ def _reason(stop: Exception) -> str:
 
 def _ruby(argument: Argument) -> Value:
     if isinstance(argument, str):
-        return Value(RubyString(computed(argument, None, frozenset())))
+        return Value(RubyString(computed_string(argument, None, frozenset())))
     return Value(argument)
 
 

@@ -55,7 +55,7 @@ def float_text(number: float) -> str:
     return f"{'-' * sign}{text[0]}.{text[1:] or '0'}e{mark}{abs(power):02d}"
 
 
-def to_s(data: Data, budget: Budget) -> str:
+def interpolate(data: Data, budget: Budget) -> str:
     """Write a value as string interpolation does.
 
     Raises:
@@ -154,7 +154,7 @@ def _on_limit(number: float, kind: str, digits: int) -> bool:
 
 def _text(call: Call, value: Value) -> str:
     try:
-        text = to_s(value.data, call.run.budget)
+        text = interpolate(value.data, call.run.budget)
     except NotWritable as error:
         raise call.refuse(f"with {error}") from None
     call.run.budget.spend_text(len(text))

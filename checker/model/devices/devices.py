@@ -103,7 +103,7 @@ class SensorDevices(Record, eq=False, dict=True):
     def _by_sensor(self) -> dict[Sensor, SensorDevice]:
         return {device.sensor: device for device in self.known}
 
-    def of(self, sensor: Sensor) -> SensorDevice | None:
+    def device_of(self, sensor: Sensor) -> SensorDevice | None:
         """Return the device that a sensor stands for; None when nothing tells."""
         return self._by_sensor.get(sensor)
 

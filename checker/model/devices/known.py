@@ -30,18 +30,18 @@ class KnownDevices(Record, eq=False):
 
     devices: tuple[Device, ...]
 
-    def named_in(self, text: str, types: Iterable[str] | None = None) -> Device | None:
+    def find_in_text(self, text: str, types: Iterable[str] | None = None) -> Device | None:
         """Return the device that running text names; None when it names none, or several.
 
         Args:
             text: Its first 500 characters count.
             types: Types of `<sensor>`; devices that none of them may stand for do not count.
         """
-        named = self.all_named_in(text, types)
+        named = self.find_all_in_text(text, types)
         return named[0] if len(named) == 1 else None
 
-    def all_named_in(self, text: str, types: Iterable[str] | None = None) -> list[Device]:
-        """Return all devices that running text names; see `named_in`."""
+    def find_all_in_text(self, text: str, types: Iterable[str] | None = None) -> list[Device]:
+        """Return all devices that running text names; see `find_in_text`."""
         wanted = None if types is None else frozenset(types)
         named: list[tuple[Device, int, int]] = []
         for device in self.devices:
@@ -56,9 +56,9 @@ class KnownDevices(Record, eq=False):
                 named.append((_of_code(device, **match.groupdict()), start, end))
         return [device for device, _, _ in named]
 
-    def named(self, name: str, types: Iterable[str] | None = None) -> Device | None:
-        """Return the device in a name such as `front_vlp16_link`; see `named_in`."""
-        return self.named_in(spaced(name[:TEXT_LIMIT]), types)
+    def find_in_name(self, name: str, types: Iterable[str] | None = None) -> Device | None:
+        """Return the device in a name such as `front_vlp16_link`; see `find_in_text`."""
+        return self.find_in_text(spaced(name[:TEXT_LIMIT]), types)
 
 
 @lru_cache(512)

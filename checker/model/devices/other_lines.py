@@ -38,7 +38,7 @@ def devices_in_other_lines(
     """
     named: dict[str, NamedDevice] = {}
     for words in _lines(sheet, configurations):
-        for device in known.all_named_in(words.value):
+        for device in known.find_all_in_text(words.value):
             named.setdefault(device.id, NamedDevice(device, words))
     return tuple(named.values())
 

@@ -91,7 +91,9 @@ def _items(sheet: Specification, known: KnownDevices, configurations: Set[int]) 
         if types is None or (listed.configurations and not listed.configurations & configurations):
             continue
         # A link says it too.
-        device = known.named_in(listed.text, types) or known.named_in(listed.span.text, types)
+        device = known.find_in_text(listed.text, types) or known.find_in_text(
+            listed.span.text, types
+        )
         if device is not None:
             types &= device.sdf_types
             lidar_class = class_of_device(device) or class_of_kind(listed.kind)
@@ -106,7 +108,7 @@ def _read_sensor(sensor: Sensor, known: KnownDevices) -> _Named:
     texts += [comment] if comment is not None else []
     device, words = None, sensor.name
     for text in texts:
-        device = known.named(text.value, (sensor.type.value,))
+        device = known.find_in_name(text.value, (sensor.type.value,))
         if device is not None:
             words = text
             break

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.model.geometry.boxes import close_pairs
 from checker.model.geometry.convex import face_directions, overlap_depth
-from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.mesh import Mesh
 from checker.model.tree import RigidBodies
 
@@ -51,7 +51,7 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
     shapes = [
         piece
         for link in robot.tree.links.values()
-        for piece in placed(robot, link, link.collisions)
+        for piece in place_shapes(robot, link, link.collisions)
         if is_convex(robot, piece)
     ]
     bodies = robot.tree.rigid_bodies

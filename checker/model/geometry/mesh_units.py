@@ -104,12 +104,12 @@ class ScaledMeshes(Record, eq=False, dict=True):
 
     robot: Robot
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds, if its unit is right."""
         unit = self._units.get(uri.span)
         if unit is not None:
             return MeshFault(MeshTrouble.MISSCALED, f"seems to be in {unit}")
-        return self.robot.meshes.of(uri)
+        return self.robot.meshes.load(uri)
 
     @cached_property
     def _units(self) -> dict[Span, str]:

@@ -34,7 +34,9 @@ class Placed(Record, eq=False):
         return reach if reach is not None else 0.0
 
 
-def placed(robot: Robot, link: Link, shapes: Iterable[Collision | Visual]) -> Iterator[Placed]:
+def place_shapes(
+    robot: Robot, link: Link, shapes: Iterable[Collision | Visual]
+) -> Iterator[Placed]:
     """Yield the shapes of a link whose extent and place are known.
 
     Left out: unknown meshes, planes and heightmaps, lengths that are not finite.

@@ -95,7 +95,7 @@ class _Named:
         named = {text.value: text for text in self.controller.texts(*parameters)}
         wheels = []
         for joint in self.joints(*parameters):
-            wheel = self.reader.below(joint, side, knuckles, named.get(joint.name.value))
+            wheel = self.reader.wheel_below(joint, side, knuckles, named.get(joint.name.value))
             if wheel is not None:
                 wheels.append(wheel)
         solid = [wheel for wheel in wheels if any(link.collisions for link in wheel.body)]

@@ -141,7 +141,7 @@ class WheelDrive(Record, eq=False):
         """Direction of the first wheel's axis that is known; None where none is."""
         return next((wheel.axis for wheel in self.wheels if wheel.axis is not None), None)
 
-    def on(self, side: Side) -> tuple[Wheel, ...]:
+    def wheels_on(self, side: Side) -> tuple[Wheel, ...]:
         """Return the wheels that the plugin says are on one side."""
         return tuple(wheel for wheel in self.wheels if wheel.side is side)
 

@@ -158,7 +158,7 @@ def _wheeled_kind(drives: tuple[WheelDrive, ...]) -> DriveKind:
         return DriveKind.MECANUM
     if "OmniWheelDriveController" in classes:
         return DriveKind.OMNI
-    several = len(drives) > 1 or any(len(drives[0].on(side)) > 1 for side in Side)
+    several = len(drives) > 1 or any(len(drives[0].wheels_on(side)) > 1 for side in Side)
     return DriveKind.SKID_STEER if several else DriveKind.DIFFERENTIAL
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.model.components import Link
 from checker.model.geometry.boxes import Box
-from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.placed_shapes import place_shapes, union
 from checker.model.locomotion.locomotion import Wheel
 from checker.model.tree import WORLD
 
@@ -56,9 +56,11 @@ def rolling_parts(robot: Robot) -> list[RollingPart]:
     tracks = {track.link.scoped_name for track in robot.locomotion.tracks}
     parts = []
     for links, wheel in _parts(robot):
-        shapes = [piece.box for link in links for piece in placed(robot, link, link.collisions)]
+        shapes = [
+            piece.box for link in links for piece in place_shapes(robot, link, link.collisions)
+        ]
         box = union(shapes)
-        above = robot.tree.above.get(links[0].scoped_name, ())
+        above = robot.tree.ties_above.get(links[0].scoped_name, ())
         suspended = any(giving.get(tie.parent, False) for tie in above)
         if box is not None:
             is_track = links[0].scoped_name in tracks
@@ -81,7 +83,7 @@ def _parts(robot: Robot) -> Iterator[tuple[tuple[Link, ...], Wheel | None]]:
 
 
 def _turns(robot: Robot, link: Link) -> bool:
-    ties = robot.tree.above.get(link.scoped_name, ())
+    ties = robot.tree.ties_above.get(link.scoped_name, ())
     return any(tie.joint.type.value in _TURNING for tie in ties)
 
 
@@ -92,7 +94,7 @@ def _links_that_give(robot: Robot, passive: set[str]) -> dict[str, bool]:
         path: dict[str, bool] = {}
         at = start
         while at not in gives and at not in path:
-            above = robot.tree.above.get(at)
+            above = robot.tree.ties_above.get(at)
             if not above:
                 gives[at] = False
                 break
@@ -110,7 +112,7 @@ def carriers(robot: Robot, parts: Iterable[RollingPart]) -> set[str]:
     for part in parts:
         waiting = [part.link.scoped_name]
         while waiting:
-            above = robot.tree.above.get(waiting.pop(), ())
+            above = robot.tree.ties_above.get(waiting.pop(), ())
             fresh = [tie.parent for tie in above if tie.parent not in found]
             found.update(fresh)
             waiting.extend(fresh)

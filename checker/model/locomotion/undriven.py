@@ -33,7 +33,7 @@ def undriven_wheels(robot: Robot) -> Iterator[Wheel]:
         if tie.child not in called or not _turns_freely(tie.joint):
             continue
         pivot = _pivot(robot, tie.parent)
-        wheel = reader.below(tie.joint, Side.LEFT, {tie.parent: pivot} if pivot else {})
+        wheel = reader.wheel_below(tie.joint, Side.LEFT, {tie.parent: pivot} if pivot else {})
         if wheel is None or wheel.axis is None or wheel.centre is None:
             continue
         if abs(wheel.axis[2]) <= _LIES:
@@ -44,7 +44,7 @@ def undriven_wheels(robot: Robot) -> Iterator[Wheel]:
 def _pivot(robot: Robot, link: str) -> Joint | None:
     """Return the first joint above a link that moves, if it turns without end."""
     for _ in range(_PARTS):
-        above = robot.tree.above.get(link)
+        above = robot.tree.ties_above.get(link)
         if not above:
             return None
         if above[0].joint.type.value != "fixed":

@@ -14,7 +14,7 @@ from checker.model.controllers import Controller
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, TrackedDrive, Wheel, WheelDrive
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
-from checker.model.locomotion.wheels import stands_askew, tread
+from checker.model.locomotion.wheels import is_misaligned, tread
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def _axle(robot: Robot) -> Vector:
 
 
 def _askew(robot: Robot, part: RollingPart) -> bool:
-    return part.wheel is not None and stands_askew(robot, part.wheel)
+    return part.wheel is not None and is_misaligned(robot, part.wheel)
 
 
 def _dot(a: Vector, b: Vector) -> float:
@@ -174,7 +174,7 @@ def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
 
 def _of_wheels(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     axis = drive.axis
-    left, right = ([middle_of(robot, wheel) for wheel in drive.on(side)] for side in Side)
+    left, right = ([middle_of(robot, wheel) for wheel in drive.wheels_on(side)] for side in Side)
     true = _distance(left, right, axis) if axis is not None else None
     if true is not None and drive.separation_tag:
         what, slips = "left and right wheels", drive.slips

@@ -44,7 +44,7 @@ def wheels_out_of_line(robot: Robot, tolerance: float) -> Iterator[OutOfLine]:
     """
     for drive in robot.locomotion.wheel_drives:
         left, right = (_in_order(robot, drive, side) for side in Side)
-        if len(left) != len(right) or len(left) != len(drive.on(Side.LEFT)):
+        if len(left) != len(right) or len(left) != len(drive.wheels_on(Side.LEFT)):
             continue
         for pair in zip(pairwise(left), pairwise(right), strict=True):
             steps = [behind.out - front.out for front, behind in pair]
@@ -61,7 +61,7 @@ def _in_order(robot: Robot, drive: WheelDrive, side: Side) -> list[_Placed]:
     if (axis := drive.axis) is None:
         return []
     placed = []
-    for wheel in drive.on(side):
+    for wheel in drive.wheels_on(side):
         if (middle := middle_of(robot, wheel)) is not None:
             across = middle[0] * axis[0] + middle[1] * axis[1]
             along = middle[0] * axis[1] - middle[1] * axis[0]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Plugin
-from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.locomotion import Side, Wheel
@@ -29,7 +29,7 @@ ASKEW = math.radians(1)
 
 def wheel_shapes(robot: Robot, wheel: Wheel) -> list[Placed]:
     """Return the collisions of a wheel whose extent is known."""
-    return [piece for link in wheel.body for piece in placed(robot, link, link.collisions)]
+    return [piece for link in wheel.body for piece in place_shapes(robot, link, link.collisions)]
 
 
 def tread(robot: Robot, wheel: Wheel) -> Placed | None:
@@ -37,7 +37,7 @@ def tread(robot: Robot, wheel: Wheel) -> Placed | None:
     return max(wheel_shapes(robot, wheel), key=lambda piece: piece.box.diagonal, default=None)
 
 
-def askew(robot: Robot, wheel: Wheel) -> float | None:
+def misalignment(robot: Robot, wheel: Wheel) -> float | None:
     """Return the angle between the axis of a wheel's tread and that of its joint, 0…π/2 rad.
 
     None when one of them has no axis: a sphere or box, a joint whose axis is not known.
@@ -50,9 +50,9 @@ def askew(robot: Robot, wheel: Wheel) -> float | None:
     return math.acos(min(cosine, 1.0)) if math.isfinite(cosine) else None
 
 
-def stands_askew(robot: Robot, wheel: Wheel) -> bool:
+def is_misaligned(robot: Robot, wheel: Wheel) -> bool:
     """Say whether a wheel's tread stands across its joint: its reach then says nothing."""
-    return (askew(robot, wheel) or 0.0) > ASKEW
+    return (misalignment(robot, wheel) or 0.0) > ASKEW
 
 
 _DIRECTIONS = 16
@@ -97,7 +97,7 @@ class WheelReader:
             return None
         return self._wheel(joint, link, name, side, knuckles)
 
-    def below(
+    def wheel_below(
         self,
         joint: Joint,
         side: Side,
@@ -175,7 +175,7 @@ class WheelReader:
     ) -> tuple[float | None, float | None]:
         """Return reach across the axis and extent along it, metres; None without collisions."""
         x, y, z = axis
-        directions = (*across(axis), axis, (-x, -y, -z))
+        directions = (*perpendicular_directions(axis), axis, (-x, -y, -z))
         reaches = []
         for link in body:
             for shape in link.collisions:
@@ -209,7 +209,7 @@ class _Measured(Record, eq=False):
     width: float | None = None
 
 
-def across(axis: Vector) -> list[Vector]:
+def perpendicular_directions(axis: Vector) -> list[Vector]:
     """Return directions of length 1 around an axis of length 1."""
     x, y, z = axis
     # The least component gives the direction that is least parallel to the axis.

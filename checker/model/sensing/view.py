@@ -43,11 +43,11 @@ class View(Record, eq=False):
     by: tuple[Link, Visual | Collision] | None
 
     @property
-    def hidden(self) -> float:
+    def hidden_share(self) -> float:
         """Share of the view that shapes fill, 0 to 1."""
         return sum(hit.share for hit in self.filled)
 
-    def hidden_within(self, distance: float) -> float:
+    def hidden_share_within(self, distance: float) -> float:
         """Return the share of the view that shapes nearer than a distance fill, metres."""
         return sum(hit.share for hit in self.filled if hit.metres < distance)
 

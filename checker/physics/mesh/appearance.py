@@ -25,7 +25,7 @@ from checker.physics.mesh.surface import (
     Appearance,
     Surface,
     appearance_to_json,
-    joined,
+    merge_corners,
     shares,
     thinned,
 )
@@ -151,10 +151,10 @@ def _painted(piece: Piece, pictures: Mapping[str, str], files: Files, shared: Pi
     if path and piece.places is not None:
         pixels = shared[path] if path in shared else _picture(files, path)
     if pixels is None or piece.places is None:
-        return joined(piece.corners, piece.material.colour, None, None)
+        return merge_corners(piece.corners, piece.material.colour, None, None)
     colours = sampled(pixels, piece.places)
     white = (1.0, 1.0, 1.0, piece.material.colour[3])
-    return joined(piece.corners, white, colours, piece.places)
+    return merge_corners(piece.corners, white, colours, piece.places)
 
 
 def _picture(files: Files, path: str) -> Array | None:

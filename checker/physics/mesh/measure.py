@@ -38,7 +38,7 @@ class Joined(Record, eq=False):
     faces: NDArray[int64]
 
     @classmethod
-    def of(cls, corners: NDArray[float64]) -> Joined:
+    def from_corners(cls, corners: NDArray[float64]) -> Joined:
         """Join the corners of triangles (m × 3 × 3)."""
         import numpy as np
 
@@ -156,7 +156,7 @@ def measure(content: MeshContent, path: str, format: str) -> Mesh:
     if not len(corners):
         raise NoSurface("contains no triangles")
     _refuse_lost_corners(corners)
-    joined = Joined.of(corners)
+    joined = Joined.from_corners(corners)
     flat = _without_area(joined)
     points = joined.vertices
     hull, hull_volume = convex_hull(points)

@@ -61,7 +61,7 @@ class PackageMeshes(Record, eq=False, dict=True):
         """Whether they have been asked for, so that asking again costs nothing."""
         return "_by_address" in self.__dict__ or not self.uris
 
-    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+    def load(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds; the first call reads all files.
 
         Raises:
@@ -71,7 +71,7 @@ class PackageMeshes(Record, eq=False, dict=True):
             place = self.content(uri)
             if isinstance(place, MeshFault):
                 return place
-            PHYSICS.needed_by("a mesh")
+            PHYSICS.require_for("a mesh")
         return self._by_address.get(_address(uri), _UNKNOWN)
 
     def content(self, uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:
@@ -82,7 +82,7 @@ class PackageMeshes(Record, eq=False, dict=True):
         key = self._keys[place]
         return key if isinstance(key, MeshFault) else (place, key)
 
-    def known(self, uri: Located[str]) -> Mesh | MeshFault | None:
+    def load_known(self, uri: Located[str]) -> Mesh | MeshFault | None:
         """Return what is known of a file without reading it; None where nothing is."""
         if "_by_address" in self.__dict__:
             return self._by_address.get(_address(uri), _UNKNOWN)
@@ -97,7 +97,7 @@ class PackageMeshes(Record, eq=False, dict=True):
             return None
 
     def begin(self) -> None:
-        """Begin to read what is not known yet; `of` waits for it."""
+        """Begin to read what is not known yet; `load` waits for it."""
         with self.stages.stage("meshes"):
             self._facts.begin()
 

@@ -130,7 +130,9 @@ def shares(counts: Sequence[int], budget: int, small: int = SMALL) -> list[int]:
     return [low + room * (count - low) // left for count, low in zip(counts, kept, strict=True)]
 
 
-def joined(corners: Array, colour: Colour, colours: Array | None, places: Array | None) -> Surface:
+def merge_corners(
+    corners: Array, colour: Colour, colours: Array | None, places: Array | None
+) -> Surface:
     """Return triangles that share their corners.
 
     Args:

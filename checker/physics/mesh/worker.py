@@ -15,13 +15,13 @@ from typing import Any
 from msgspec import to_builtins
 
 from checker.base.files import NotReadable
-from checker.base.forked_work import ForkRunner, as_entry, forks_time, in_forks
+from checker.base.forked_work import ForkRunner, as_entry, forks_time, run_all_in_forks
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.appearance import appearances
 from checker.physics.mesh.reader import load_libraries, read_mesh
-from checker.physics.views.visibility import seen_of_mesh, sensors_of, unseen, views_of
+from checker.physics.views.visibility import sensors_of, unread_mesh, views_of, visibility_of_mesh
 
 
 def prepare() -> None:
@@ -43,7 +43,7 @@ def answer(request: bytes, files: Files) -> bytes:
     data = json.loads(request)
     late = f"had no time left: the others took {data['seconds_for_all']} s of processor time"
     until = forks_time() + data["seconds_for_all"]
-    run_in_forks = partial(in_forks, seconds=data["seconds"], until=until, late=late)
+    run_in_forks = partial(run_all_in_forks, seconds=data["seconds"], until=until, late=late)
     load_libraries(files.names)
     return b"[" + b",".join(_WANTED[data["wanted"]](data["items"], files, run_in_forks)) + b"]"
 
@@ -87,14 +87,14 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> by
 
     def seen(mesh: Mapping[str, Any]) -> bytes:
         data = files.read(mesh["file"])
-        return json.dumps(seen_of_mesh(sensors, mesh, data, item.get("lights", ()))).encode()
+        return json.dumps(visibility_of_mesh(sensors, mesh, data, item.get("lights", ()))).encode()
 
     results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
     for result in results:
         if isinstance(result, WorkerFailed) and result.momentary:
             return result
     read = [
-        unseen(_given_up(result)) if isinstance(result, WorkerFailed) else json.loads(result)
+        unread_mesh(_given_up(result)) if isinstance(result, WorkerFailed) else json.loads(result)
         for result in results
     ]
     (views,) = run_in_forks([lambda: json.dumps(views_of(item, sensors, read)).encode()])

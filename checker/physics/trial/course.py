@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from checker.physics.trial.profile import Knots, Limits, ramped
+from checker.physics.trial.profile import Knots, Limits, ramp_to
 from checker.physics.trial.trial import Leg
 
 VERSION = "1"
@@ -111,12 +111,12 @@ def _one_after_another(plan: Sequence[tuple[str, float, float, float]]) -> tuple
 
 def linear_command(legs: Sequence[Leg], limits: Limits) -> Knots:
     """Return the forward speed that a plugin with these limits asks for, m/s."""
-    return ramped(((leg.start, leg.end, leg.linear, _rate(leg)) for leg in legs), limits)
+    return ramp_to(((leg.start, leg.end, leg.linear, _rate(leg)) for leg in legs), limits)
 
 
 def angular_command(legs: Sequence[Leg], limits: Limits) -> Knots:
     """Return the turn rate that a plugin with these limits asks for, rad/s."""
-    return ramped(((leg.start, leg.end, leg.angular, _rate(leg)) for leg in legs), limits)
+    return ramp_to(((leg.start, leg.end, leg.angular, _rate(leg)) for leg in legs), limits)
 
 
 def _rate(leg: Leg) -> float:

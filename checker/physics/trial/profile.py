@@ -33,7 +33,7 @@ class Limits(Record):
     speeding: float = math.inf
 
     @classmethod
-    def of(cls, stated: MotionLimits) -> Limits:
+    def from_plugin(cls, stated: MotionLimits) -> Limits:
         """Take the limits of a plugin; what it does not state, or states as no number, is none."""
         return cls(
             -_bound(stated.min_velocity, -1),
@@ -47,7 +47,7 @@ class Limits(Record):
         """The lesser of both accelerations, as an amount."""
         return min(self.speeding, -self.braking)
 
-    def clamped(self, velocity: float) -> float:
+    def clamp(self, velocity: float) -> float:
         """Return a velocity within the limits."""
         return max(self.slowest, min(velocity, self.fastest))
 
@@ -59,7 +59,7 @@ def _bound(stated: Located[float] | None, sign: int) -> float:
     return max(sign * stated.value, 0.0)
 
 
-def ramped(targets: Iterable[tuple[float, float, float, float]], limits: Limits) -> Knots:
+def ramp_to(targets: Iterable[tuple[float, float, float, float]], limits: Limits) -> Knots:
     """Follow targets as fast as limits allow.
 
     Args:
@@ -70,7 +70,7 @@ def ramped(targets: Iterable[tuple[float, float, float, float]], limits: Limits)
     value = 0.0
     for start, end, target, rate in targets:
         knots.append((start, value))
-        goal = limits.clamped(target)
+        goal = limits.clamp(target)
         up = goal > value
         slope = min(rate, limits.speeding if up else -limits.braking)
         needed = abs(goal - value) / slope if slope > 0.0 else math.inf
@@ -106,7 +106,7 @@ def _interpolated(knots: Knots, right: int, time: float) -> float:
     return v0 + (v1 - v0) * (time - t0) / (t1 - t0)
 
 
-def mixed(lines: Sequence[Knots], mix: Callable[..., float], step: float = math.inf) -> Knots:
+def mix_lines(lines: Sequence[Knots], mix: Callable[..., float], step: float = math.inf) -> Knots:
     """Return a function of several lines as a line.
 
     Args:

@@ -63,7 +63,7 @@ class RobotTrial(Record, eq=False, dict=True):
         return ""
 
     @property
-    def unlike(self) -> str:
+    def invalid_reason(self) -> str:
         """Why the trial is none of this robot, as the end of a sentence; empty if it is.
 
         For the trial, parts without a place and masses that are none were put right somehow, and

@@ -25,7 +25,9 @@ _VERBS = {
 }
 
 
-def unrest(trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS) -> Iterator[tuple[str, str]]:
+def excess_figures(
+    trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS
+) -> Iterator[tuple[str, str]]:
     """Yield the figures that are beyond their limits, each with what the robot does.
 
     Args:
@@ -45,6 +47,8 @@ def unrest(trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS) -> Iterato
         yield name, symptom
 
 
-def unrest_of(trial: Trial) -> str:
+def unsettled_reason(trial: Trial) -> str:
     """Return why the figures of the drive mean nothing; empty for a robot that came to rest."""
-    return "the robot does not come to rest before it is driven" if any(unrest(trial)) else ""
+    return (
+        "the robot does not come to rest before it is driven" if any(excess_figures(trial)) else ""
+    )

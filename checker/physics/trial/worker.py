@@ -11,8 +11,8 @@ from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION
-from checker.physics.trial.measures.measurement import measured
-from checker.physics.trial.measures.motion import Motion, replay_of, series_of, too_many
+from checker.physics.trial.measures.measurement import measure_motion
+from checker.physics.trial.measures.motion import Motion, excess_links, replay_of, series_of
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.contacts import overlaps
@@ -34,10 +34,10 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
 def _trial(item: Mapping[str, Any]) -> Trial:
     scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
-    return driven(scene, plan, item["timestep"])
+    return run_trial(scene, plan, item["timestep"])
 
 
-def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
+def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
     """Drive a robot and measure; a run that MuJoCo gives up is tried again with half the step."""
     import mujoco
 
@@ -45,7 +45,7 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
         drive=plan.kind,
         versions={"mujoco": mujoco.__version__, "course": VERSION},
         repairs=scene.repairs,
-        notes=(*scene.notes, *plan.notes, *too_many(scene)),
+        notes=(*scene.notes, *plan.notes, *excess_links(scene)),
         not_driven=plan.not_driven,
     )
     try:
@@ -58,7 +58,7 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
     return replace(
         trial,
         legs=plan.legs,
-        measurements=(*measured(motion), *overlaps(scene)),
+        measurements=(*measure_motion(motion), *overlaps(scene)),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
         replay=replay_of(run),

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from checker.physics.views.obstacles import met
+from checker.physics.views.obstacles import first_hits
 from checker.physics.views.rays import Grid, Steps
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _ACROSS = 12
 """Rays across a beam, and up."""
 
 
-def covered(corners: Array, light: Mapping[str, Any]) -> tuple[float, float]:
+def covered_shares(corners: Array, light: Mapping[str, Any]) -> tuple[float, float]:
     """Return the share of all directions in which a light meets triangles, and of its beam.
 
     Both sides of a triangle count: shadows fall from each.
@@ -48,8 +48,8 @@ def covered(corners: Array, light: Mapping[str, Any]) -> tuple[float, float]:
 def _share(corners: Array, grid: Grid, weights: Any) -> float:
     import numpy as np
 
-    outside, _ = met(corners, grid)
-    inside, _ = met(corners[:, ::-1], grid)
+    outside, _ = first_hits(corners, grid)
+    inside, _ = first_hits(corners[:, ::-1], grid)
     hit = np.isfinite(np.minimum(outside, inside))
     return float((weights * hit).sum() / weights.sum())
 

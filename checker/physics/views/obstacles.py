@@ -34,7 +34,7 @@ _SLACK = 1e-7
 """Radians that a cone is wider than it must be."""
 
 
-def met(corners: Array, grid: Grid) -> tuple[Array, NDArray[bool_]]:
+def first_hits(corners: Array, grid: Grid) -> tuple[Array, NDArray[bool_]]:
     """Return for each ray of a grid where it first meets a triangle that the sensor sees.
 
     That is in metres along the ray, inf where it meets none; and whether it meets one that is
@@ -249,7 +249,7 @@ SOLIDS: dict[str, tuple[tuple[str, ...], Callable[[Array, Array, Array], Between
 """By shape: the names of its lengths, in the order in which they are given, and its function."""
 
 
-def entered(kind: str, sizes: Array, origin: Array, rays: Array) -> Array:
+def entry_distances(kind: str, sizes: Array, origin: Array, rays: Array) -> Array:
     """Return the metres along each ray at which it enters each shape from outside; else NaN.
 
     Args:

@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.model.components import Collision, Light, Link, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.interpenetration import is_convex
-from checker.model.geometry.placed_shapes import placed
+from checker.model.geometry.placed_shapes import place_shapes
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform
 from checker.model.mesh import MeshFault, picked_part
@@ -123,7 +123,7 @@ def _covered_lights(
     ]
     for link, visual in visuals if lights else ():
         if visual.geometry.shape == "mesh" and not visual.is_see_through:
-            for piece in placed(robot, link, (visual,)):
+            for piece in place_shapes(robot, link, (visual,)):
                 inside = [at for at in lights if _is_within(at[1], piece.box)]
                 if inside and not is_convex(robot, piece):
                     yield from ((light, visual, pose) for light, pose in inside)

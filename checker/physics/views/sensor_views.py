@@ -178,7 +178,7 @@ def _content_of(robot: Robot) -> Content:
         return _not_looked_for
 
     def content(uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:
-        known = robot.scaled_meshes.of(uri)
+        known = robot.scaled_meshes.load(uri)
         if isinstance(known, MeshFault) and known.trouble is MeshTrouble.MISSCALED:
             return known
         return meshes.content(uri)

@@ -2,8 +2,8 @@
 
 What is asked holds `sensors` (pose, grid, and whether they meet `collisions` instead of visuals),
 `solids` (shapes of one kind, with their sizes), `meshes` (files, with the shapes that show them)
-and, if there are any, `lights` (see `covered`), each with the `visual` that it may stand inside.
-Of the shapes, those numbered from `visuals` on are collisions. Poses are 12 numbers in the robot's
+and optionally `lights` (see `covered_shares`), each with the `visual` that may enclose it.
+Shapes numbered from `visuals` on are collisions. Poses are 12 numbers in the robot's
 frame: the rotation row by row, then the place.
 """
 
@@ -17,8 +17,8 @@ from checker.base.sandbox.files import Content
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content
-from checker.physics.views.lights import covered
-from checker.physics.views.obstacles import ball_around, entered, in_view, met
+from checker.physics.views.lights import covered_shares
+from checker.physics.views.obstacles import ball_around, entry_distances, first_hits, in_view
 from checker.physics.views.rays import Grid, grid_from_json
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def views_of(
     Args:
         item: See above.
         sensors: Those that are asked about.
-        of_meshes: What is seen of each mesh (`seen_of_mesh`).
+        of_meshes: What is seen of each mesh (`visibility_of_mesh`).
 
     Returns:
         `views`: for each sensor the rays that end at visuals, with `shares` of the view, the metres
@@ -142,7 +142,7 @@ def _solids(kinds: Mapping[str, Any], sensors: Sensors) -> Iterator[Met]:
             # Into the frame of each shape: its rotation's transpose.
             own_rays = np.einsum("rj,pjk->prk", rays, turned)
             origin = np.einsum("pj,pjk->pk", pose[9:] - places, turned)
-            reach = entered(kind, sizes, origin, own_rays)
+            reach = entry_distances(kind, sizes, origin, own_rays)
             with np.errstate(invalid="ignore"):
                 seen = (reach >= grid.near_along) & (reach <= grid.far)
                 cut = reach < grid.near_along
@@ -151,7 +151,7 @@ def _solids(kinds: Mapping[str, Any], sensors: Sensors) -> Iterator[Met]:
                 yield _met(group["visuals"][number], sensor, first[number], cut[number])
 
 
-def seen_of_mesh(
+def visibility_of_mesh(
     sensors: Sensors,
     mesh: Mapping[str, Any],
     data: Content,
@@ -169,7 +169,7 @@ def seen_of_mesh(
 
     corners = _corners(mesh, data)
     if isinstance(corners, MeshFault):
-        return unseen(corners)
+        return unread_mesh(corners)
     hits: list[Met] = []
     inside: list[tuple[int, float, float]] = []
     for use in mesh["uses"] if len(corners) else ():
@@ -178,11 +178,11 @@ def seen_of_mesh(
         hits += _meetings(sensors, use["visual"], in_robot)
         for number, light in enumerate(lights):
             if light["visual"] == use["visual"]:
-                inside.append((number, *covered(in_robot, light)))
+                inside.append((number, *covered_shares(in_robot, light)))
     return {"met": hits, "covered": inside}
 
 
-def unseen(fault: MeshFault) -> Seen:
+def unread_mesh(fault: MeshFault) -> Seen:
     """Return why a mesh is not seen; what the reader gave up is tried again."""
     lasts = fault.trouble is not MeshTrouble.NOT_LOOKED_AT
     return {"unread": fault.reason, "lasts": lasts}
@@ -218,6 +218,6 @@ def _meetings(sensors: Sensors, visual: int, in_robot: Array) -> Iterator[Met]:
         # Most of a robot is behind most of its cameras.
         if not in_view((middle - pose[9:]) @ turned, radius, grid):
             continue
-        first, cut = met((in_robot - pose[9:]) @ turned, grid)
+        first, cut = first_hits((in_robot - pose[9:]) @ turned, grid)
         if cut.any() or np.isfinite(first).any():
             yield _met(visual, sensor, first, cut)

@@ -70,7 +70,9 @@ def _unseen(package: PackageReport) -> Iterator[Task]:
     yield Task("", plain(shortened(message, _TEXT_LIMIT)), "not-checked", "", 0)
 
 
-def told_trial(trial: Mapping[str, Any], name: str = "the robot", unseen: str = "") -> list[str]:
+def trial_sentences(
+    trial: Mapping[str, Any], name: str = "the robot", unseen: str = ""
+) -> list[str]:
     """Return the result of a trial as sentences.
 
     Args:

@@ -17,7 +17,7 @@ from checker.finding import Concern, Severity
 from checker.report.html.findings import grades_of, rule_pages
 from checker.report.html.index import common_problems, entry_of
 from checker.report.html.launches import shown_launches
-from checker.report.html.overview import first_tasks, told_trial
+from checker.report.html.overview import first_tasks, trial_sentences
 from checker.report.html.robots import ShownRobot, files_out_of_view, shown_robots
 from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
@@ -151,10 +151,10 @@ def _trial_sentences(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
     if driven is None or driven.trial is None:
         return []
     if len(robots) == 1:
-        return told_trial(driven.trial, unseen=unseen)
+        return trial_sentences(driven.trial, unseen=unseen)
     others = [each.name for each in robots if each is not driven and each.has_fault]
     also = [f"Faults in the trials of others: {listed(others)}."] if others else []
-    return [*told_trial(driven.trial, driven.name, unseen), *also]
+    return [*trial_sentences(driven.trial, driven.name, unseen), *also]
 
 
 def has_viewer() -> bool:

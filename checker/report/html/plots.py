@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 
 from checker.base.record import Record
-from checker.report.html.scale import Named, Values, extent, known, scale_of
+from checker.report.html.scale import Named, Values, extent, known_values, scale_of
 from checker.report.html.themes import Course, Leg, Theme, themes_of
 
 _LINES_SHOWN = 8
@@ -76,11 +76,15 @@ def plots_of(trial: Mapping[str, Any], mass: float | None = None) -> TrialPlots 
 
 
 def _plot(theme: Theme) -> Plot | None:
-    curves = [(name, values) for name, values in theme.measured if any(True for _ in known(values))]
+    curves = [
+        (name, values) for name, values in theme.measured if any(True for _ in known_values(values))
+    ]
     if not curves:
         return None
     shown = _greatest(curves)
-    limits = [(name, values) for name, values in theme.limits if any(True for _ in known(values))]
+    limits = [
+        (name, values) for name, values in theme.limits if any(True for _ in known_values(values))
+    ]
     scale = scale_of(shown, theme.command, limits, theme.floor)
     notes = [theme.note] if theme.note else []
     if len(curves) > len(shown):

@@ -49,7 +49,7 @@ class ShownRobot(Record):
         return self.badge in map(str, Severity)
 
     @property
-    def in_a_line(self) -> str:
+    def summary(self) -> str:
         """What one wants to know of it first."""
         known = dict(self.facts)
         phrases = [known[name] for name in ("drive", "mass", "size") if name in known]

@@ -27,17 +27,17 @@ class Scale(Record):
 
     def holds(self, values: Values) -> bool:
         """Say whether a whole curve is on it."""
-        return all(self.low <= value <= self.high for value in known(values))
+        return all(self.low <= value <= self.high for value in known_values(values))
 
 
-def known(values: Values) -> Iterator[float]:
+def known_values(values: Values) -> Iterator[float]:
     """Yield the values that are there."""
     return (value for value in values if value is not None)
 
 
 def extent(curves: Iterable[Values]) -> float:
     """Return the greatest distance from zero."""
-    return max((abs(value) for values in curves for value in known(values)), default=0.0)
+    return max((abs(value) for values in curves for value in known_values(values)), default=0.0)
 
 
 _RARE = 0.01
@@ -62,11 +62,11 @@ def scale_of(
         limits: Drawn where they are near.
         floor: The least that the axis spans.
     """
-    found = sorted(value for _, values in measured for value in known(values))
+    found = sorted(value for _, values in measured for value in known_values(values))
     rare = int(len(found) * _RARE)
-    usual = (found[rare], found[-1 - rare], *known(command))
+    usual = (found[rare], found[-1 - rare], *known_values(command))
     low, high = min(usual), max(usual)
-    bounds = [value for _, values in limits for value in known(values)]
+    bounds = [value for _, values in limits for value in known_values(values)]
     near = _LIMIT_IN_VIEW * max(abs(low), abs(high))
     drawn = [value for value in bounds if abs(value) <= near]
     low, high = min([low, *drawn]), max([high, *drawn])

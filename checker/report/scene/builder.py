@@ -13,13 +13,13 @@ from checker.model.components import Sensor
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.physics.mesh.surface import Colour, Surface
-from checker.physics.trial.mjcf.names import well_placed
+from checker.physics.trial.mjcf.names import is_finite_pose
 from checker.physics.views.rays import Grid, grid_of
 from checker.report.scene.extent import sphere_around
 from checker.report.scene.layers.mechanics import frames, inertias, joints, masses
 from checker.report.scene.layers.visuals import collisions, visuals
 from checker.report.scene.mesh_files import Notes, Surfaces, short
-from checker.report.scene.primitives import bar, joined
+from checker.report.scene.primitives import bar, merge_surfaces
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from checker.report.scene.shown_robot import Hung, Showing
 
@@ -87,7 +87,7 @@ def _pyramid(picture: tuple[float, float], reach: float) -> tuple[Surface, ...]:
     edges = [bar(a, b, _WIDTH * reach) for a, b in zip(starts, ends, strict=True)]
     return (
         Surface(points, np.array(sides, dtype=np.uint32), _BLUE),
-        replace(joined(edges), colour=_EDGES),
+        replace(merge_surfaces(edges), colour=_EDGES),
     )
 
 
@@ -101,7 +101,7 @@ def _fans(grid: Grid, reach: float) -> Surface:
     if right - left < _ROUND and len(rows) > 1:
         up = _angles(low, high)
         fans += [_fan([(side, angle) for angle in up], reach) for side in (left, right)]
-    return joined(fans)
+    return merge_surfaces(fans)
 
 
 def _angles(lower: float, upper: float) -> list[float]:
@@ -182,7 +182,7 @@ def _frames(robot: Robot, notes: Notes) -> dict[str, Transform]:
         pose = robot.pose_of(name)
         if name in known:
             notes.say(f"several links are called {short(name)!r}: only the first is shown")
-        elif pose is None or not well_placed(pose):
+        elif pose is None or not is_finite_pose(pose):
             notes.say(f"link {short(name)!r} is not shown: its place is not known")
         else:
             known[name] = pose

@@ -66,7 +66,7 @@ def short(name: str) -> str:
 class Surfaces(Protocol):
     """Gives what the mesh files of a robot look like."""
 
-    def of(self, uri: Located[str]) -> tuple[Surface, ...] | str:
+    def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:
         """Return what the mesh file behind a URI looks like.
 
         Metres, its own unit honoured, the model's `<scale>` not applied. Asked again for the same
@@ -79,7 +79,7 @@ class Surfaces(Protocol):
 class NoSurfaces(Record):
     """For a robot whose mesh files nobody reads."""
 
-    def of(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`
+    def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`
         """Say that the file was not read."""
         return "was not read"
 
@@ -104,9 +104,9 @@ class MeshFiles(Record, eq=False, dict=True):
 
     meshes: PackageMeshes
 
-    def of(self, uri: Located[str]) -> Appearance:
+    def load(self, uri: Located[str]) -> Appearance:
         """Return what the file behind a URI looks like; the first call reads all files."""
-        mesh, place = self.meshes.of(uri), self.meshes.content(uri)
+        mesh, place = self.meshes.load(uri), self.meshes.content(uri)
         if isinstance(mesh, MeshFault):
             return mesh.reason
         if isinstance(place, MeshFault):
@@ -120,7 +120,7 @@ class MeshFiles(Record, eq=False, dict=True):
         return read
 
     def begin(self) -> None:
-        """Begin to read, while the caller does something else; `of` waits for it."""
+        """Begin to read, while the caller does something else; `load` waits for it."""
         self._appearances.begin()
 
     def stop(self) -> None:
@@ -133,7 +133,7 @@ class MeshFiles(Record, eq=False, dict=True):
         """Keys of the cache by the paths of files, and what is asked by the keys."""
         files: dict[str, tuple[MeshFile, str, Mesh]] = {}
         for uri in self.meshes.uris:
-            mesh, place = self.meshes.of(uri), self.meshes.content(uri)
+            mesh, place = self.meshes.load(uri), self.meshes.content(uri)
             if isinstance(mesh, Mesh) and isinstance(place, tuple):
                 files[place[0].path] = (*place, mesh)
         # Of files with the same content only one is shown.

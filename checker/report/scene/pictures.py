@@ -17,7 +17,13 @@ from checker.base.parts import WorkerFailed
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
-from checker.report.scene.drawing.request import Camera, Shot, drawn_items, framed, request_of
+from checker.report.scene.drawing.request import (
+    Camera,
+    Shot,
+    camera_framing,
+    drawn_items,
+    request_of,
+)
 from checker.report.scene.processes import (
     DRAWING_LIMITS,
     PLATFORMS,
@@ -79,7 +85,7 @@ def shot_of(
     boxes = _boxes(scene, layer)
     if not boxes:
         return None
-    camera = framed(_points(scene, boxes, 0), *direction, aspect)
+    camera = camera_framing(_points(scene, boxes, 0), *direction, aspect)
     return Shot(caption, layer, camera, _tile(camera))
 
 
@@ -96,7 +102,7 @@ def _moments(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
         return
     along = {*np.linspace(0, len(scene.tracks.time) - 1, _ALONG_PATH).astype(int), *chosen}
     points = np.concatenate([_points(scene, boxes, int(sample)) for sample in along])
-    camera = framed(points, *_FROM_SIDE, aspect)
+    camera = camera_framing(points, *_FROM_SIDE, aspect)
     for sample in chosen:
         seconds, tile = float(scene.tracks.time[sample]), _tile(camera)
         caption = f"The trial after {seconds:.1f} s; tiles are {tile:g} m long"

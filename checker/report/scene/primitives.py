@@ -48,13 +48,13 @@ def rectangle() -> Surface:
 @cache
 def cylinder() -> Surface:
     """Return a cylinder of radius 1 and length 1 along z."""
-    return revolved(tube(1.0, -0.5, 0.5))
+    return revolve(tube(1.0, -0.5, 0.5))
 
 
 @cache
 def cone() -> Surface:
     """Return a cone of radius 1 and length 1, its tip up."""
-    return revolved(tapered(1.0, -0.5, 0.5))
+    return revolve(cone_profile(1.0, -0.5, 0.5))
 
 
 @cache
@@ -77,7 +77,7 @@ def capsule(radius: float, length: float) -> Surface:
     arc = [(math.cos(a) if a < math.pi / 2 else 0.0, math.sin(a)) for a in angles]
     lower = [(radius * c, -half - radius * s, c, -s) for c, s in reversed(arc)]
     upper = [(radius * c, half + radius * s, c, s) for c, s in arc]
-    return revolved([*lower, *upper] if length else [*lower, *upper[1:]])
+    return revolve([*lower, *upper] if length else [*lower, *upper[1:]])
 
 
 def tube(radius: float, low: float, high: float) -> list[Point]:
@@ -92,7 +92,7 @@ def tube(radius: float, low: float, high: float) -> list[Point]:
     ]
 
 
-def tapered(radius: float, low: float, high: float) -> list[Point]:
+def cone_profile(radius: float, low: float, high: float) -> list[Point]:
     """Return the profile of a cone whose tip is up."""
     slant = math.hypot(radius, high - low)
     out, up = (high - low) / slant, radius / slant
@@ -104,7 +104,7 @@ def tapered(radius: float, low: float, high: float) -> list[Point]:
     ]
 
 
-def revolved(profile: Sequence[Point]) -> Surface:
+def revolve(profile: Sequence[Point]) -> Surface:
     """Return what a profile leaves when it turns about z.
 
     Args:
@@ -170,7 +170,7 @@ def bar(start: Sequence[float], end: Sequence[float], width: float) -> Surface:
     return Surface((box().vertices @ axes + (first + last) / 2).astype(np.float32), box().faces)
 
 
-def joined(parts: Sequence[Surface]) -> Surface:
+def merge_surfaces(parts: Sequence[Surface]) -> Surface:
     """Return surfaces without normals as one, with the colour of the first."""
     import numpy as np
 

@@ -40,7 +40,7 @@ class Drawn(Record, eq=False):
     turn: Transform = field(default_factory=Transform)
 
 
-def drawn(showing: Showing, shape: Collision | Visual) -> Drawn | None:
+def triangulate(showing: Showing, shape: Collision | Visual) -> Drawn | None:
     """Return a shape as triangles; None, with a note, for one that cannot be shown."""
     geometry, notes = shape.geometry, showing.notes
     if geometry.shape in _NOTHING:
@@ -77,10 +77,10 @@ def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]
         return ()
     name = short(posixpath.basename(geometry.uri.value) or geometry.uri.value)
     picks = geometry.element.child("submesh") is not None
-    if picks and showing.robot.mesh_of(shape) is not showing.robot.meshes.of(geometry.uri):
+    if picks and showing.robot.mesh_of(shape) is not showing.robot.meshes.load(geometry.uri):
         notes.say(f"{name} is not shown, because only a part of it is used (<submesh>)")
         return ()
-    surfaces = showing.surfaces.of(geometry.uri)
+    surfaces = showing.surfaces.load(geometry.uri)
     if isinstance(surfaces, str):
         notes.say(f"{name} is not shown: it {surfaces}")
         return ()

@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.model.components import Link, Part, Pose
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.physics.trial.mjcf.names import well_placed
+from checker.physics.trial.mjcf.names import is_finite_pose
 from checker.report.scene.mesh_files import Notes, Surfaces, short
 from checker.report.scene.scene import Item
 
@@ -63,4 +63,4 @@ class Showing(Record, eq=False, dict=True):
         if pose.relative_to:
             whole = self.robot.pose_of_part(link, pose)
             place = None if whole is None else self.frames[link.scoped_name].inverse @ whole
-        return place if place is not None and well_placed(place) else None
+        return place if place is not None and is_finite_pose(place) else None

@@ -167,7 +167,7 @@ class ControlSystem(Record, eq=False, dict=True):
     unread: tuple[str, ...] = ()
 
     @cached_property
-    def spawned(self) -> tuple[Spawned, ...]:
+    def spawned_controllers(self) -> tuple[Spawned, ...]:
         """Controllers that launch files start; each place once."""
         distinct = {
             (controller.full_name, controller.span.source.file, controller.span.start): controller
@@ -177,7 +177,7 @@ class ControlSystem(Record, eq=False, dict=True):
         return tuple(distinct.values())
 
     @cached_property
-    def configured(self) -> Mapping[str, Controller]:
+    def configured_controllers(self) -> Mapping[str, Controller]:
         """Controllers that launch files load, by full name; the last one counts."""
         return {
             controller.full_name: controller
@@ -188,7 +188,7 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namespaces(self) -> frozenset[str]:
         """Namespaces in which launch files start controllers."""
-        return frozenset(controller.namespace for controller in self.spawned)
+        return frozenset(controller.namespace for controller in self.spawned_controllers)
 
     @cached_property
     def models(self) -> tuple[SpawnedModel, ...]:
@@ -208,12 +208,14 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namesakes(self) -> Mapping[str, Controller]:
         """Controllers that launch files load, by name, whatever their namespace."""
-        return {controller.name: controller for controller in self.configured.values()}
+        return {controller.name: controller for controller in self.configured_controllers.values()}
 
     def publishers(self, launch: ControlLaunch) -> Iterator[Spawned]:
         """Yield the controllers of a launch file that publish joint states."""
         for spawned in launch.spawned:
-            controller = self.configured.get(spawned.full_name) or self.namesakes.get(spawned.name)
+            controller = self.configured_controllers.get(spawned.full_name) or self.namesakes.get(
+                spawned.name
+            )
             if controller is not None and controller.kind == STATE_CONTROLLER:
                 yield spawned
 

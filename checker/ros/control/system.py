@@ -214,7 +214,12 @@ def control_system(
         unread_robot=_reason(robots) or _reason(descriptions),
         unread=tuple(dict.fromkeys((*unread, *parameters.unread))),
     )
-    controls = (system.transmissions, system.plugins, system.controllers, system.spawned)
+    controls = (
+        system.transmissions,
+        system.plugins,
+        system.controllers,
+        system.spawned_controllers,
+    )
     if not any((*controls, system.models)) and not system.unread_robot:
         return NotAvailable(
             "nothing in the package controls a robot or spawns one", applicable=False

@@ -141,7 +141,7 @@ class LaunchedControl(Record, eq=False, dict=True):
         return not (unsure or any(unread_parts(self.graph)))
 
     @cached_property
-    def listed(self) -> frozenset[str] | None:
+    def listed_controllers(self) -> frozenset[str] | None:
         """Controllers whose type the managers know; None where a file of theirs is not known."""
         if self._files is None:
             return None
@@ -176,7 +176,7 @@ class LaunchedControl(Record, eq=False, dict=True):
             return None
         return tuple(files)
 
-    def typed(self, spawner: Spawner) -> frozenset[str] | None:
+    def typed_controllers(self, spawner: Spawner) -> frozenset[str] | None:
         """Return the controllers whose type a spawner's own files state; None if not known."""
         files: list[ControllerFile] = []
         for path in spawner.param_files:

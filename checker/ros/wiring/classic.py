@@ -9,7 +9,7 @@ from msgspec import convert
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.launch.ros1.graph import remapped
+from checker.launch.ros1.graph import apply_remaps
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
@@ -33,7 +33,7 @@ def _topics() -> Mapping[str, tuple[_Topic, ...]]:
     return convert(table("gazebo_classic_ros2")["topics"], dict[str, tuple[_Topic, ...]])
 
 
-def of_classic(robot: Robot) -> Iterator[Endpoint]:
+def classic_endpoints(robot: Robot) -> Iterator[Endpoint]:
     """Yield the topics of a robot's plugins in Gazebo Classic, as their parameters decide."""
     sensors = {id(plugin): sensor for sensor in robot.sensors for plugin in sensor.plugins}
     for plugin in robot.all_plugins:
@@ -64,7 +64,7 @@ def _endpoint(plugin: Plugin, sensor: Sensor | None, topic: _Topic) -> Endpoint:
         "{camera_name}", camera or (sensor.name.value if sensor is not None else "")
     )
     rules = (remap_rule(text.value) for text in plugin.at(f"{ros}remapping"))
-    resolved = remapped(name, rules, f"/{namespace.strip('/')}", plugin.name.value)
+    resolved = apply_remaps(name, rules, f"/{namespace.strip('/')}", plugin.name.value)
     output = next((text.value.strip() for text in plugin.at("output_type")), _DEFAULT_OUTPUT)
     kind = topic.type.replace("{output_type}", output.replace("/msg/", "/").replace("/", "/msg/"))
     by = f"plugin {plugin.filename.value}"

@@ -11,7 +11,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.launch.ros1.graph import remapped
+from checker.launch.ros1.graph import apply_remaps
 from checker.launch.ros2.graph import is_known
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
@@ -52,7 +52,7 @@ class RunController(Record, eq=False, dict=True):
 
     def resolve(self, name: str) -> str:
         """Return the absolute topic that it gets when it asks for a name; empty if not known."""
-        topic = remapped(name, self.remaps, self.namespace, self.controller.name)
+        topic = apply_remaps(name, self.remaps, self.namespace, self.controller.name)
         return topic if is_known(topic) else ""
 
     @cached_property
@@ -65,7 +65,7 @@ class RunController(Record, eq=False, dict=True):
                 topic,
                 types,
                 publishes,
-                controller.called,
+                controller.label,
                 controller.span,
                 controller,
                 self.started,

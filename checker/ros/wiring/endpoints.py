@@ -35,10 +35,10 @@ class Endpoint(Record, eq=False):
     parameter: str = ""
 
 
-def of_node(node: WiredNode) -> Iterator[Endpoint]:
+def node_endpoints(node: WiredNode) -> Iterator[Endpoint]:
     """Yield what is known of the topics of a node."""
-    by, certain = node.called, node.node.starts is True
-    for topic, types in node.published:
+    by, certain = node.label, node.node.starts is True
+    for topic, types in node.published_topics:
         yield Endpoint(topic, types, True, by, node.node.span, node, certain)
     for each in node.read:
         topic = node.resolve(each.topic)
@@ -47,7 +47,7 @@ def of_node(node: WiredNode) -> Iterator[Endpoint]:
             yield Endpoint(topic, each.types, False, by, span, node, certain, each.parameter)
 
 
-def of_bridges(simulation: Simulation) -> Iterator[Endpoint]:
+def bridge_endpoints(simulation: Simulation) -> Iterator[Endpoint]:
     """Yield what bridges of Gazebo pass in either direction."""
     for entry in simulation.entries:
         types = (entry.passed.ros_type.value,)

@@ -17,14 +17,14 @@ _POSITIONAL = (8, 9)
 """Words of the form without options: a place, an attitude of three or four numbers, two frames."""
 
 
-def of_joints(node: WiredNode, robot: Robot) -> Iterator[Transform]:
+def joint_transforms(node: WiredNode, robot: Robot) -> Iterator[Transform]:
     """Yield the transforms of a robot's joints.
 
     Args:
         node: The robot_state_publisher.
         robot: That it is given.
     """
-    prefix = node.filled(f"{{{_PREFIX}}}") if _PREFIX in node.settings else ""
+    prefix = node.fill_in(f"{{{_PREFIX}}}") if _PREFIX in node.settings else ""
     topics = {True: _tree(node, _STATIC), False: node.resolve("/tf")}
     if prefix is None or not node.knows_parameters or robot.format != "urdf":
         return
@@ -38,7 +38,7 @@ def of_joints(node: WiredNode, robot: Robot) -> Iterator[Transform]:
             yield Transform(parent, child, topic, joint.span, by, cure, joint)
 
 
-def of_static(node: WiredNode) -> Iterator[Transform]:
+def static_transforms(node: WiredNode) -> Iterator[Transform]:
     """Yield the transform that a static_transform_publisher is given."""
     topic = _tree(node, _STATIC) if node.program == _STATIC_PUBLISHER else ""
     words = [word.value for word in node.node.arguments]
@@ -52,7 +52,7 @@ def of_static(node: WiredNode) -> Iterator[Transform]:
         parent, child = map(_frame, frames)
         span, program = node.node.span, node.node.executable.value
         cure = f"remove this {program}"
-        yield Transform(parent, child, topic, span, node.called, cure, node)
+        yield Transform(parent, child, topic, span, node.label, cure, node)
 
 
 def _tree(node: WiredNode, topic: str) -> str:

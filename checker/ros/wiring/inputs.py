@@ -58,7 +58,7 @@ def inputs(node: WiredNode) -> Iterator[Input]:
     for topic, types in node.facts.subscribes.items() if node.facts is not None else ():
         whole = _WHOLE.fullmatch(topic)
         if whole is None or (not whole[2] and whole[1] not in node.settings):
-            name = node.filled(topic) if whole is None or not whole[2] else None
+            name = node.fill_in(topic) if whole is None or not whole[2] else None
             yield from (Input(name, types),) if name else ()
             continue
         wanted = re.compile(re.escape(whole[1]) + (r"\d+" if whole[2] else ""))

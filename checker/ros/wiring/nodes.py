@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.launch.ros1.graph import remapped, resolve_name
+from checker.launch.ros1.graph import apply_remaps, resolve_name
 from checker.launch.ros2.graph import Node, NodeKind, ParameterFile, is_known
 from checker.model.ros_parameters import NodeBlock
 from checker.ros.ros2_control.launched import Spawner, spawner_of
@@ -50,7 +50,7 @@ class WiredNode(Record, eq=False, dict=True):
         return resolve_name(self.name, self.node.namespace) if known else ""
 
     @property
-    def called(self) -> str:
+    def label(self) -> str:
         """What a message calls it."""
         return f"node {self.full_name or self.node.executable.value!r}"
 
@@ -83,7 +83,7 @@ class WiredNode(Record, eq=False, dict=True):
         """The parameters that it gets."""
         return settings_of(self.node, self.files, self.name, self.node.namespace)
 
-    def filled(self, text: str) -> str | None:
+    def fill_in(self, text: str) -> str | None:
         """Return a text of the table with the values of parameters; None when one is not known."""
         defaults = self.facts.defaults if self.facts is not None else {}
         for _ in range(_DEEPEST):
@@ -98,15 +98,15 @@ class WiredNode(Record, eq=False, dict=True):
     def resolve(self, name: str) -> str:
         """Return the absolute topic that it gets when it asks for a name; empty if not known."""
         remaps = ((remap.source, remap.target) for remap in self.node.remaps)
-        topic = remapped(name, remaps, self.node.namespace, self.name)
+        topic = apply_remaps(name, remaps, self.node.namespace, self.name)
         known = is_known(topic) and not self._rules and not self.node.unread
         return topic if known else ""
 
     @cached_property
-    def published(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    def published_topics(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
         """The topics that it may publish, absolute, each with its types; those that are known."""
         facts = self.facts.publishes if self.facts is not None else {}
-        filled = ((self.filled(topic), types) for topic, types in facts.items())
+        filled = ((self.fill_in(topic), types) for topic, types in facts.items())
         resolved = ((self.resolve(topic), types) for topic, types in filled if topic)
         return tuple((topic, types) for topic, types in resolved if topic)
 
@@ -116,11 +116,11 @@ class WiredNode(Record, eq=False, dict=True):
         return tuple(inputs(self)) if self.knows_parameters else ()
 
     def publishes_more(self, message: str) -> str:
-        """Say why it may publish a type on a topic that `published` lacks; else nothing."""
+        """Say why it may publish a type on a topic that `published_topics` lacks; else nothing."""
         if self.facts is None:
             return f"what {self.program} publishes is not known"
         own = [types for types in self.facts.publishes.values() if message in types]
-        known = sum(message in types for _, types in self.published)
+        known = sum(message in types for _, types in self.published_topics)
         if len(own) > known or {message, "*"} & set(self.facts.publishes_more):
             return f"some of the topics that {self.program} publishes are not known"
         return ""

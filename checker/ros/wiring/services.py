@@ -29,7 +29,7 @@ class Wanted(Record, eq=False):
     span: Span
 
 
-def offered(node: WiredNode) -> Iterator[str]:
+def offered_services(node: WiredNode) -> Iterator[str]:
     """Yield the services and actions that a node may offer, those that are known."""
     names = node.facts.offers if node.facts is not None else ()
     yield from filter(None, map(node.resolve, names))
@@ -37,7 +37,7 @@ def offered(node: WiredNode) -> Iterator[str]:
         yield f"{node.full_name}/{STATE}"
 
 
-def wanted(node: WiredNode) -> Iterator[Wanted]:
+def wanted_services(node: WiredNode) -> Iterator[Wanted]:
     """Yield the services and actions that a node waits for, those that are known."""
     if node.facts is None or not node.knows_parameters:
         return

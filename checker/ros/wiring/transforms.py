@@ -134,18 +134,18 @@ def _of_controller(run: RunController) -> Iterator[Transform]:
         next((text.value for text in controller.texts(name)), default)
         for name, default in (("odom_frame_id", "odom"), ("base_frame_id", "base_link"))
     )
-    cure = f"state `enable_odom_tf: false` for {controller.called}"
-    yield Transform(parent, child, topic, controller.span, controller.called, cure, controller)
+    cure = f"state `enable_odom_tf: false` for {controller.label}"
+    yield Transform(parent, child, topic, controller.span, controller.label, cure, controller)
 
 
 def _of_node(node: WiredNode) -> Iterator[Transform]:
     if node.facts is None or not node.knows_parameters:
         return
     for parent, child, wanted in node.facts.transforms:
-        if all(node.filled(f"{{{name}}}") == node.filled(it) for name, it in wanted.items()):
-            frames, topic = (node.filled(parent), node.filled(child)), node.resolve(TOPIC)
+        if all(node.fill_in(f"{{{name}}}") == node.fill_in(it) for name, it in wanted.items()):
+            frames, topic = (node.fill_in(parent), node.fill_in(child)), node.resolve(TOPIC)
             switch = next(iter(wanted))
             span = node.settings[switch].span if switch in node.settings else node.node.span
             if frames[0] and frames[1] and topic:
-                cure = f"state `{switch}: false` for {node.called}"
-                yield Transform(frames[0], frames[1], topic, span, node.called, cure, node)
+                cure = f"state `{switch}: false` for {node.label}"
+                yield Transform(frames[0], frames[1], topic, span, node.label, cure, node)

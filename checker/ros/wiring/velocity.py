@@ -92,11 +92,11 @@ def _of_node(node: WiredNode, choice: _Choice, publishes: bool) -> Iterator[Velo
     setting = node.settings.get(choice.param)
     usual = str(choice.default).lower()
     side = choice.side(lambda _: usual if setting is None else setting.text)
-    name = node.filled(side.topic) if side is not None else None
+    name = node.fill_in(side.topic) if side is not None else None
     topic = node.resolve(name) if name else ""
     if side is not None and topic:
         span = node.node.span if setting is None else setting.span
-        yield Velocity(topic, side.type, publishes, node.called, span, choice.param)
+        yield Velocity(topic, side.type, publishes, node.label, span, choice.param)
 
 
 def _of_controller(run: RunController, choice: _Choice) -> Iterator[Velocity]:
@@ -104,7 +104,7 @@ def _of_controller(run: RunController, choice: _Choice) -> Iterator[Velocity]:
     side = choice.side(lambda _: value)
     topic = run.resolve(side.topic) if side is not None else ""
     if side is not None and topic:
-        by, span = run.controller.called, run.controller.span
+        by, span = run.controller.label, run.controller.span
         yield Velocity(topic, side.type, False, by, span, choice.param)
 
 

@@ -18,10 +18,10 @@ from checker.ros.simulated_topics import unknown_owner
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
 from checker.ros.unread import unread_parts
-from checker.ros.wiring.classic import of_classic, unknown_plugin
+from checker.ros.wiring.classic import classic_endpoints, unknown_plugin
 from checker.ros.wiring.controllers import RunController, run_controllers
-from checker.ros.wiring.endpoints import Endpoint, of_bridges, of_node
-from checker.ros.wiring.frames import of_joints, of_static
+from checker.ros.wiring.endpoints import Endpoint, bridge_endpoints, node_endpoints
+from checker.ros.wiring.frames import joint_transforms, static_transforms
 from checker.ros.wiring.nodes import WiredNode, spawned_names, wired_node
 from checker.ros.wiring.transforms import Transform, transforms
 
@@ -58,19 +58,19 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def endpoints(self) -> tuple[Endpoint, ...]:
         """Publishers and subscriptions that it may have, those that are known."""
-        found = [each for node in self.every_node for each in of_node(node)]
+        found = [each for node in self.every_node for each in node_endpoints(node)]
         found += [each for run in self.controllers for each in run.endpoints]
         for robot in self.in_classic if not self._renamed_in_classic else ():
-            found += of_classic(robot)
-        found += of_bridges(self.simulation) if self.simulation is not None else ()
+            found += classic_endpoints(robot)
+        found += bridge_endpoints(self.simulation) if self.simulation is not None else ()
         return tuple(found)
 
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
         """Transforms that it publishes for certain, those of the robot's joints last."""
         found = [*transforms(self.nodes, self.simulation, self.in_classic, self.controllers)]
-        found += [each for node in self.nodes for each in of_static(node)]
-        found += [each for node, robot in self.described for each in of_joints(node, robot)]
+        found += [each for node in self.nodes for each in static_transforms(node)]
+        found += [each for node, robot in self.described for each in joint_transforms(node, robot)]
         return tuple(found)
 
     def publishers(self, message: str) -> dict[str, str]:
@@ -159,7 +159,7 @@ def wirings(
 def _described(
     graph: LaunchGraph, nodes: tuple[WiredNode, ...], robots: SpawnedReader
 ) -> Iterator[tuple[WiredNode, Robot]]:
-    published = {id(node): robot for node, robot in robots.published(graph)}
+    published = {id(node): robot for node, robot in robots.published_robots(graph)}
     yield from ((node, published[id(node.node)]) for node in nodes if id(node.node) in published)
 
 

@@ -28,7 +28,7 @@ class Matched(Record):
     stale: tuple[int, ...]
 
 
-def matched(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
+def match_entries(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     """Find the entry of each spot.
 
     An entry stands for as many spots of a place as it counts there, and for none that is graver
@@ -104,7 +104,7 @@ class Held:
     def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:
         """Return the entry of each spot that a rule finds; None for what is new."""
         entries = self._entries.get(rule, [])
-        match = matched(spots, entries)
+        match = match_entries(spots, entries)
         self._stale[rule] = [entries[at] for at in match.stale]
         return [None if at is None else entries[at] for at in match.entries]
 

@@ -210,7 +210,7 @@ class SuppressionMatcher:
         return comments
 
 
-def parted(
+def split_suppressed(
     rule: str,
     findings: Sequence[F],
     matcher: SuppressionMatcher | None,

@@ -23,7 +23,7 @@ from checker.package.formats import single_file_suffixes
 from checker.package.index import EntryKind, FileEntry, FileIndex
 from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.package.kind import enclosing_package
-from checker.package.no_package import said_of_file
+from checker.package.no_package import reason_not_checked
 from checker.package.walk import MAX_ENTRIES, build_index
 
 LEFT_OUT = frozenset({".git", ".hg", ".svn", "__pycache__"})
@@ -123,7 +123,7 @@ def _refuse_file(path: Path) -> None:
             raise UnreadableInput(path, "does not exist", "check the spelling")
         known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *single_file_suffixes()))
         if not known or not path.is_file():
-            raise UnreadableInput(path, *said_of_file(path.name))
+            raise UnreadableInput(path, *reason_not_checked(path.name))
         with path.open("rb"):
             pass
     except (OSError, ValueError) as error:

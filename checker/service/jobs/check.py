@@ -114,7 +114,7 @@ def _checked(
         return Disturbed(f"the stored upload {content.reason}")
     contents = chain(((UPLOAD, content),), _known_parts(store, order.upload))
     niceness = TRIAL_NICENESS if stage is Stage.TRIAL else 0
-    with children.checked(
+    with children.run_check(
         json.dumps(request).encode(), contents, limits.clock_seconds, cancelled, niceness
     ) as ended:
         if ended.cancelled:

@@ -66,16 +66,16 @@ class _Place:
             held.callback(self.child.stop)
             self._held = held.pop_all()
 
-    def stand_back(self, by: int) -> None:
+    def lower_priority(self, by: int) -> None:
         """Give its processes a lower priority than other checks have."""
-        self._starter.stand_back(by)
+        self._starter.lower_priority(by)
 
     @property
     def alive(self) -> bool:
         """Whether it can still check."""
         return self._starter.alive and self.child.alive
 
-    def exceeded(self, most: Usage) -> str:
+    def excess(self, most: Usage) -> str:
         """Return what its processes use too much of, looked at now and then; else nothing."""
         begin = monotonic()
         if begin < self._next_look:
@@ -83,7 +83,7 @@ class _Place:
         used = self._starter.usage(self._folder, most)
         took = monotonic() - begin
         self._next_look = monotonic() + max(_MEASURE, _REST * took)
-        return used.beyond(most)
+        return used.excess_over(most)
 
     def close(self) -> None:
         """End all of its processes, and remove its folder."""
@@ -105,7 +105,7 @@ class Children:
         self._waiting: _Place | None = None
 
     @contextmanager
-    def checked(
+    def run_check(
         self,
         request: bytes,
         contents: Iterable[tuple[str, Content]],
@@ -157,7 +157,7 @@ class Children:
         if place is None:
             return self._start(niceness)
         if niceness:
-            place.stand_back(niceness)
+            place.lower_priority(niceness)
         return place
 
     def _has_one(self) -> bool:
@@ -179,13 +179,13 @@ _PROCESSOR_SECONDS = 3600.0
 def _watched(place: _Place, seconds: float, cancelled: Callable[[], bool]) -> Ended:
     """Wait for a process, and return how it ended."""
     child, deadline = place.child, monotonic() + seconds
-    most = replace(MOST, disk=MOST.disk + 2 * child.given)
+    most = replace(MOST, disk=MOST.disk + 2 * child.bytes_sent)
     unwanted = cancelled()
     while not child.ends(min(_LOOK, max(0.0, deadline - monotonic()))):
         unwanted = unwanted or cancelled()
         if unwanted or monotonic() >= deadline:
             return Ended(None, overdue=not unwanted, cancelled=unwanted)
-        if exceeded := place.exceeded(most):
+        if exceeded := place.excess(most):
             return Ended(None, exceeded=exceeded)
     answered = child.answered(ANSWER_LIMIT)
     return Ended(child.code, *answered) if isinstance(answered, tuple) else Ended(child.code)

@@ -126,7 +126,7 @@ class Alive(Record):
     layers: Mapping[str, Sequence[Layer]] = field(default_factory=dict)
 
     @property
-    def living(self) -> Mapping[str, Sequence[Layer]]:
+    def live_workers(self) -> Mapping[str, Sequence[Layer]]:
         """The workers that have not been silent for too long, with their layers."""
         return {
             name: self.layers.get(name, ())

@@ -14,13 +14,13 @@ from checker.base.files import UMASK
 from checker.base.output import EXIT_CLEAN, show
 from checker.service.jobs.durable.admin import Admin, Listed
 from checker.service.jobs.durable.database import database_url, open_database, reachable
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.receipts import SHOWN_DIGITS
 from checker.service.jobs.durable.retention import Retention
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.place import DATABASE, choose, data_folder
-from checker.service.store.store import opened
+from checker.service.store.store import open_store
 
 _UNITS = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"))
 
@@ -55,7 +55,7 @@ def _opened() -> Admin:
             f"{folder} has no {DATABASE}, expected the data folder of a service; choose it with "
             "--data, or its database with SUBT_CHECK_DATABASE_URL"
         )
-    checks = prepared(open_database(database_url()))
+    checks = prepare_database(open_database(database_url()))
     return Admin(checks, Workers(checks.engine))
 
 
@@ -63,13 +63,13 @@ def _done(options: argparse.Namespace, service: Admin) -> str:
     """Do what is asked for and return what to say of it."""
     match options.action:
         case "list":
-            listed = [*service.listed()]
+            listed = [*service.list_checks()]
             return (
                 json.dumps(to_builtins(listed), indent=2) + "\n" if options.json else _table(listed)
             )
         case "requeue":
             keys = (
-                [each.key for each in service.listed() if each.stage is Stage.FAILED]
+                [each.key for each in service.list_checks() if each.stage is Stage.FAILED]
                 if options.failed
                 else service.keys_of(options.keys, over=True)
             )
@@ -85,7 +85,7 @@ def _done(options: argparse.Namespace, service: Admin) -> str:
             names = service.drain(options.names)
             return "".join(f"drains {name}\n" for name in names) or "no worker is alive\n"
         case _:
-            gone = Retention(service.checks, opened()).delete()
+            gone = Retention(service.checks, open_store()).delete()
             return f"deleted: {', '.join(f'{kind} {number}' for kind, number in gone.items())}\n"
 
 

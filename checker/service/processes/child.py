@@ -191,9 +191,9 @@ def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.service.jobs.durable.worker`."""
     from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
-    from checker.service.store.store import opened
+    from checker.service.store.store import open_store
 
-    work(WorkerOptions(database_url(), opened(), name))
+    work(WorkerOptions(database_url(), open_store(), name))
 
 
 def main(arguments: Sequence[str]) -> int:

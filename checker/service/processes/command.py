@@ -103,7 +103,7 @@ def _data_made(options: argparse.Namespace) -> Store:
     Raises:
         CheckerError: It cannot be made or written.
     """
-    from checker.service.store.store import opened
+    from checker.service.store.store import open_store
 
     choose(options.data, options.store)
     folder = data_folder()
@@ -117,7 +117,7 @@ def _data_made(options: argparse.Namespace) -> Store:
             f"{folder} cannot be used for the service's data ({problem}); choose another with "
             "--data"
         )
-    store = opened()
+    store = open_store()
     store.tighten()
     return store
 

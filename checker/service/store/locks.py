@@ -16,7 +16,7 @@ from time import sleep
 _LOOKS, _LOOK_SECONDS = 20, 0.05
 
 
-def claimed(file: Path, flags: int = 0) -> int | None:
+def try_lock(file: Path, flags: int = 0) -> int | None:
     """Return the descriptor that holds the lock of a file, which is made if it is missing.
 
     Args:
@@ -60,7 +60,7 @@ def _locks(descriptor: int) -> bool:
 
 
 @contextmanager
-def living(folder: Path, name: str) -> Iterator[None]:
+def hold_lock(folder: Path, name: str) -> Iterator[None]:
     """Hold the lock of a process; where another one of the same name holds it, nothing happens.
 
     Args:
@@ -81,7 +81,7 @@ def living(folder: Path, name: str) -> Iterator[None]:
             os.close(lock)
 
 
-def the_dead(folder: Path) -> set[str]:
+def dead_processes(folder: Path) -> set[str]:
     """Return the names of processes that have ended without saying so."""
     with suppress(FileNotFoundError):
         return {path.name for path in folder.iterdir() if _is_free(path)}
@@ -97,7 +97,7 @@ def forget(folder: Path, name: str) -> None:
 def _locked_soon(file: Path) -> int | None:
     """Return the descriptor that holds a lock, at which others may be looking just now."""
     for _ in range(_LOOKS):
-        if (lock := claimed(file)) is not None:
+        if (lock := try_lock(file)) is not None:
             return lock
         sleep(_LOOK_SECONDS)
     return None

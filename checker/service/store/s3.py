@@ -170,7 +170,7 @@ def s3_objects(url: str, copies: Path) -> S3Objects:
     Raises:
         CheckerError: The address is none, or the extra is not installed.
     """
-    S3.needed_by("SUBT_CHECK_STORE")
+    S3.require_for("SUBT_CHECK_STORE")
     from obstore.exceptions import BaseError
     from obstore.store import S3Store
 

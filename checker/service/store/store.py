@@ -22,7 +22,7 @@ from checker.service.store.packed import pack
 from checker.service.store.place import DATABASE, data_folder
 from checker.service.store.workplace import Incoming, TooLarge, sweep, work_file, workplace
 
-__all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge", "opened"]
+__all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge", "open_store"]
 
 DEFAULT_UPLOAD_LIMIT = 100_000_000
 """Bytes."""
@@ -169,7 +169,7 @@ class Store(Record):
         return self.objects.find(kind, key) if _KEY.fullmatch(key) else None
 
 
-def opened() -> Store:
+def open_store() -> Store:
     """Return the store of this machine; `SUBT_CHECK_STORE` says what it shares with others.
 
     Raises:

@@ -15,7 +15,7 @@ from pathlib import Path
 from time import time
 
 from checker.base.files import make_folder
-from checker.service.store.locks import claimed, lock_of_dead
+from checker.service.store.locks import lock_of_dead, try_lock
 
 # An upload while it comes in.
 
@@ -162,7 +162,7 @@ def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
     home.mkdir(mode=0o700, parents=True, exist_ok=True)
     while True:
         file = home / (secrets.token_hex(16) + suffix)
-        if (lock := claimed(file, os.O_EXCL)) is not None:
+        if (lock := try_lock(file, os.O_EXCL)) is not None:
             return file, lock
 
 

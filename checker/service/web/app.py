@@ -18,11 +18,11 @@ from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.durable.receipts import SHOWN_DIGITS, key_of_check
 from checker.service.jobs.port import Jobs
 from checker.service.logs import FIELDS, LOGGER, log_to_stderr
-from checker.service.store.store import Store, opened
+from checker.service.store.store import Store, open_store
 from checker.service.web import health
 from checker.service.web.answers.bodies import Compression, Heads
 from checker.service.web.answers.headers import SecurityHeaders
-from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
+from checker.service.web.answers.problems import CAUSE, Problem, install_error_handlers
 from checker.service.web.api import routes as api
 from checker.service.web.api.watchers import Watchers
 from checker.service.web.config import Config, config_from
@@ -33,7 +33,7 @@ from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
-from checker.service.web.uploads.leftovers import swept
+from checker.service.web.uploads.leftovers import sweep_while_serving
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -130,7 +130,7 @@ def app_from_environment() -> FastAPI:
     """
     config = config_from()
     log_to_stderr()
-    store = opened()
+    store = open_store()
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
     indexes = ArchiveIndexes()
@@ -179,9 +179,9 @@ def create_app(
         redoc_url=None,
         redirect_slashes=False,
         telemetry=_NO_TELEMETRY,
-        lifespan=swept(store),
+        lifespan=sweep_while_serving(store),
     )
-    say_no_by(app)
+    install_error_handlers(app)
     app.include_router(api.router(services))
     app.include_router(health.router(services))
     app.include_router(pages.router(services))

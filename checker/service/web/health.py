@@ -133,9 +133,9 @@ class Health(Record):
         takes_risk = config.only_here or config.without_sandbox
         if alive is None:
             yield "The database does not answer."
-        elif not alive.living:
+        elif not alive.live_workers:
             yield f"No worker process has reported for {SILENCE_SECONDS:g} s."
-        elif not (takes_risk or all(map(hides_files, alive.living.values()))):
+        elif not (takes_risk or all(map(hides_files, alive.live_workers.values()))):
             yield "A worker process has no sandbox layer that hides files from uploads."
 
     def _of_disk(self) -> Iterator[str]:
@@ -159,7 +159,7 @@ class Health(Record):
 
 
 def _sandbox(alive: Alive | None) -> Mapping[str, Sequence[str]]:
-    living = alive.living if alive else {}
+    living = alive.live_workers if alive else {}
     return {
         worker: [layer.name for layer in layers if layer.held] for worker, layers in living.items()
     }

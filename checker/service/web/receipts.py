@@ -51,7 +51,7 @@ def give(response: Response, receipt: Receipt, request: Request, services: Servi
     )
 
 
-def kept(request: Request) -> str:
+def stored_secret(request: Request) -> str:
     """Return the secret that a browser keeps for the page that it asks for; empty for none."""
     return request.cookies.get(_COOKIE, "")
 

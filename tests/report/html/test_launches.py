@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from lxml import html
 
-from checker.engine.launched import launched_of
+from checker.engine.launched import launched_files_of
 from checker.engine.subject import Subject
 from checker.finding import Concern, Place, Severity
 from checker.package.inputs import open_input
@@ -119,7 +119,7 @@ def test_the_graph_is_that_of_the_launch_file(tmp_path: Path) -> None:
     with open_input(write_example({"@bridge": True}, tmp_path)) as opened:
         subject = Subject(opened.packages[0])
         subject.all(Wiring)
-        (launched,) = launched_of(subject)
+        (launched,) = launched_files_of(subject)
         subject.close()
 
     assert launched.file == "launch/rover.launch.py"

@@ -12,7 +12,7 @@ from checker.editor.names.readers.sdf_names import SdfNames
 from checker.editor.names.readers.xacro_names import XacroNames
 from checker.editor.names.readers.yaml_names import yaml_names
 from checker.editor.xacro_names import PREFIX
-from checker.launch.ros2.python.launch_file import parsed
+from checker.launch.ros2.python.launch_file import parse_source
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -52,7 +52,7 @@ def file_names(package: Package, path: str, source: SourceText) -> FileNames:
 
 
 def _python(source: SourceText) -> FileNames:
-    tree = parsed(source)
+    tree = parse_source(source)
     if isinstance(tree, str):
         return FileNames(source, "python", fault=tree)
     found = PythonNames(source, tree)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.editor.names.mention import TOPIC_ONLY, NameKind, Role, WrittenName
-from checker.editor.names.readers.plugin_names import written
+from checker.editor.names.readers.plugin_names import verbatim
 from checker.editor.names.readers.topics import is_topic, topic_key
 from checker.editor.names.readers.values import (
     LENGTH_LIMIT,
@@ -42,7 +42,7 @@ def launch_names(document: XmlDocument) -> Iterator[WrittenName]:
     for element in document.elements:
         yield from _of_element(element)
         for name in element.attributes:
-            text = written(element.attribute(name))
+            text = verbatim(element.attribute(name))
             if text is not None and "$(" in text.value:
                 yield from named_arguments(text.value, text.span.start)
                 yield from _behind_arguments(text.value, text.span.start, known)
@@ -53,14 +53,14 @@ def _of_element(element: Element) -> Iterator[WrittenName]:
     if tag in ("arg", "let"):
         yield from _argument(element)
     for name in element.attributes:
-        text = written(element.attribute(name))
+        text = verbatim(element.attribute(name))
         if text is None or name in _NO_NAMES:
             continue
         if tag == "remap":
             yield from _remapped(text)
         else:
             yield from _written_names(element, name, text)
-    if tag == "rosparam" and (text := written(element.text)) is not None:
+    if tag == "rosparam" and (text := verbatim(element.text)) is not None:
         yield from words_in(text.value, text.span.start)
 
 
@@ -80,7 +80,7 @@ def _behind_arguments(value: str, start: int, known: Mapping[str, str]) -> Itera
 
 def _argument(element: Element) -> Iterator[WrittenName]:
     """Yield an argument that is declared, set, or passed to a file that is included."""
-    text = written(element.attribute("name"))
+    text = verbatim(element.attribute("name"))
     if text is None or not text.value:
         return
     above = element.parent

@@ -34,7 +34,7 @@ def is_topic_tag(tag: str) -> bool:
     return tag.lower().endswith("topic") or tag.lower().endswith("topicname")
 
 
-def written(text: Located[str] | None) -> Located[str] | None:
+def verbatim(text: Located[str] | None) -> Located[str] | None:
     """Return a text as the file writes it; None where entities stand in it.
 
     XML makes the line ends in an attribute blanks.
@@ -61,11 +61,11 @@ def plugin_names(plugin: Element, prefix: str) -> Iterator[WrittenName]:
     while waiting:
         element, path = waiting.pop()
         for name in element.attributes:
-            text = written(element.attribute(name))
+            text = verbatim(element.attribute(name))
             if text is not None and ":" not in name:
                 yield from _parameter(text, name, f"{path}/@{name}", prefix, known)
         waiting += [(child, f"{path}/{child.tag}") for child in reversed(element.children)]
-        if not element.children and (text := written(element.text)) is not None:
+        if not element.children and (text := verbatim(element.text)) is not None:
             if is_topic_tag(element.tag):
                 yield from topic_named(text, space)
             else:
@@ -126,7 +126,7 @@ def sensor_names(sensor: Element, prefix: str) -> Iterator[WrittenName]:
     for element in sensor.descendants():
         if element.children or any(_is_in_plugin(element, sensor)):
             continue
-        text = written(element.text)
+        text = verbatim(element.text)
         if text is None:
             continue
         if is_topic_tag(element.tag):

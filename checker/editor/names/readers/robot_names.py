@@ -14,7 +14,7 @@ from checker.editor.names.mention import (
     WrittenName,
 )
 from checker.editor.names.readers.expressions import EXPRESSION, is_computed
-from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, verbatim
 from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
@@ -80,28 +80,28 @@ class RobotNames:
             elif tag in ("parent", "child") and elsewhere:
                 self._end(child)
             elif tag == "param" and child.get("name") == "mimic":
-                self._name(written(child.text), JOINT_ONLY, Role.NAMES)
+                self._name(verbatim(child.text), JOINT_ONLY, Role.NAMES)
 
     def _attributes(self, element: Element, reference: str, elsewhere: bool) -> None:
         tag = element.tag
         for name in element.attributes:
             kinds = _REFERRING.get((tag, name))
             if kinds is not None:
-                self._name(written(element.attribute(name)), kinds, Role.NAMES)
+                self._name(verbatim(element.attribute(name)), kinds, Role.NAMES)
             elif name == "name" and tag in _BY_TAG:
                 role = Role.NAMES if elsewhere else Role.DEFINES
-                self._name(written(element.attribute(name)), (_BY_TAG[tag],), role)
+                self._name(verbatim(element.attribute(name)), (_BY_TAG[tag],), role)
             elif name == "name" and tag == "virtual_joint":
-                self._name(written(element.attribute(name)), JOINT_ONLY, Role.DEFINES)
+                self._name(verbatim(element.attribute(name)), JOINT_ONLY, Role.DEFINES)
         if elsewhere and tag == "sensor" and not self._is_srdf:
             parent = element.parent
             if parent is not None and parent.tag == "ros2_control":
-                self._name(written(element.attribute("name")), SENSOR_ONLY, Role.MAY_NAME)
+                self._name(verbatim(element.attribute("name")), SENSOR_ONLY, Role.MAY_NAME)
             else:
                 self._sensor(element, reference)
 
     def _sensor(self, element: Element, reference: str) -> None:
-        name, parent = written(element.attribute("name")), element.child("parent")
+        name, parent = verbatim(element.attribute("name")), element.child("parent")
         if parent is not None and not reference:
             reference = _ROBOT.sub("", parent.get("link") or "")
         if name is not None and not is_computed(name.value):
@@ -114,7 +114,7 @@ class RobotNames:
 
     def _end(self, element: Element) -> None:
         """Note the link that a joint of SDF in a `<gazebo>` names."""
-        text, above = written(element.text), element.parent
+        text, above = verbatim(element.text), element.parent
         if text is not None and above is not None and above.tag == "joint":
             self.names += scoped_names(text.value, text.span.start, LINK_ONLY, Role.MAY_NAME)
 

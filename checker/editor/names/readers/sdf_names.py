@@ -15,7 +15,7 @@ from checker.editor.names.mention import (
     WrittenName,
 )
 from checker.editor.names.readers.expressions import is_computed
-from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, written
+from checker.editor.names.readers.plugin_names import RESERVED, plugin_names, sensor_names, verbatim
 from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
@@ -84,7 +84,7 @@ class SdfNames:
 
     def _model(self, element: Element, prefix: str) -> str:
         """Note a model; return the prefix of what is in it."""
-        name = written(element.attribute("name"))
+        name = verbatim(element.attribute("name"))
         value = element.get("name") or ""
         self._define(NameKind.MODEL, name, prefix + value)
         above = element.parent
@@ -96,7 +96,7 @@ class SdfNames:
     def _include(self, element: Element, prefix: str) -> None:
         """Note a model that is included; without a name of its own, it has that of its file."""
         name, uri = element.child("name"), element.child("uri")
-        text = written(name.text) if name is not None else None
+        text = verbatim(name.text) if name is not None else None
         value = text.value if text is not None else ""
         if text is not None:
             self._define(NameKind.MODEL, text, prefix + value)
@@ -112,15 +112,15 @@ class SdfNames:
             if child.tag == "plugin":
                 self.names += plugin_names(child, inside)
             elif child.tag == "placement_frame":
-                self._refer(written(child.text), inside, PARTS)
+                self._refer(verbatim(child.text), inside, PARTS)
 
     def _part(self, element: Element, prefix: str) -> None:
-        name = written(element.attribute("name"))
+        name = verbatim(element.attribute("name"))
         if name is not None and not is_computed(name.value):
             self._define(_KINDS[element.tag], name, prefix + name.value)
 
     def _sensor(self, element: Element, prefix: str, part: str) -> None:
-        name = written(element.attribute("name"))
+        name = verbatim(element.attribute("name"))
         if name is not None and not is_computed(name.value):
             full = f"{part}::{name.value}" if part else prefix + name.value
             self._define(NameKind.SENSOR, name, full)
@@ -134,9 +134,9 @@ class SdfNames:
     def _attributes(self, element: Element, prefix: str) -> None:
         for name in element.attributes:
             if name in _REFERRING or (name == "frame" and element.tag == "pose"):
-                self._refer(written(element.attribute(name)), prefix, PARTS)
+                self._refer(verbatim(element.attribute(name)), prefix, PARTS)
             elif name == "joint" and element.tag == "mimic":
-                self._refer(written(element.attribute(name)), prefix, JOINT_ONLY)
+                self._refer(verbatim(element.attribute(name)), prefix, JOINT_ONLY)
 
     def _text(self, element: Element, prefix: str) -> None:
         kinds = _TEXTS.get(element.tag)
@@ -146,13 +146,13 @@ class SdfNames:
         elif element.tag == "frame_id":
             kinds = MODEL_ONLY if above is not None and above.tag == "include" else PARTS
         if kinds is not None and not element.children:
-            self._refer(written(element.text), prefix, kinds)
+            self._refer(verbatim(element.text), prefix, kinds)
 
     def _refer(self, text: Located[str] | None, prefix: str, kinds: tuple[NameKind, ...]) -> None:
-        self.names += referred(text, prefix, kinds)
+        self.names += references_in(text, prefix, kinds)
 
 
-def referred(
+def references_in(
     text: Located[str] | None, prefix: str, kinds: tuple[NameKind, ...]
 ) -> Iterator[WrittenName]:
     """Yield what a text of SDF names, which is looked up in the model around it."""

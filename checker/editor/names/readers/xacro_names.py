@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from checker.editor.names.mention import ANY_PART, Included, NameKind, Role, WrittenName
 from checker.editor.names.readers.expressions import is_composed
-from checker.editor.names.readers.plugin_names import written
+from checker.editor.names.readers.plugin_names import verbatim
 from checker.editor.names.readers.values import kinds_of, names_in
 from checker.editor.xacro_names import PREFIX, TAGS
 from checker.source.text import Located
@@ -58,13 +58,13 @@ class XacroNames:
             is_given = tag and not (tag in _DIRECTIVES and name in _OWN_ATTRIBUTES)
             if not is_given and "$" not in value:
                 continue
-            text = written(element.attribute(name))
+            text = verbatim(element.attribute(name))
             if text is not None:
                 if "$" in value:
                     self._expressions(text, shadowed)
                 if is_given:
                     self._value(text, name if tag != "property" else element.get("name") or "")
-        if not element.children and "$" in element.value and (text := written(element.text)):
+        if not element.children and "$" in element.value and (text := verbatim(element.text)):
             self._expressions(text, shadowed)
         if not tag:
             return shadowed
@@ -93,7 +93,7 @@ class XacroNames:
                 self.names.append(WrittenName(kinds, macro, start, span.end, Role.NAMES))
 
     def _name(self, element: Element, attribute: str, kind: NameKind, role: Role) -> None:
-        text = written(element.attribute(attribute))
+        text = verbatim(element.attribute(attribute))
         if text is not None and text.value:
             start = text.span.start
             name = text.value
@@ -103,7 +103,7 @@ class XacroNames:
 
     def _macro(self, element: Element) -> frozenset[str]:
         self._name(element, "name", NameKind.MACRO, Role.DEFINES)
-        params = written(element.attribute("params"))
+        params = verbatim(element.attribute("params"))
         if params is None:
             return frozenset()
         names = set()

@@ -12,14 +12,14 @@ from checker.editor.names.readers.expressions import (
 from checker.editor.names.rename.request import Rename, place_of
 
 
-def composed(rename: Rename) -> str:
+def composed_conflict(rename: Rename) -> str:
     """Return which composed name may be that of the thing, or come from it; empty for none."""
     old = rename.old
     if is_composed(old):
-        made = next(iter(rename.index.made(rename.mention)), None)
+        made = next(iter(rename.index.mentions_from_composed(rename.mention)), None)
         if made is not None:
             return (
-                f"{rename.shown(made)} names {rename.text(made)!r}, which {old!r} "
+                f"{rename.place_text(made)} names {rename.text(made)!r}, which {old!r} "
                 "may come to; it cannot be changed along"
             )
     for path, file, _ in rename.files():
@@ -57,5 +57,5 @@ def _may_be(rename: Rename, path: str, name: WrittenName) -> bool:
 def _is_own(rename: Rename, path: str, name: str) -> bool:
     """Whether a composed name is that of a thing of its own."""
     scope = rename.index.scopes.robots.get(path, "")
-    definitions = (it.mention for it in rename.index.composed(rename.kind))
+    definitions = (it.mention for it in rename.index.composed_definitions(rename.kind))
     return any(it.scope == scope and it.name == name for it in definitions)

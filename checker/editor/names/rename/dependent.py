@@ -41,7 +41,7 @@ def _handed_on(rename: Rename) -> Iterator[str]:
     A launch file of ROS 2 hands on what it was given; one of ROS 1 where `pass_all_args` says so.
     """
     index = rename.index
-    for it in rename.same:
+    for it in rename.mentions:
         file = index.files[it.path]
         text = file.source.text
         if not it.is_definition or file.format not in _LAUNCH:
@@ -50,7 +50,7 @@ def _handed_on(rename: Rename) -> Iterator[str]:
             continue
         for other in _declared(rename):
             named = other.scope != it.scope and posixpath.basename(other.path) in text
-            if named and all(mention.path != it.path for mention in index.same(other)):
+            if named and all(mention.path != it.path for mention in index.mentions_of_same(other)):
                 yield (
                     f"{it.path} includes {other.path}, which also declares {rename.old!r} and "
                     "takes its value from there"

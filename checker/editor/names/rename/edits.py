@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from checker.editor.names.mention import Mention
 from checker.editor.names.readers.expressions import is_computed, literal_pieces
-from checker.editor.names.rename.composed import composed
+from checker.editor.names.rename.composed import composed_conflict
 from checker.editor.names.rename.dependent import dependent
 from checker.editor.names.rename.request import Rename
 from checker.editor.names.rename.spelling import invalid
-from checker.editor.names.rename.taken import taken
+from checker.editor.names.rename.taken import name_conflict
 from checker.finding import Edit
 from checker.source.text import Span
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from checker.editor.names.index import NameIndex
 
 
-def renamed(index: NameIndex, mention: Mention, new: str) -> tuple[Edit, ...] | str:
+def rename_edits(index: NameIndex, mention: Mention, new: str) -> tuple[Edit, ...] | str:
     """Return the edits that give a thing another name, or why it cannot have it.
 
     Args:
@@ -37,7 +37,7 @@ def renamed(index: NameIndex, mention: Mention, new: str) -> tuple[Edit, ...] | 
 
 def _edits(rename: Rename) -> Iterator[Edit]:
     files = rename.index.files
-    places = {(it.path, it.start, it.end) for it in rename.same}
+    places = {(it.path, it.start, it.end) for it in rename.mentions}
     for path, start, end in sorted(places):
         yield Span(files[path].source, start, end).replaced_by(rename.new)
 
@@ -49,39 +49,39 @@ def _invalid(rename: Rename) -> str:
 
 
 def _undefined(rename: Rename) -> str:
-    if any(it.is_definition for it in rename.same):
+    if any(it.is_definition for it in rename.mentions):
         return ""
     what = f"{rename.kind} {rename.old!r}"
     made = next(iter(rename.index.definitions(rename.mention)), None)
     if made is None:
         return f"{what} is not defined in this package"
     return (
-        f"the name of {what} is composed by an expression at {rename.shown(made)}: "
+        f"the name of {what} is composed by an expression at {rename.place_text(made)}: "
         f"{made.name!r}; change it there"
     )
 
 
 def _elsewhere(rename: Rename) -> str:
     """Say that the thing belongs to another package, or is written where no edit can be made."""
-    for it in rename.same:
+    for it in rename.mentions:
         if it.path.startswith("../"):
             how = "defined" if it.is_definition else "named"
             what = f"{rename.kind} {rename.old!r}"
-            return f"{what} is {how} in another package, {rename.shown(it)}"
-    for it in rename.same:
+            return f"{what} is {how} in another package, {rename.place_text(it)}"
+    for it in rename.mentions:
         if rename.text(it) != rename.old:
-            return f"{rename.shown(it)} composes {rename.old!r}; it cannot be changed along"
+            return f"{rename.place_text(it)} composes {rename.old!r}; it cannot be changed along"
     return ""
 
 
 def _ambiguous(rename: Rename) -> str:
     """Say that a text may name the thing, or another one."""
-    own = {(it.kind, it.scope, it.name) for it in rename.same}
-    for it in rename.same:
-        for other in rename.index.beside(it):
+    own = {(it.kind, it.scope, it.name) for it in rename.mentions}
+    for it in rename.mentions:
+        for other in rename.index.possible_mentions(it):
             if (other.kind, other.scope, other.name) not in own:
                 return (
-                    f"{rename.shown(it)} may name the {it.kind} or the {other.kind} "
+                    f"{rename.place_text(it)} may name the {it.kind} or the {other.kind} "
                     f"{rename.old!r}; give one of them another name there first"
                 )
     return ""
@@ -89,11 +89,11 @@ def _ambiguous(rename: Rename) -> str:
 
 def _nested(rename: Rename) -> str:
     """Say that a dot would make another key of a parameter: `gains.left.p` with `left.1`."""
-    for it in rename.same:
+    for it in rename.mentions:
         text = rename.index.files[it.path].source.text
         around = text[max(0, it.start - 1) : it.start] + text[it.end : it.end + 1]
         if "." in rename.new and "." in around:
-            return f"{rename.new!r} has a dot, which makes other keys of {rename.shown(it)}"
+            return f"{rename.new!r} has a dot, which makes other keys of {rename.place_text(it)}"
     return ""
 
 
@@ -107,5 +107,15 @@ def _unread(rename: Rename) -> str:
 
 
 _REASONS = (
-    *(_invalid, _undefined, _elsewhere, _ambiguous, _nested, composed, taken, _unread, dependent),
+    *(
+        _invalid,
+        _undefined,
+        _elsewhere,
+        _ambiguous,
+        _nested,
+        composed_conflict,
+        name_conflict,
+        _unread,
+        dependent,
+    ),
 )

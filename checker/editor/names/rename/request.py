@@ -38,9 +38,9 @@ class Rename(Record, eq=False, dict=True):
         return self.mention.kind
 
     @cached_property
-    def same(self) -> tuple[Mention, ...]:
+    def mentions(self) -> tuple[Mention, ...]:
         """All mentions of the thing."""
-        return self.index.same(self.mention)
+        return self.index.mentions_of_same(self.mention)
 
     @cached_property
     def old(self) -> str:
@@ -50,15 +50,15 @@ class Rename(Record, eq=False, dict=True):
     @cached_property
     def names(self) -> frozenset[str]:
         """The full names that the thing has now."""
-        return frozenset(it.name for it in self.same)
+        return frozenset(it.name for it in self.mentions)
 
     @cached_property
     def scopes(self) -> frozenset[str]:
         """What the thing belongs to."""
-        return frozenset(it.scope for it in self.same)
+        return frozenset(it.scope for it in self.mentions)
 
     @cached_property
-    def wanted(self) -> frozenset[str]:
+    def new_full_names(self) -> frozenset[str]:
         """The full names that mean the thing once it has its new name."""
         if self.kind is NameKind.TOPIC:
             return frozenset(self.topic_after(name) for name in self.names)
@@ -74,7 +74,7 @@ class Rename(Record, eq=False, dict=True):
         """Return what is written at a mention."""
         return self.index.files[mention.path].source.text[mention.start : mention.end]
 
-    def shown(self, mention: Mention) -> str:
+    def place_text(self, mention: Mention) -> str:
         """Return the file and line of a mention."""
         span = Span(self.index.files[mention.path].source, mention.start, mention.end)
         return f"{mention.path}:{span.line}"

@@ -11,7 +11,7 @@ _PARTS = frozenset({NameKind.LINK, NameKind.JOINT, NameKind.FRAME, NameKind.MODE
 """Kinds of which SDFormat gives no two parts of one model the same name."""
 
 
-def taken(rename: Rename) -> str:
+def name_conflict(rename: Rename) -> str:
     """Return why the new name is not free; empty when it is.
 
     A text that may name a part once there is one of its name counts as well: the thing would have
@@ -24,9 +24,9 @@ def taken(rename: Rename) -> str:
         used = next(_uses(rename, path, file), None)
         if used is not None:
             return f"{new!r} is already used at {place_of(path, file, used)}"
-    for it in rename.index.composed(rename.kind):
-        if it.mention.scope in rename.scopes and any(map(it.may_be, rename.wanted)):
-            shown = rename.shown(it.mention)
+    for it in rename.index.composed_definitions(rename.kind):
+        if it.mention.scope in rename.scopes and any(map(it.may_be, rename.new_full_names)):
+            shown = rename.place_text(it.mention)
             return f"{new!r} may already be a {rename.kind} that is composed at {shown}"
     return ""
 
@@ -34,12 +34,12 @@ def taken(rename: Rename) -> str:
 def _uses(rename: Rename, path: str, file: FileNames) -> Iterator[WrittenName]:
     """Yield what a file already calls by the new name, or by one below it."""
     kinds = _PARTS if rename.kind in _PARTS else {rename.kind}
-    below = tuple(f"{name}/" for name in rename.wanted)
+    below = tuple(f"{name}/" for name in rename.new_full_names)
     is_topic = rename.kind is NameKind.TOPIC
     is_own = not path.startswith("../")
     for it in file.names:
         if not kinds.intersection(it.kinds) or not (is_own or it.role is Role.DEFINES):
             continue
         is_open = it.role is Role.MAY_NAME and it.name == rename.new
-        if is_open or it.name in rename.wanted or (is_topic and it.name.startswith(below)):
+        if is_open or it.name in rename.new_full_names or (is_topic and it.name.startswith(below)):
             yield it

@@ -32,7 +32,7 @@ class Draft:
     def name(self, named: Located[str] | None, new: str) -> None:
         """Have another name stand where one is written."""
         if named is not None and named.stated and named.value != new:
-            self.put(named.span, written(new))
+            self.put(named.span, escape_xml(new))
 
     def attribute(self, element: Element, name: str, value: str) -> None:
         """Give an element an attribute, or another value of it."""
@@ -41,7 +41,7 @@ class Draft:
             return
         end = element.name_span.end
         behind = Span(element.source, end, end, element)
-        self.put(behind, f' {name}="{written(value)}"')
+        self.put(behind, f' {name}="{escape_xml(value)}"')
 
     def take_attribute(self, element: Element, name: str) -> None:
         """Leave out an attribute."""
@@ -74,7 +74,7 @@ class Draft:
         )
 
 
-def written(text: str) -> str:
+def escape_xml(text: str) -> str:
     """Return a text as it is written in XML, inside of an element or an attribute."""
     return escape(text)
 

@@ -14,8 +14,8 @@ from checker.base.record import Record
 from checker.finding import Edit
 from checker.formats.sdf.document import sdf_version
 from checker.formats.sdf.flattening import poses
-from checker.formats.sdf.flattening.draft import Draft, Holder, written
-from checker.formats.sdf.flattening.names import SEPARATOR, FlatNames, named_by
+from checker.formats.sdf.flattening.draft import Draft, Holder, escape_xml
+from checker.formats.sdf.flattening.names import SEPARATOR, FlatNames, names_in
 from checker.formats.sdf.flattening.poses import pose_text
 from checker.formats.sdf.links import read_plugin
 from checker.model.components import Frame, Joint, Link, Model
@@ -80,13 +80,13 @@ def _other_versions(robot: Robot) -> Iterator[str]:
 
 def move_part(draft: Draft, part: Element, holder: Holder, names: FlatNames) -> None:
     """Have a link or frame say that it stands in the frame of the model that it stood in."""
-    frame = names.flat(holder.frame)
+    frame = names.flat_name(holder.frame)
     if part.tag == "frame" and not part.get("attached_to"):
         draft.attribute(part, "attached_to", frame)
     elif part.tag == "link":
         pose = part.child("pose")
         if pose is None:
-            draft.insert(part, f'<pose relative_to="{written(frame)}">0 0 0 0 0 0</pose>')
+            draft.insert(part, f'<pose relative_to="{escape_xml(frame)}">0 0 0 0 0 0</pose>')
         elif not pose.get("relative_to"):
             draft.attribute(pose, "relative_to", frame)
 
@@ -99,9 +99,9 @@ def standing_frame(name: str, pose: Transform, attached_to: str) -> list[str]:
         pose: In the robot's frame.
         attached_to: The model's canonical link; empty for none.
     """
-    tied = f' attached_to="{written(attached_to)}"' if attached_to else ""
+    tied = f' attached_to="{escape_xml(attached_to)}"' if attached_to else ""
     return [
-        f'<frame name="{written(name)}"{tied}>',
+        f'<frame name="{escape_xml(name)}"{tied}>',
         f'  <pose relative_to="{MODEL_FRAME}">{pose_text(pose)}</pose>',
         "</frame>",
     ]
@@ -165,7 +165,7 @@ class Flattening(Record, dict=True):
         draft = Draft(self.robot.document.source)
         canonical = model.attribute("canonical_link")
         if canonical is not None:
-            draft.name(canonical, self.names.flat(canonical.value))
+            draft.name(canonical, self.names.flat_name(canonical.value))
         self._move(draft, Holder(model))
         return draft.edits
 
@@ -214,15 +214,15 @@ class Flattening(Record, dict=True):
 
     def _standing_frame(self, model: Model) -> list[str]:
         pose = self.robot.pose_of(model.scoped_name) or Transform()
-        name = self.names.flat(model.scoped_name)
+        name = self.names.flat_name(model.scoped_name)
         return standing_frame(name, pose, next(self._links_of(model), ""))
 
     def _links_of(self, model: Model) -> Iterator[str]:
         """Yield the new names of a model's canonical link and of all its links."""
         if stated := model.definition.get("canonical_link"):
-            yield self.names.flat(model.prefix + stated)
+            yield self.names.flat_name(model.prefix + stated)
         for link in model.definition.all("link"):
-            yield self.names.flat(model.prefix + (link.get("name") or ""))
+            yield self.names.flat_name(model.prefix + (link.get("name") or ""))
         for child in model.definition.children:
             if inner := self._models.get((child, model.prefix)):
                 yield from self._links_of(inner)
@@ -246,13 +246,13 @@ class Flattening(Record, dict=True):
                 draft.name(uri, posixpath.relpath(path, posixpath.join("/", "_", own)))
 
     def _rename_in_plugin(self, draft: Draft, element: Element, holder: Holder) -> None:
-        for named in named_by(read_plugin(element)):
+        for named in names_in(read_plugin(element)):
             scoped = holder.scoped(named.value)
             known = scoped if scoped in self.names.changed else named.value
-            draft.name(named, self.names.flat(known))
+            draft.name(named, self.names.flat_name(known))
 
     def _rename_gripper(self, draft: Draft, element: Element, holder: Holder) -> None:
         holder.rename(draft, element, self.names)
         name = element.attribute("name")
         if name is not None and holder.nested:
-            draft.name(name, f"{self.names.flat(holder.frame)}{SEPARATOR}{name.value}")
+            draft.name(name, f"{self.names.flat_name(holder.frame)}{SEPARATOR}{name.value}")

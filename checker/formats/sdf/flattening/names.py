@@ -19,7 +19,7 @@ from checker.source.text import Located, SourceText, Span
 _NAMING = re.compile("joint|link", re.IGNORECASE)
 
 
-def named_by(plugin: Plugin) -> Iterator[Located[str]]:
+def names_in(plugin: Plugin) -> Iterator[Located[str]]:
     """Yield the texts that may name a part of the robot.
 
     Of a plugin whose parameters are not known, those that are called after joints or links, and
@@ -57,7 +57,7 @@ class FlatNames(Record):
     changed: Mapping[str, str]
 
     @classmethod
-    def of(cls, robot: Robot) -> FlatNames:
+    def from_robot(cls, robot: Robot) -> FlatNames:
         """Name the parts of a robot's nested models."""
         taken = {MODEL_FRAME, *_names(robot, nested=False)}
         changed: dict[str, str] = {}
@@ -71,7 +71,7 @@ class FlatNames(Record):
             changed[scoped] = flat
         return cls(changed)
 
-    def flat(self, scoped: str) -> str:
+    def flat_name(self, scoped: str) -> str:
         """Return the name that stands for a scoped one; itself where no part changes that name."""
         return self.changed.get(scoped, scoped)
 
@@ -107,7 +107,7 @@ def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]
         for scoped, start in _suffixes(match.group()):
             if scoped in names.changed:
                 span = Span(source, match.start() + start, match.end())
-                yield scoped, span.replaced_by(names.flat(scoped))
+                yield scoped, span.replaced_by(names.flat_name(scoped))
                 break
     for match in _TOPIC.finditer(source.text):
         steps = match.group(1).removesuffix("/").split("/")[1::2]
@@ -116,7 +116,7 @@ def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]
             if scoped in names.changed:
                 before = sum(len(f"model/{step}/") for step in steps[:number])
                 span = Span(source, match.start() + before, match.end())
-                yield scoped, span.replaced_by(f"{match.group(2)}/{names.flat(scoped)}")
+                yield scoped, span.replaced_by(f"{match.group(2)}/{names.flat_name(scoped)}")
                 break
 
 
@@ -128,7 +128,7 @@ def topic_mentions(source: SourceText, names: FlatNames) -> Iterator[Edit]:
             named = "/".join(steps[:number])
             if named in names.changed:
                 span = Span(source, match.start(1), match.start(1) + len(named))
-                yield span.replaced_by(names.flat(named))
+                yield span.replaced_by(names.flat_name(named))
                 break
 
 

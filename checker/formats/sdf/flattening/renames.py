@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.finding import Edit
 from checker.formats.sdf.flattening.draft import Draft, Holder
-from checker.formats.sdf.flattening.names import FlatNames, named_by
+from checker.formats.sdf.flattening.names import FlatNames, names_in
 from checker.model.robot import Robot
 
 _PARTS = ("link", "joint", "frame", "gripper")
@@ -26,7 +26,7 @@ class Renaming(Record):
         draft, holder = Draft(self.robot.document.source), Holder(model)
         canonical = model.attribute("canonical_link")
         if canonical is not None:
-            draft.name(canonical, self.names.flat(canonical.value))
+            draft.name(canonical, self.names.flat_name(canonical.value))
         for child in model.children:
             if child.tag in _PARTS:
                 holder.rename(draft, child, self.names)
@@ -35,6 +35,6 @@ class Renaming(Record):
     def _of_plugins(self) -> Iterator[Edit]:
         """Yield the edits of plugins' parameters, in whatever file these stand."""
         for plugin in self.robot.all_plugins:
-            for named in named_by(plugin):
+            for named in names_in(plugin):
                 if named.value in self.names.changed:
-                    yield named.span.replaced_by(self.names.flat(named.value))
+                    yield named.span.replaced_by(self.names.flat_name(named.value))

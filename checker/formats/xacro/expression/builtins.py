@@ -13,18 +13,18 @@ from checker.formats.xacro.expression.bounds import (
     check_width,
 )
 from checker.formats.xacro.expression.format import text_of
-from checker.formats.xacro.expression.function import Function, Work, refused, weighed
+from checker.formats.xacro.expression.function import Function, Work, unavailable_function, weighed
 from checker.formats.xacro.expression.operators import BINARY, apply_binary
 from checker.formats.xacro.expression.values import (
     LAZY,
     MAPPINGS,
     NUMBERS,
     SEQUENCES,
-    called,
     consumed,
     counted,
     plain,
     spend_on_keys,
+    type_label,
     weigh,
 )
 
@@ -216,7 +216,7 @@ def is_of(budget: Budget, value: Any, kinds: Any, /) -> bool:
     """Do what `isinstance` does; the call hands over types by the functions of their names."""
     budget.spend()
     if type(value) in LAZY:
-        raise RefusedExpression(called(value))
+        raise RefusedExpression(type_label(value))
     return isinstance(value, kinds)
 
 
@@ -257,7 +257,7 @@ _OTHERS = ("complex", "hash", "issubclass", "slice", "type", "vars")
 FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {name: Function(name, work, stands_for=kind) for name, (kind, work) in _TYPES.items()}
     | {name: Function(name, work) for name, work in _WORKS.items()}
-    | {name: refused(name) for name in _OTHERS}
+    | {name: unavailable_function(name) for name in _OTHERS}
     | {
         "map": Function("map", mapped, frozenset({0})),
         "filter": Function("filter", filtered, frozenset({0})),

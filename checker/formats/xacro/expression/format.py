@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from checker.formats.xacro.expression.bounds import Budget, RefusedExpression, check_width
-from checker.formats.xacro.expression.values import PLAIN, called, weigh
+from checker.formats.xacro.expression.values import PLAIN, type_label, weigh
 
 _PERCENT = re.compile(
     r"%(?:\((?P<name>[^()%]{0,200})\))?[-+ #0]*(?P<width>[0-9]*)(?:\.(?P<precision>[0-9]*))?"
@@ -100,7 +100,7 @@ def percent(text: str, values: Any, budget: Budget) -> str:
 def text_of(value: Any, budget: Budget) -> str:
     """Return a value as `str` shows it."""
     if type(value) not in PLAIN:
-        raise RefusedExpression(f"{called(value)} as data")
+        raise RefusedExpression(f"{type_label(value)} as data")
     weigh(value, budget)
     return str(value)
 

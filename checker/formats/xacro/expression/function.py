@@ -50,7 +50,7 @@ def weighed(native: Callable[..., Any]) -> Work:
     return work
 
 
-def refused(name: str) -> Function:
+def unavailable_function(name: str) -> Function:
     """Return what stands for a function that the language does not have."""
 
     def work(*_: Any, **__: Any) -> Any:

@@ -15,10 +15,10 @@ from checker.formats.xacro.expression.operators import spend_on_search
 from checker.formats.xacro.expression.values import (
     LAZY,
     PLAIN,
-    called,
     consumed,
     plain,
     spend_on_keys,
+    type_label,
     weigh,
 )
 
@@ -246,4 +246,4 @@ def method_of(value: Any, name: str) -> Method:
         return method
     if kind in PLAIN and not hasattr(kind, name):
         raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
-    raise RefusedExpression(f"the method .{name} of {called(value)}")
+    raise RefusedExpression(f"the method .{name} of {type_label(value)}")

@@ -22,10 +22,10 @@ from checker.formats.xacro.expression.values import (
     LAZY,
     MAPPINGS,
     PLAIN,
-    called,
     consumed,
     plain,
     spend_on_keys,
+    type_label,
     weigh,
 )
 
@@ -114,7 +114,7 @@ def attribute(value: Any, name: str) -> Any:
         return getattr(value, name)
     if kind in PLAIN and not hasattr(kind, name):
         raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
-    raise RefusedExpression(f"the attribute .{name} of {called(value)}")
+    raise RefusedExpression(f"the attribute .{name} of {type_label(value)}")
 
 
 def add_key(run: Interpreter, key: Any, among: Any) -> Any:

@@ -16,9 +16,9 @@ from checker.formats.xacro.expression.values import (
     NUMBERS,
     PLAIN,
     SIZED,
-    called,
     plain,
     spend_on_keys,
+    type_label,
     weigh,
 )
 
@@ -96,7 +96,7 @@ def apply_binary(kind: type[ast.operator], left: Any, right: Any, budget: Budget
         _spend_on_both(kind, left, right, budget)
     result = operation(left, right)
     if type(result) not in PLAIN:
-        raise RefusedExpression(called(result))
+        raise RefusedExpression(type_label(result))
     if type(result) is int:
         _spend_on_number(result, budget)
     return result
@@ -133,7 +133,7 @@ def apply_comparison(kind: type[ast.cmpop], left: Any, right: Any, budget: Budge
 def spend_on_search(sought: Any, among: Any, budget: Budget) -> None:
     """Take the steps of finding one value among others."""
     if type(among) in LAZY:
-        raise RefusedExpression(f"'in' with {called(among)}")
+        raise RefusedExpression(f"'in' with {type_label(among)}")
     weigh(plain(sought), budget)
     if type(among) is str and type(sought) is str:
         budget.spend_on_search(len(among), len(sought))

@@ -37,7 +37,7 @@ _EASY_KEYS = frozenset({str, float, bool, NoneType})
 _HASHED_BITS = 60
 
 
-def called(value: Any) -> str:
+def type_label(value: Any) -> str:
     """Return what to call a value in a message."""
     return f"a value of type {type(value).__name__}"
 
@@ -49,7 +49,7 @@ def plain(value: Any) -> Any:
         RefusedExpression: It is not.
     """
     if type(value) not in PLAIN:
-        raise RefusedExpression(f"{called(value)} as data")
+        raise RefusedExpression(f"{type_label(value)} as data")
     return value
 
 
@@ -99,7 +99,7 @@ def _contents(value: Any) -> list[Any]:
         return list.copy(value)
     if kind in COLLECTIONS:
         return list(value)
-    raise RefusedExpression(f"{called(value)} as data")
+    raise RefusedExpression(f"{type_label(value)} as data")
 
 
 def spend_on_keys(keys: Iterable[Any], size: int, budget: Budget) -> None:
@@ -125,7 +125,7 @@ def consumed(value: Any, budget: Budget) -> Any:
     if kind in SIZED:
         budget.spend(1 + len(value))
     elif kind not in LAZY and kind not in PLAIN:
-        raise RefusedExpression(f"{called(value)} as data")
+        raise RefusedExpression(f"{type_label(value)} as data")
     return value
 
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.launch.ros2.context import Context
-from checker.launch.ros2.graph import Condition, LaunchFaultKind, is_known, shown
+from checker.launch.ros2.graph import Condition, LaunchFaultKind, display_path, is_known
 from checker.launch.ros2.substitutions import perform, truth_of
-from checker.launch.ros2.values import Made, Unknown, Value, chosen, span_of
+from checker.launch.ros2.values import Made, Unknown, Value, chosen_value, span_of
 from checker.source.text import Located
 
 
 def read_conditions(made: Made, context: Context) -> Iterator[Condition]:
     """Yield the condition of an action, with the defaults of arguments."""
-    condition = chosen(made.values["condition"])
+    condition = chosen_value(made.values["condition"])
     if isinstance(condition, Unknown):
         yield Condition(Located(condition.reason, condition.span), wanted=True, holds=None)
         return
@@ -32,9 +32,9 @@ def read_conditions(made: Made, context: Context) -> Iterator[Condition]:
         yield Condition(located, wanted, None)
         return
     truth = truth_of(text) if is_known(text) else None
-    written = isinstance(chosen(value), str)
+    written = isinstance(chosen_value(value), str)
     if truth is None and is_known(text):
-        message = f"the condition is {shown(text)[:80]!r}: expected true, false, 1 or 0"
+        message = f"the condition is {display_path(text)[:80]!r}: expected true, false, 1 or 0"
         context.fault(LaunchFaultKind.CONDITION, condition.span, message, str(text)[:80])
     holds = None if truth is None else truth is wanted
     yield Condition(Located(str(text), condition.span), wanted, holds, written)

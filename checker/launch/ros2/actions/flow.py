@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from checker.launch.ros2.actions.parts import located, text_or_unknown
+from checker.launch.ros2.actions.parts import text_or_unknown, with_place
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import Include, Node
 from checker.launch.ros2.known_files import known_file, nodes_of
 from checker.launch.ros2.substitutions import perform
-from checker.launch.ros2.values import Made, PlacedText, Unknown, chosen, span_of
+from checker.launch.ros2.values import Made, PlacedText, Unknown, chosen_value, span_of
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def description(visitor: Visitor, made: Made, context: Context) -> None:
 
 def include(visitor: Visitor, made: Made, context: Context) -> None:
     """Visit an included file; the arguments that it is given hold behind it, too."""
-    source = chosen(made.values.get("launch_description_source"))
+    source = chosen_value(made.values.get("launch_description_source"))
     if isinstance(source, Made) and source.name == "LaunchDescriptionSource":
         visitor.visit(source.values.get("launch_description"), context)
         return
@@ -51,7 +51,7 @@ def include(visitor: Visitor, made: Made, context: Context) -> None:
             context.used |= accepts
     visitor.found.includes.append(
         Include(
-            target=located(target, made.span),
+            target=with_place(target, made.span),
             arguments=arguments,
             path=became.path,
             accepts=accepts,
@@ -65,13 +65,13 @@ def include(visitor: Visitor, made: Made, context: Context) -> None:
 
 
 def _include_arguments(visitor: Visitor, made: Made, context: Context) -> dict[str, Located[str]]:
-    given = chosen(made.values.get("launch_arguments"))
+    given = chosen_value(made.values.get("launch_arguments"))
     if isinstance(given, Unknown):
         visitor.unread(given.reason, given.span)
         return {}
     pairs = given.items() if isinstance(given, dict) else given or ()
     arguments: dict[str, Located[str]] = {}
-    for pair in map(chosen, pairs):
+    for pair in map(chosen_value, pairs):
         if not isinstance(pair, tuple | list) or len(pair) != 2:
             reason = pair.reason if isinstance(pair, Unknown) else "it is not a pair"
             visitor.unread(reason, span_of(pair, made.span))
@@ -89,9 +89,9 @@ def _include_arguments(visitor: Visitor, made: Made, context: Context) -> dict[s
 
 def group(visitor: Visitor, made: Made, context: Context) -> None:
     """Visit a group; what it sets ends with it, if it is scoped."""
-    scoped = chosen(made.values.get("scoped", True)) not in (False, "false", "False")
+    scoped = chosen_value(made.values.get("scoped", True)) not in (False, "false", "False")
     inner = context.inner() if scoped else context
-    given = chosen(made.values.get("launch_configurations"))
+    given = chosen_value(made.values.get("launch_configurations"))
     if isinstance(given, dict):
         for name, value in given.items():
             text = perform(value, context, made.span)
@@ -101,7 +101,7 @@ def group(visitor: Visitor, made: Made, context: Context) -> None:
 
 def handler(visitor: Visitor, made: Made, context: Context) -> None:
     """Leave what an event starts for later."""
-    handler = chosen(made.values.get("event_handler"))
+    handler = chosen_value(made.values.get("event_handler"))
     if isinstance(handler, Made):
         visitor.later_events(handler, context, _DEFERRED)
     elif isinstance(handler, Unknown):
@@ -118,7 +118,7 @@ def timer(visitor: Visitor, made: Made, context: Context) -> None:
 def opaque(visitor: Visitor, made: Made, context: Context) -> None:
     """Visit what a function returns that is called when its turn comes."""
     first = Made("LaunchContext", {}, made.span)
-    positional = chosen(made.values.get("args")) or ()
+    positional = chosen_value(made.values.get("args")) or ()
     values = [first, *positional] if isinstance(positional, list | tuple) else [first]
     visitor.visit(visitor.files.call(made, values, context), context)
 

@@ -15,7 +15,7 @@ from checker.launch.ros2.values import (
     Symbol,
     Unknown,
     Value,
-    chosen,
+    chosen_value,
     span_of,
 )
 from checker.source.text import Span
@@ -37,7 +37,7 @@ def read_parameters(value: Value, context: Context, span: Span) -> Iterator[Item
         context: Where the node stands.
         span: The node.
     """
-    value = chosen(value)
+    value = chosen_value(value)
     if isinstance(value, Unknown):
         yield Unread(value.reason, value.span)
         return
@@ -45,7 +45,7 @@ def read_parameters(value: Value, context: Context, span: Span) -> Iterator[Item
         context.allowance.spend()
         if isinstance(entry, Guarded) and entry.holds is False:
             continue
-        yield from _entry(chosen(entry), context, span)
+        yield from _entry(chosen_value(entry), context, span)
 
 
 def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
@@ -57,7 +57,7 @@ def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
         case Unknown():
             yield Unread(entry.reason, entry.span)
         case Made(name="ParameterFile"):
-            substitutes = chosen(entry.values.get("allow_substs", False))
+            substitutes = chosen_value(entry.values.get("allow_substs", False))
             path = perform(entry.values.get("param_file"), context, entry.span)
             yield _file(path, substitutes in (True, "true", "True"), entry.span)
         case Made(name="Parameter", values=values) if "value" in values:
@@ -88,7 +88,7 @@ def _mapping(
             yield Unread(name.reason, name.span)
             continue
         where = span_of(name, span)
-        value = chosen(written)
+        value = chosen_value(written)
         if isinstance(value, dict):
             with context.allowance:
                 yield from _mapping(value, f"{prefix}{name}.", context, where)
@@ -103,10 +103,10 @@ def _mapping(
 def _parameter(name: str, value: Value, context: Context, span: Span) -> Parameter:
     as_text = False
     if isinstance(value, Made) and value.name == "ParameterValue":
-        kind = chosen(value.values.get("value_type"))
+        kind = chosen_value(value.values.get("value_type"))
         as_text = (kind.last if isinstance(kind, Symbol) else kind) == "str"
         span = value.span
-        value = chosen(value.values.get("value"))
+        value = chosen_value(value.values.get("value"))
     substituted = _is_substitution(value)
     return Parameter(name, _plain(value, context, span), substituted, as_text, span_of(value, span))
 
@@ -115,11 +115,13 @@ def _is_substitution(value: Value) -> bool:
     """Whether substitutions make a text: one, or a list of texts that holds one."""
     if isinstance(value, Made):
         return True
-    return isinstance(value, list | tuple) and any(isinstance(chosen(item), Made) for item in value)
+    return isinstance(value, list | tuple) and any(
+        isinstance(chosen_value(item), Made) for item in value
+    )
 
 
 def _plain(value: Value, context: Context, span: Span) -> Plain:
-    value = chosen(value)
+    value = chosen_value(value)
     if value is None or isinstance(value, bool | int | float):
         return value
     if isinstance(value, list | tuple) and not _is_substitution(value):

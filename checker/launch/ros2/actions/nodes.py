@@ -25,7 +25,7 @@ from checker.launch.ros2.graph import (
     Process,
     Unread,
 )
-from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen, span_of
+from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen_value, span_of
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
     arguments += [Located("--ros-args", made.span, stated=False)] if (ros := [*rest]) else []
     remaps = remaps_of(made, context, unread)
     name = made.values.get("name")
-    environment = chosen(made.values.get("additional_env"))
+    environment = chosen_value(made.values.get("additional_env"))
     components = tuple(_components(made, context, unread))
     _gather(
         visitor,
@@ -124,12 +124,12 @@ def component_node(visitor: Visitor, made: Made, _: Context) -> None:
 
 
 def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Node]:
-    value = chosen(made.values.get("composable_node_descriptions"))
+    value = chosen_value(made.values.get("composable_node_descriptions"))
     if isinstance(value, Unknown):
         unread.append(Unread(value.reason, value.span))
     for given in value if isinstance(value, list | tuple) else ():
         guards = given.conditions if isinstance(given, Guarded) else ()
-        item = chosen(given.value if isinstance(given, Guarded) else given)
+        item = chosen_value(given.value if isinstance(given, Guarded) else given)
         if not isinstance(item, Made):
             reason = item.reason if isinstance(item, Unknown) else "it is not a component"
             unread.append(Unread(reason, span_of(item, made.span)))

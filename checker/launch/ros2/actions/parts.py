@@ -9,7 +9,7 @@ from checker.launch.ros2.actions.node_parameters import UNKNOWN, read_parameters
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import Parameters, Unread
 from checker.launch.ros2.substitutions import perform
-from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen, span_of
+from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen_value, span_of
 from checker.source.text import Located, Span
 
 
@@ -20,7 +20,7 @@ def text_of(made: Made, name: str, context: Context, unread: list[Unread]) -> Lo
     text = perform(made.values[name], context, made.span)
     if isinstance(text, Unknown):
         unread.append(Unread(text.reason, text.span))
-    return located(text, made.span)
+    return with_place(text, made.span)
 
 
 def namespace_of(made: Made, context: Context) -> str:
@@ -36,7 +36,7 @@ def words_of(
     value: Value, context: Context, span: Span, unread: list[Unread]
 ) -> Iterator[Located[str]]:
     """Yield the words of a command line; those that a condition leaves out are none."""
-    value = chosen(value)
+    value = chosen_value(value)
     if value is None:
         return
     if isinstance(value, Unknown):
@@ -48,7 +48,7 @@ def words_of(
         text = perform(item, context, span)
         if isinstance(text, Unknown):
             unread.append(Unread(text.reason, text.span))
-        yield located(text, span)
+        yield with_place(text, span)
 
 
 def parameters_of(value: Value, context: Context, span: Span, unread: list[Unread]) -> Parameters:
@@ -62,12 +62,12 @@ def parameters_of(value: Value, context: Context, span: Span, unread: list[Unrea
 
 def remaps_of(made: Made, context: Context, unread: list[Unread]) -> tuple[Remap, ...]:
     """Return the remaps of an action, and those that hold around it."""
-    value = chosen(made.values.get("remappings"))
+    value = chosen_value(made.values.get("remappings"))
     if isinstance(value, Unknown):
         unread.append(Unread(value.reason, value.span))
         value = None
     own = []
-    for pair in map(chosen, value if isinstance(value, list | tuple) else ()):
+    for pair in map(chosen_value, value if isinstance(value, list | tuple) else ()):
         if not isinstance(pair, tuple | list) or len(pair) != 2:
             reason = pair.reason if isinstance(pair, Unknown) else "it is not a pair"
             unread.append(Unread(reason, span_of(pair, made.span)))
@@ -79,7 +79,7 @@ def remaps_of(made: Made, context: Context, unread: list[Unread]) -> tuple[Remap
     return (*own, *context.state.remaps)
 
 
-def located(value: Value, span: Span) -> Located[str]:
+def with_place(value: Value, span: Span) -> Located[str]:
     """Return a text with its place; a text with a mark where it is not known."""
     return Located(text_or_unknown(value), span_of(value, span))
 

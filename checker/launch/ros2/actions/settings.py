@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from checker.launch.ros1.graph import Remap, resolve_name
 from checker.launch.ros2.actions.node_parameters import UNKNOWN
-from checker.launch.ros2.actions.parts import located, parameters_of, text_or_unknown
+from checker.launch.ros2.actions.parts import parameters_of, text_or_unknown, with_place
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import (
     Argument,
@@ -16,7 +16,7 @@ from checker.launch.ros2.graph import (
     is_known,
 )
 from checker.launch.ros2.substitutions import perform
-from checker.launch.ros2.values import Made, PlacedText, Unknown, Value, chosen, span_of
+from checker.launch.ros2.values import Made, PlacedText, Unknown, Value, chosen_value, span_of
 from checker.source.text import Span
 
 if TYPE_CHECKING:
@@ -34,10 +34,10 @@ def declare(visitor: Visitor, made: Made, context: Context) -> None:
     value: Value = None
     if default is not None:
         value = perform(default, context, made.span)
-    declared = located(value, made.span) if value is not None else None
-    choices = chosen(made.values.get("choices"))
+    declared = with_place(value, made.span) if value is not None else None
+    choices = chosen_value(made.values.get("choices"))
     texts = tuple(map(str, choices)) if isinstance(choices, list | tuple) else ()
-    description = chosen(made.values.get("description"))
+    description = chosen_value(made.values.get("description"))
     visitor.found.arguments.append(
         Argument(
             str(name),
@@ -118,7 +118,7 @@ def set_environment(visitor: Visitor, made: Made, context: Context) -> None:
     mode = {"U": "unset", "A": "append"}.get(made.name[0], "set")
     if mode != "unset":
         value = perform(made.values.get("value"), context, made.span)
-        prepends = chosen(made.values.get("prepend")) in (True, "true", "True")
+        prepends = chosen_value(made.values.get("prepend")) in (True, "true", "True")
         mode = "prepend" if prepends and mode == "append" else mode
     for text in (name, value):
         if isinstance(text, Unknown):
@@ -132,7 +132,7 @@ def set_environment(visitor: Visitor, made: Made, context: Context) -> None:
     visitor.found.environment.append(
         EnvironmentChange(
             name=str(name),
-            value=located(value, made.span),
+            value=with_place(value, made.span),
             mode=mode,
             conditions=context.conditions,
             after=context.after,

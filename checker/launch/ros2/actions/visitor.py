@@ -10,7 +10,7 @@ from checker.launch.ros2.actions.conditions import read_conditions
 from checker.launch.ros2.actions.gathered import Files, Gathered
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import Unread
-from checker.launch.ros2.values import Choice, Guarded, Made, Unknown, Value, chosen
+from checker.launch.ros2.values import Choice, Guarded, Made, Unknown, Value, chosen_value
 from checker.source.text import Span
 
 
@@ -63,7 +63,7 @@ class Visitor:
     ) -> None:
         """Leave what events of an action start for later."""
         for name in names:
-            value = chosen(made.values.get(name))
+            value = chosen_value(made.values.get(name))
             if value is None:
                 continue
             later = context.inner()

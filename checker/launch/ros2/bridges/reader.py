@@ -30,9 +30,9 @@ from checker.launch.ros2.graph import (
     ParameterFile,
     Parameters,
     Process,
+    display_path,
     is_known,
     share_path,
-    shown,
 )
 from checker.launch.ros2.package_files import local_file, read_file
 from checker.package.package import Package
@@ -129,7 +129,7 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
     return reader.bridges()
 
 
-def loose_bridges(package: Package, named: Iterable[str]) -> Bridges:
+def bridges_without_launch(package: Package, named: Iterable[str]) -> Bridges:
     """Read files of bridges that no available launch file names.
 
     Args:
@@ -217,7 +217,7 @@ class _Reader:
         elif is_known(word.value):
             self._faults.append(read)
         else:
-            self._unread.append(f"the argument {shown(word.value)[:80]!r} is not known")
+            self._unread.append(f"the argument {display_path(word.value)[:80]!r} is not known")
 
     def _configured(self, parameters: Parameters, given: dict[str, Located[str]], at: _At) -> None:
         """Read the files that parameters name."""
@@ -233,7 +233,7 @@ class _Reader:
         """Say that parameters of a file are not known, if they may name a file of the bridge."""
         source = read_file(self._package, parameter.path)
         if isinstance(source, str) or "config_file" in source.text or "bridge" in source.text:
-            self._unread.append(f"parameters of the bridge are in {shown(parameter.path)}")
+            self._unread.append(f"parameters of the bridge are in {display_path(parameter.path)}")
 
     def file(self, path: str, at: _At) -> None:
         if not path:
@@ -242,7 +242,7 @@ class _Reader:
 
         source = read_file(self._package, path)
         if isinstance(source, str):
-            self._unread.append(f"the bridge's file {shown(path)} is not read: {source}")
+            self._unread.append(f"the bridge's file {display_path(path)} is not read: {source}")
             return
         self._files.add(local_file(self._package, path) or source.file)
         self.document(read_yaml(source), at)

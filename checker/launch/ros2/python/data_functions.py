@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from checker.launch.ros2.python.expressions import bounded, each, plain
-from checker.launch.ros2.values import FileText, OpenFile, Unknown, Value, chosen
+from checker.launch.ros2.values import FileText, OpenFile, Unknown, Value, chosen_value
 
 if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
@@ -58,7 +58,7 @@ def _styled(named: Mapping[str, Value]) -> dict[str, Any]:
 def _load_json(
     run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
 ) -> Value:
-    content = chosen(arguments[0]) if arguments else None
+    content = chosen_value(arguments[0]) if arguments else None
     if isinstance(content, OpenFile | FileText):
         run.by_argument = True
         source = run.world.read(content.path, run.span(node))
@@ -100,7 +100,7 @@ def _get_attribute(
     """Return `getattr(owner, name)`; whether there is such an attribute is not known."""
     if len(arguments) != 2:
         return run.unknown(node, "getattr with a default is not evaluated")
-    owner, name = map(chosen, arguments)
+    owner, name = map(chosen_value, arguments)
     if not isinstance(name, str):
         return name if isinstance(name, Unknown) else run.unknown(node, "getattr takes a name")
     return run.attribute(owner, str(name), node)

@@ -22,8 +22,8 @@ from checker.launch.ros2.values import (
     PlacedText,
     Unknown,
     Value,
-    chosen,
-    placed,
+    add_place,
+    chosen_value,
 )
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class _Plain:
         self._left -= 1
         if self._left < 0 or level > _LEVELS_LIMIT:
             raise ExpressionLimit("has too much or too deeply nested data")
-        value = chosen(value)
+        value = chosen_value(value)
         if value is None or type(value) in (int, float, bool, range):
             return value
         if type(value) in (list, tuple, set, frozenset):
@@ -83,7 +83,7 @@ def bounded(run: Interpreter, node: ast.AST, work: Callable[[Budget], Value]) ->
     """Return what some work on data comes to; Unknown when Python, or this reader, refuses it."""
     run.allowance.spend()
     try:
-        return placed(work(Budget()), run.span(node))
+        return add_place(work(Budget()), run.span(node))
     except RefusedExpression as refused:
         return run.unknown(node, _reason(str(refused)))
     except ExpressionLimit as limit:
@@ -126,12 +126,12 @@ def _name(run: Interpreter, node: ast.Name, scope: Scope) -> Value:
     value = holder.values[node.id]
     # A choice stays one, so that what is started under either condition is seen.
     if isinstance(value, Choice) and any(v.holds is True for v in value.values):
-        return chosen(value)
+        return chosen_value(value)
     return value
 
 
 def _attribute(run: Interpreter, node: ast.Attribute, scope: Scope) -> Value:
-    owner = chosen(evaluate(run, node.value, scope))
+    owner = chosen_value(evaluate(run, node.value, scope))
     return run.attribute(owner, node.attr, node)
 
 
@@ -147,7 +147,7 @@ def _joined(run: Interpreter, node: ast.JoinedStr, scope: Scope) -> Value:
 
 
 def _formatted(run: Interpreter, node: ast.FormattedValue, scope: Scope) -> Value:
-    value = chosen(evaluate(run, node.value, scope))
+    value = chosen_value(evaluate(run, node.value, scope))
     if isinstance(value, FilePath):
         value = PlacedText(value.text, run.span(node))
     plain_form = node.format_spec is None and node.conversion in (-1, ord("s"))
@@ -186,7 +186,7 @@ def each(run: Interpreter, value: Value, node: ast.AST) -> list[Value]:
         return [Guarded(item, value.conditions) for item in each(run, value.value, node)]
     if isinstance(value, str) and is_known(value):
         run.allowance.spend(len(value))
-        return [placed(character, run.span(node)) for character in str(value)]
+        return [add_place(character, run.span(node)) for character in str(value)]
     if (
         isinstance(value, list | tuple | set | frozenset | dict | range)
         and len(value) < _ITEMS_LIMIT
@@ -216,7 +216,7 @@ def _dict(run: Interpreter, node: ast.Dict, scope: Scope) -> Value:
     for key_node, value_node in zip(node.keys, node.values, strict=True):
         value = evaluate(run, value_node, scope)
         if key_node is None:
-            value = chosen(value)
+            value = chosen_value(value)
             if not isinstance(value, dict):
                 reason = value.reason if isinstance(value, Unknown) else "it is not a dictionary"
                 return run.unknown(value_node, reason)
@@ -232,7 +232,7 @@ def _dict(run: Interpreter, node: ast.Dict, scope: Scope) -> Value:
 
 def hashable(run: Interpreter, key: Value, node: ast.AST) -> Value:
     """Return what may be a key; substitutions are, by what they are and not by their text."""
-    key = chosen(key)
+    key = chosen_value(key)
     if key is None or isinstance(key, str | int | float | bool | Made):
         return key
     if isinstance(key, tuple):
@@ -259,7 +259,7 @@ def binary(  # noqa: PLR0911 - one per kind of values
     ):
         run.allowance.spend(1)
         return [*each(run, left, node), *each(run, right, node)]
-    left, right = chosen(left), chosen(right)
+    left, right = chosen_value(left), chosen_value(right)
     for side in (left, right):
         if isinstance(side, Unknown):
             return side
@@ -302,7 +302,7 @@ def _boolean(run: Interpreter, node: ast.BoolOp, scope: Scope) -> Value:
     value: Value = not stops_at
     unknown: Value = None
     for part in node.values:
-        value = chosen(evaluate(run, part, scope))
+        value = chosen_value(evaluate(run, part, scope))
         truth = run.truth(value)
         if truth is stops_at:
             return value
@@ -312,9 +312,9 @@ def _boolean(run: Interpreter, node: ast.BoolOp, scope: Scope) -> Value:
 
 
 def _compare(run: Interpreter, node: ast.Compare, scope: Scope) -> Value:
-    left = chosen(evaluate(run, node.left, scope))
+    left = chosen_value(evaluate(run, node.left, scope))
     for kind, right_node in zip(node.ops, node.comparators, strict=True):
-        right = chosen(evaluate(run, right_node, scope))
+        right = chosen_value(evaluate(run, right_node, scope))
         result = _compared(run, kind, left, right, node)
         if result is not True:
             return result
@@ -347,22 +347,22 @@ def _if_expression(run: Interpreter, node: ast.IfExp, scope: Scope) -> Value:
     if truth is not None:
         return evaluate(run, node.body if truth else node.orelse, scope)
     first = Guarded(evaluate(run, node.body, scope), (condition,))
-    return Choice((first, Guarded(evaluate(run, node.orelse, scope), (opposite(condition),))))
+    return Choice((first, Guarded(evaluate(run, node.orelse, scope), (negate(condition),))))
 
 
-def opposite(condition: Condition) -> Condition:
+def negate(condition: Condition) -> Condition:
     """Return the condition of the other branch."""
     holds = None if condition.holds is None else not condition.holds
     return Condition(condition.text, not condition.wanted, holds, condition.written)
 
 
 def _subscript(run: Interpreter, node: ast.Subscript, scope: Scope) -> Value:
-    owner = chosen(evaluate(run, node.value, scope))
+    owner = chosen_value(evaluate(run, node.value, scope))
     if isinstance(owner, Unknown):
         return owner
     if isinstance(node.slice, ast.Slice):
         return _slice(run, owner, node.slice, scope)
-    key = chosen(evaluate(run, node.slice, scope))
+    key = chosen_value(evaluate(run, node.slice, scope))
     if isinstance(key, Unknown):
         return key
     return run.item(owner, key, node)

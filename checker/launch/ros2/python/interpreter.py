@@ -29,8 +29,8 @@ from checker.launch.ros2.values import (
     Symbol,
     Unknown,
     Value,
-    chosen,
-    placed,
+    add_place,
+    chosen_value,
 )
 from checker.source.python_places import span_of_node
 from checker.source.text import Located, SourceText, Span
@@ -116,7 +116,7 @@ class Interpreter:
 
     def truth(self, value: Value) -> bool | None:
         """Return whether a value counts as true; None when that is not known."""
-        value = chosen(value)
+        value = chosen_value(value)
         if isinstance(value, Unknown):
             return None
         if isinstance(value, str) and not is_known(value):
@@ -150,8 +150,8 @@ class Interpreter:
             case ast.Starred(value=inner):
                 self.assign(inner, value, scope)
             case ast.Subscript(value=owner_node, slice=index):
-                owner = chosen(evaluate(self, owner_node, scope))
-                key = chosen(evaluate(self, index, scope))
+                owner = chosen_value(evaluate(self, owner_node, scope))
+                key = chosen_value(evaluate(self, index, scope))
                 if _takes(owner, key):
                     owner[key] = self.guarded([value])[0]
                 elif not isinstance(owner, Symbol):
@@ -160,7 +160,7 @@ class Interpreter:
                 self.unread(target, "the assignment is not evaluated")
 
     def _unpack(self, targets: Sequence[ast.expr], value: Value, scope: Scope) -> None:
-        value = chosen(value)
+        value = chosen_value(value)
         items = each(self, value, targets[0]) if not isinstance(value, Unknown) else [value]
         star = next((n for n, t in enumerate(targets) if isinstance(t, ast.Starred)), None)
         if star is not None and len(items) >= len(targets) - 1:
@@ -208,7 +208,7 @@ class Interpreter:
         if isinstance(owner, Symbol):
             path = f"{owner.path}.{name}"
             if path in CONSTANTS:
-                return placed(CONSTANTS[path], self.span(node))
+                return add_place(CONSTANTS[path], self.span(node))
             return Symbol(path)
         return methods.attribute(self, owner, name, node)
 
@@ -240,7 +240,7 @@ class Interpreter:
     def joined_path(self, parts: Sequence[Value], node: ast.AST) -> Value:
         """Return `pathlib` paths put together."""
         texts: list[str] = []
-        for part in map(chosen, parts):
+        for part in map(chosen_value, parts):
             if isinstance(part, Unknown):
                 return part
             if not isinstance(part, str | FilePath):
@@ -266,7 +266,7 @@ class Interpreter:
 
     def call(self, node: ast.Call, scope: Scope) -> Value:
         """Return what a call comes to."""
-        function = chosen(evaluate(self, node.func, scope))
+        function = chosen_value(evaluate(self, node.func, scope))
         positional = sequence(self, node.args, scope)
         named: dict[str, Value] = {}
         places: dict[str, Span] = {}
@@ -276,7 +276,7 @@ class Interpreter:
                 named[keyword.arg] = value
                 places[keyword.arg] = self.span(keyword)
                 continue
-            value = chosen(value)
+            value = chosen_value(value)
             if not isinstance(value, dict):
                 reason = value.reason if isinstance(value, Unknown) else "it is not a dictionary"
                 return self.unknown(keyword.value, reason)

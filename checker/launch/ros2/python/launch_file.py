@@ -12,7 +12,7 @@ from checker.launch.ros2.python.expressions import evaluate
 from checker.launch.ros2.python.interpreter import Interpreter, World
 from checker.launch.ros2.python.scope import LocalFunction, Partial, Scope
 from checker.launch.ros2.python.undefined import undefined_names
-from checker.launch.ros2.values import Allowance, Made, Unknown, Value, chosen
+from checker.launch.ros2.values import Allowance, Made, Unknown, Value, chosen_value
 from checker.package.package import Package
 from checker.source.text import SourceText, Span
 
@@ -23,7 +23,7 @@ EXPRESSION_LIMIT = 2_000
 """Characters of a `PythonExpression`."""
 
 
-def parsed(source: SourceText) -> ast.Module | str:
+def parse_source(source: SourceText) -> ast.Module | str:
     """Return the syntax tree of a file, or why there is none."""
     if len(source.text) > LENGTH_LIMIT:
         return f"is longer than {LENGTH_LIMIT} characters"
@@ -37,7 +37,7 @@ def parsed(source: SourceText) -> ast.Module | str:
 
 def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
     """Return the launch description of a file."""
-    tree = parsed(source)
+    tree = parse_source(source)
     if isinstance(tree, str) and "f-string" in tree:
         # Newer releases of Python read f-strings that this one does not.
         return Unknown(f"the file is not read: {tree}", source.whole())
@@ -85,10 +85,10 @@ def function_call(
     named: dict[str, Value] = {}
     span = None
     if isinstance(function, Made):
-        given = chosen(function.values.get("kwargs"))
+        given = chosen_value(function.values.get("kwargs"))
         named = {str(k): v for k, v in given.items()} if isinstance(given, dict) else {}
         span = function.span
-        function = chosen(function.values.get("function"))
+        function = chosen_value(function.values.get("function"))
     inner = function
     while isinstance(inner, Partial):
         inner = inner.function
@@ -119,7 +119,7 @@ def expression(text: str, span: Span, allowance: Allowance, world: World) -> Val
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return Unknown("is not an expression of Python", span)
     run = Interpreter(SourceText(span.source.file, text.strip()), allowance, world)
-    value = chosen(evaluate(run, tree.body, Scope()))
+    value = chosen_value(evaluate(run, tree.body, Scope()))
     return Unknown(value.reason, span) if isinstance(value, Unknown) else value
 
 

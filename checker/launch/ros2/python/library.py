@@ -25,7 +25,7 @@ from checker.launch.ros2.values import (
     Symbol,
     Unknown,
     Value,
-    chosen,
+    chosen_value,
     span_of,
 )
 from checker.source.yaml import read_yaml
@@ -45,7 +45,7 @@ PREFIX = f"{ROOT}-prefix"
 
 def text_of(run: Interpreter, value: Value, node: ast.AST) -> PlacedText | Unknown:
     """Return a path or name as text."""
-    value = chosen(value)
+    value = chosen_value(value)
     if isinstance(value, FilePath):
         return PlacedText(value.text, run.span(node))
     if isinstance(value, str):
@@ -182,7 +182,7 @@ def _open(
 def _load_yaml(
     run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
 ) -> Value:
-    content = chosen(first(arguments, named, "stream"))
+    content = chosen_value(first(arguments, named, "stream"))
     if isinstance(content, OpenFile | FileText):
         return read_yaml_file(run, content.path, node)
     return content if isinstance(content, Unknown) else run.unknown(node, "the YAML is not known")
@@ -208,7 +208,7 @@ def read_yaml_file(run: Interpreter, path: str, node: ast.AST) -> Value:
 def _xacro_file(
     run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
 ) -> Value:
-    file = chosen(first(arguments, named, "input_file_name", "input", "filename"))
+    file = chosen_value(first(arguments, named, "input_file_name", "input", "filename"))
     path = file.path if isinstance(file, OpenFile) else text_of(run, file, node)
     if isinstance(path, Unknown):
         return path
@@ -220,7 +220,7 @@ def _xacro_file(
 def _xacro_arguments(
     _: Interpreter, __: ast.AST, arguments: list[Value], named: dict[str, Value]
 ) -> Value:
-    document = chosen(first(arguments, named, "doc"))
+    document = chosen_value(first(arguments, named, "doc"))
     if isinstance(document, Made) and document.name == "XacroDocument" and "mappings" in named:
         document.values["mappings"] = named["mappings"]
     return None
@@ -235,7 +235,7 @@ def _xacro_text(
 
 def xacro_text(run: Interpreter, document: Made, node: ast.AST) -> Value:
     """Return the text of an expanded xacro file: `$(command xacro PATH name:=value)`."""
-    mappings = chosen(document.values["mappings"])
+    mappings = chosen_value(document.values["mappings"])
     words = [f"xacro {document.values['path']}"]
     if isinstance(mappings, dict):
         for name, value in mappings.items():
@@ -265,7 +265,7 @@ def _partial(
 
 
 def _copy(run: Interpreter, __: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen(arguments[0]) if arguments else None
+    value = chosen_value(arguments[0]) if arguments else None
     run.allowance.spend(len(value) if isinstance(value, list | dict) else 1)
     return value.copy() if isinstance(value, list | dict) else value
 
@@ -291,7 +291,7 @@ def _dict(
 ) -> Value:
     entries: dict[Value, Value] = {}
     if arguments:
-        given = chosen(arguments[0])
+        given = chosen_value(arguments[0])
         if isinstance(given, dict):
             entries |= given
         else:
@@ -310,7 +310,8 @@ def _map(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, V
         return run.unknown(node, "map() takes a function and items")
     columns = [each(run, argument, node) for argument in arguments[1:]]
     return [
-        run.called(chosen(arguments[0]), list(row), {}, node) for row in zip(*columns, strict=False)
+        run.called(chosen_value(arguments[0]), list(row), {}, node)
+        for row in zip(*columns, strict=False)
     ]
 
 
@@ -341,21 +342,25 @@ def _filter(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str
         return run.unknown(node, "filter() takes a function and items")
     kept = []
     for item in each(run, arguments[1], node):
-        keeps = item if arguments[0] is None else run.called(chosen(arguments[0]), [item], {}, node)
+        keeps = (
+            item
+            if arguments[0] is None
+            else run.called(chosen_value(arguments[0]), [item], {}, node)
+        )
         if run.truth(keeps) is not False:
             kept.append(item)
     return kept
 
 
 def _string(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen(arguments[0]) if arguments else ""
+    value = chosen_value(arguments[0]) if arguments else ""
     if isinstance(value, str | FilePath | Made | Unknown):
         return text_of(run, value, node)
     return bounded(run, node, lambda budget: SAFE["str"].work(budget, plain(value)))
 
 
 def _length(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen(arguments[0]) if arguments else None
+    value = chosen_value(arguments[0]) if arguments else None
     if isinstance(value, list | tuple | dict) and not any(
         isinstance(item, Guarded | Choice | Unknown) for item in value
     ):
@@ -370,7 +375,7 @@ def _is_instance(
     wanted = arguments[1] if len(arguments) == 2 else ()
     kinds = wanted if isinstance(wanted, tuple) else (wanted,)
     if kinds and all(isinstance(kind, Symbol) and kind.last in names for kind in kinds):
-        value = chosen(arguments[0])
+        value = chosen_value(arguments[0])
         if not isinstance(value, Unknown):
             return isinstance(value, tuple(names[kind.last] for kind in kinds))
     return run.unknown(node, "isinstance() is not evaluated")

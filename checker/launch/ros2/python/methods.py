@@ -20,7 +20,7 @@ from checker.launch.ros2.values import (
     PlacedText,
     Unknown,
     Value,
-    chosen,
+    chosen_value,
 )
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def call(  # noqa: PLR0911 - one per method
         case dict():
             return _of_dict(run, owner, name, positional, named, node)
         case OpenFile() if name in ("read", "close", "readlines"):
-            return FileText.of(owner.path, run.span(node)) if name == "read" else None
+            return FileText.read(owner.path, run.span(node)) if name == "read" else None
         case FilePath():
             return _on_path(run, owner, name, positional, node)
         case Made():
@@ -162,7 +162,7 @@ def _of_dict(  # noqa: C901, PLR0911 - one per method
                 owner[key] = value
             return value
         case "update", others if not run.guards:
-            for other in map(chosen, others):
+            for other in map(chosen_value, others):
                 pairs = library.BUILTINS["builtins.dict"](run, node, [other], {})
                 if not isinstance(pairs, dict):
                     return pairs
@@ -183,7 +183,7 @@ def _on_path(  # noqa: PLR0911 - one per method
         case "joinpath":
             return run.joined_path([path, *positional], node)
         case "read_text":
-            return FileText.of(path.text, run.span(node))
+            return FileText.read(path.text, run.span(node))
         case "open":
             return OpenFile(path.text)
         case "exists" | "is_file" | "is_dir":
@@ -231,7 +231,7 @@ def _of_made(  # noqa: C901, PLR0911 - one per method
         return run.world.perform(positional[0], run.span(node))
     if owner.name == "launch_configurations" and name == "get" and positional:
         run.by_argument = True
-        value = run.world.configuration(str(chosen(positional[0])))
+        value = run.world.configuration(str(chosen_value(positional[0])))
         return (positional[1] if len(positional) > 1 else None) if value is None else value
     return run.unknown(node, f"{name}() of {owner.name} is not evaluated")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from checker.formats.xacro.files import ROOT
 from checker.launch.ros2.actions.node_parameters import MOVEIT
 from checker.launch.ros2.graph import is_known
-from checker.launch.ros2.values import FileText, Made, Unknown, Value, chosen
+from checker.launch.ros2.values import FileText, Made, Unknown, Value, chosen_value
 from checker.source.yaml import read_yaml
 
 if TYPE_CHECKING:
@@ -26,10 +26,10 @@ def builder(
         zip(("robot_name", "robot_description", "package_name"), positional, strict=False)
     )
     values |= named
-    robot = chosen(values.get("robot_name"))
+    robot = chosen_value(values.get("robot_name"))
     if not isinstance(robot, str) or not is_known(robot):
         return run.unknown(node, "the robot name of MoveItConfigsBuilder is not known")
-    package = chosen(values.get("package_name", f"{robot}_moveit_config"))
+    package = chosen_value(values.get("package_name", f"{robot}_moveit_config"))
     if not isinstance(package, str) or not is_known(package):
         return run.unknown(node, "the package of MoveItConfigsBuilder is not known")
     return Made("MoveItConfigs", {"robot": str(robot), "package": str(package)}, run.span(node))
@@ -57,7 +57,7 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
     """Return what an attribute of the built configurations holds, as parameters of a node."""
     given = configs.values.get(name)
     given = given if isinstance(given, dict) else {}
-    file = chosen(given.get("file_path"))
+    file = chosen_value(given.get("file_path"))
     package, robot = configs.values["package"], configs.values["robot"]
     if isinstance(file, Unknown):
         return {name: file}
@@ -67,10 +67,10 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
             path = posixpath.join(f"{ROOT}/{package}", str(file))
         elif run.world.exists(path) is False:
             return _rest(configs)  # MoveIt warns, and waits for the topic robot_description.
-        mappings = chosen(given.get("mappings")) or mappings
+        mappings = chosen_value(given.get("mappings")) or mappings
         return {name: _command(path, mappings, configs)}
     if name == "robot_description_semantic" and file is not None:
-        return {name: FileText.of(f"{ROOT}/{package}/{file}", configs.span)}
+        return {name: FileText.read(f"{ROOT}/{package}/{file}", configs.span)}
     return _rest(configs)
 
 

@@ -86,7 +86,7 @@ class Partial:
     named: dict[str, Value]
 
 
-def merged(before: dict[str, Value], first: Guarded, second: Guarded) -> dict[str, Value]:
+def merge_names(before: dict[str, Value], first: Guarded, second: Guarded) -> dict[str, Value]:
     """Return the names after a test that could not be decided.
 
     Args:

@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from checker.launch.ros2.graph import Condition
-from checker.launch.ros2.python.expressions import binary, each, evaluate, opposite
-from checker.launch.ros2.python.scope import Scope, merged
+from checker.launch.ros2.python.expressions import binary, each, evaluate, negate
+from checker.launch.ros2.python.scope import Scope, merge_names
 from checker.launch.ros2.values import FilePath, Guarded, OpenFile, Unknown, Value
 from checker.source.text import Located
 
@@ -123,7 +123,7 @@ def _if(run: Interpreter, node: ast.If, scope: Scope) -> tuple[Flow, Value]:
     run.by_argument = False
     if decided:
         return run_block(run, node.body if truth else node.orelse, scope)
-    return _either(run, (node.body, condition), (node.orelse, opposite(condition)), scope)
+    return _either(run, (node.body, condition), (node.orelse, negate(condition)), scope)
 
 
 Branch = tuple[Sequence[ast.stmt], Condition]
@@ -152,7 +152,7 @@ def _either(run: Interpreter, first: Branch, second: Branch, scope: Scope) -> tu
         if returns:
             run.guards += after.conditions
         return flow, None
-    scope.values = merged(before, stays[0][1], stays[1][1])
+    scope.values = merge_names(before, stays[0][1], stays[1][1])
     return (stays[0][0] if stays[0][0] is stays[1][0] else Flow.ON), None
 
 

@@ -12,7 +12,7 @@ from checker.launch.spawner.literals import (
     RAW,
     Range,
     TracedString,
-    decoded,
+    decode_literal,
     heredoc_parts,
     single_quoted,
 )
@@ -65,7 +65,7 @@ def string_content(run: Interpreter, node: RubyNode) -> TracedString:
     start, end = quotes[0].end, quotes[-1].start
     if opening.startswith(("'", "%q")):
         escapes = single_quoted(opening[-1] + closing)
-        return decoded(node.source, [(start, end)], escapes, run.influences)
+        return decode_literal(node.source, [(start, end)], escapes, run.influences)
     parts: list[list[Range] | RubyNode] = []
     for hole in node.children:
         if hole.type == "interpolation":
@@ -85,7 +85,7 @@ def _assembled(
         *(
             _interpolation(run, part)
             if isinstance(part, RubyNode)
-            else decoded(node.source, part, escapes, run.influences)
+            else decode_literal(node.source, part, escapes, run.influences)
             for part in parts
         )
     )
@@ -116,7 +116,7 @@ def _words(run: Interpreter, node: RubyNode) -> Value:
         raise Unreadable(node.span, "uses %W, which is not supported")
     escapes = single_quoted(node.children[0].text[-1] + node.children[-1].text + " ")
     words = [
-        decoded(part.source, [(part.start, part.end)], escapes, run.influences)
+        decode_literal(part.source, [(part.start, part.end)], escapes, run.influences)
         for part in node.parts
     ]
     return run.array([run.string(word) for word in words])

@@ -15,10 +15,10 @@ from checker.launch.spawner.limits import (
     Budget,
     LimitReached,
 )
-from checker.launch.spawner.literals import TracedString, computed, joined
+from checker.launch.spawner.literals import TracedString, computed_string, join_strings
 from checker.launch.spawner.scope import Function, Scope
 from checker.launch.spawner.signals import Unreadable
-from checker.launch.spawner.value_text import NotWritable, to_s
+from checker.launch.spawner.value_text import NotWritable, interpolate
 from checker.launch.spawner.values import NIL, Data, RubyArray, RubyString, Value, equal
 from checker.source.emitted import NO_PARAMETERS
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
@@ -112,13 +112,13 @@ class Interpreter:
 
     def computed(self, text: str, span: Span, *origins: Value) -> Value:
         """Make a string that the expression at `span` computed of `origins`."""
-        return self.string(computed(text, span, self.value(None, *origins).parameters))
+        return self.string(computed_string(text, span, self.value(None, *origins).parameters))
 
     def joined(self, *parts: TracedString) -> TracedString:
         """Return the texts one behind the other, for what that costs."""
         length = sum([len(piece.text) for part in parts for piece in part.pieces])
         self.budget.spend_text(length, sum([len(part.pieces) for part in parts]))
-        return joined(parts)
+        return join_strings(parts)
 
     def traced(self, value: Value, span: Span) -> TracedString:
         """Return a string's pieces; those without origin get `span`.
@@ -129,7 +129,7 @@ class Interpreter:
         if not isinstance(value.data, RubyString):
             raise Unreadable(span, "needs a string here")
         self.budget.spend(len(value.data.content.pieces) // ITEMS_PER_STEP)
-        return value.data.content.influenced(value.parameters).rooted(span)
+        return value.data.content.with_influence(value.parameters).with_origin(span)
 
     def written(self, value: Value, span: Span) -> TracedString:
         """Return the pieces of `to_s` of any value, computed at `span`.
@@ -140,12 +140,12 @@ class Interpreter:
         if isinstance(value.data, RubyString):
             return self.traced(value, span)
         try:
-            text = to_s(value.data, self.budget)
+            text = interpolate(value.data, self.budget)
         except NotWritable as error:
             raise Unreadable(span, f"writes out {error}, which is not supported") from None
         items = value.data.items if isinstance(value.data, RubyArray) else []
         parameters = value.parameters.union(*(item.influences for item in items))
-        return computed(text, span, parameters | self.influences)
+        return computed_string(text, span, parameters | self.influences)
 
     def equal(self, left: Value, right: Value, span: Span) -> bool:
         """Compare two values as `==` does.

@@ -112,7 +112,7 @@ class Call:
             raise self.refuse(f"with {class_name(value.data)} instead of a number")
         return value.data
 
-    def whole(self, number: int | float) -> int:
+    def truncate(self, number: int | float) -> int:
         """Return a number without what stands behind its point.
 
         Raises:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from checker.launch.spawner.literals import TracedString, joined
+from checker.launch.spawner.literals import TracedString, join_strings
 from checker.launch.spawner.methods.call import Call, Method, Methods
 from checker.launch.spawner.methods.enumerable import ENUMERABLE_WITH_BLOCK, last
 from checker.launch.spawner.signals import RubyError
@@ -30,7 +30,7 @@ def _at(call: Call, index: Value) -> Value:
         bounds = number.bounds_in(len(items))
         return call.run.array(items[slice(*bounds)], call.receiver, index) if bounds else NIL
     if isinstance(number, float):
-        number = call.whole(number)
+        number = call.truncate(number)
     if type(number) is not int:
         raise call.refuse("with something else than an integer")
     chosen = items[number] if -len(items) <= number < len(items) else NIL
@@ -86,7 +86,7 @@ def _join(call: Call, separator: Value | None = None) -> Value:
         text = call.run.written(item, call.span)
         call.run.budget.spend_items(len(between.pieces))
         parts += [between, text] if parts else [text]
-    return call.run.string(joined(parts).influenced(call.receiver.parameters))
+    return call.run.string(join_strings(parts).with_influence(call.receiver.parameters))
 
 
 ARRAY: Methods = {

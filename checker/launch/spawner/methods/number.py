@@ -114,7 +114,7 @@ def _receiver(call: Call) -> Number:
 
 
 def _finite(call: Call) -> Number:
-    call.whole(_receiver(call))
+    call.truncate(_receiver(call))
     return _receiver(call)
 
 

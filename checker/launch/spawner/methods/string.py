@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 
 from checker.launch.spawner.limits import MAX_INTEGER_BITS, LimitReached
-from checker.launch.spawner.literals import TracedString, joined
+from checker.launch.spawner.literals import TracedString, join_strings
 from checker.launch.spawner.methods.call import Call, Method, Methods
 from checker.launch.spawner.signals import RubyError
 from checker.launch.spawner.value_text import formatted
@@ -111,7 +111,7 @@ def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> 
     parts = [kept[0]]
     for part in kept[1:]:
         parts += [new, part]
-    return call.run.string(joined(parts).influenced(wanted.influences))
+    return call.run.string(join_strings(parts).with_influence(wanted.influences))
 
 
 def _gsub(call: Call, wanted: Value, replacement: Value) -> Value:

@@ -32,9 +32,14 @@ from checker.physics.trial.course import (
     holding_legs,
     linear_command,
 )
-from checker.physics.trial.drivers.wheels import joined, plan_ackermann, plan_wheels, stated
+from checker.physics.trial.drivers.wheels import (
+    finite_limit,
+    plan_ackermann,
+    plan_wheels,
+    strictest_limits,
+)
 from checker.physics.trial.plan import Belt, Plan, PlannedRotor
-from checker.physics.trial.profile import Knots, Limits, mixed
+from checker.physics.trial.profile import Knots, Limits, mix_lines
 from checker.physics.trial.trial import Leg
 from checker.source.text import Located
 
@@ -52,9 +57,11 @@ _UPRIGHT = 1e-3
 def plan_tracks(robot: Robot, locomotion: Locomotion) -> Plan:
     """Return the plan of a robot with TrackedVehicle plugins; all are driven together."""
     drives = locomotion.tracked_drives
-    belts = joined([Limits.of(track.limits) for track in locomotion.tracks] or [Limits()])
-    linear = joined([belts, *(Limits.of(drive.linear) for drive in drives)])
-    angular = joined([Limits.of(drive.angular) for drive in drives])
+    belts = strictest_limits(
+        [Limits.from_plugin(track.limits) for track in locomotion.tracks] or [Limits()]
+    )
+    linear = strictest_limits([belts, *(Limits.from_plugin(drive.linear) for drive in drives)])
+    angular = strictest_limits([Limits.from_plugin(drive.angular) for drive in drives])
     legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)), angular)
     return Plan(
         kind=locomotion.kind.value,
@@ -62,8 +69,8 @@ def plan_tracks(robot: Robot, locomotion: Locomotion) -> Plan:
         linear=linear_command(legs, linear),
         angular=angular_command(legs, angular),
         belts=tuple(_belts(robot, drives, legs)),
-        speed_limit=stated(linear.fastest),
-        acceleration_limit=stated(linear.speeding),
+        speed_limit=finite_limit(linear.fastest),
+        acceleration_limit=finite_limit(linear.speeding),
     )
 
 
@@ -90,11 +97,11 @@ def _belts(robot: Robot, drives: Sequence[TrackedDrive], legs: Sequence[Leg]) ->
 
 
 def _speed(drive: TrackedDrive, track: Track, legs: Sequence[Leg]) -> Knots:
-    linear = linear_command(legs, Limits.of(drive.linear))
-    angular = angular_command(legs, Limits.of(drive.angular))
+    linear = linear_command(legs, Limits.from_plugin(drive.linear))
+    angular = angular_command(legs, Limits.from_plugin(drive.angular))
     arm = _arm(drive) * (-1 if track.side is Side.LEFT else 1)
-    limits = Limits.of(track.limits)
-    return mixed((linear, angular), lambda v, w: limits.clamped(v + w * arm))
+    limits = Limits.from_plugin(track.limits)
+    return mix_lines((linear, angular), lambda v, w: limits.clamp(v + w * arm))
 
 
 def _forward(robot: Robot, track: Track) -> Vector:

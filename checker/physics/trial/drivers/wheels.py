@@ -21,7 +21,7 @@ from checker.physics.trial.course import (
     linear_command,
 )
 from checker.physics.trial.plan import DrivenWheel, Plan
-from checker.physics.trial.profile import Knots, Limits, mixed
+from checker.physics.trial.profile import Knots, Limits, mix_lines
 from checker.physics.trial.trial import Leg
 from checker.source.text import Located
 
@@ -45,19 +45,19 @@ def plan_wheels(locomotion: Locomotion) -> Plan:
         angular=angular_command(legs, angular),
         speeds=speeds,
         wheels=tuple(wheels.values()),
-        speed_limit=stated(linear.fastest),
-        acceleration_limit=stated(linear.speeding),
+        speed_limit=finite_limit(linear.fastest),
+        acceleration_limit=finite_limit(linear.speeding),
     )
 
 
 def strictest(drives: Sequence[WheelDrive]) -> tuple[Limits, Limits]:
     """Return limits of forward and of turning motion that all drives keep."""
-    return joined([Limits.of(d.linear) for d in drives]), joined(
-        [Limits.of(d.angular) for d in drives]
+    return strictest_limits([Limits.from_plugin(d.linear) for d in drives]), strictest_limits(
+        [Limits.from_plugin(d.angular) for d in drives]
     )
 
 
-def joined(limits: Sequence[Limits]) -> Limits:
+def strictest_limits(limits: Sequence[Limits]) -> Limits:
     """Return the strictest of several limits."""
     return Limits(
         max(limit.slowest for limit in limits),
@@ -67,7 +67,7 @@ def joined(limits: Sequence[Limits]) -> Limits:
     )
 
 
-def stated(limit: float) -> float | None:
+def finite_limit(limit: float) -> float | None:
     """Return a limit; None for infinity."""
     return limit if limit < float("inf") else None
 
@@ -88,11 +88,11 @@ def _turn_rate(drives: Sequence[WheelDrive], linear: Limits, angular: Limits) ->
 
 def _speed(drive: WheelDrive, wheel: Wheel, legs: Sequence[Leg]) -> Knots:
     """Return the speed of a wheel over time, rad/s."""
-    linear = linear_command(legs, Limits.of(drive.linear))
-    angular = angular_command(legs, Limits.of(drive.angular))
+    linear = linear_command(legs, Limits.from_plugin(drive.linear))
+    angular = angular_command(legs, Limits.from_plugin(drive.angular))
     arm = drive.wheel_separation.value / 2 * (-1 if wheel.side is Side.LEFT else 1)
     radius = drive.wheel_radius.value
-    return mixed((linear, angular), lambda v, w: (v + w * arm) / radius if radius else 0.0)
+    return mix_lines((linear, angular), lambda v, w: (v + w * arm) / radius if radius else 0.0)
 
 
 # Ackermann steering, as Gazebo's AckermannSteering does it: from the figures that it is given.
@@ -133,12 +133,12 @@ def plan_ackermann(robot: Robot, locomotion: Locomotion) -> Plan:
         kind=locomotion.kind.value,
         legs=legs,
         linear=ahead,
-        angular=mixed((ahead, curve), lambda v, k: v * k, _GRID),
+        angular=mix_lines((ahead, curve), lambda v, k: v * k, _GRID),
         speeds=speeds,
         places=places,
         wheels=tuple(wheels.values()),
-        speed_limit=stated(linear.fastest),
-        acceleration_limit=stated(linear.speeding),
+        speed_limit=finite_limit(linear.fastest),
+        acceleration_limit=finite_limit(linear.speeding),
         turns_in_place=False,
     )
 
@@ -184,7 +184,7 @@ def _within_reach(drive: WheelDrive, curve: Knots) -> Knots:
     base = abs(_number(drive.wheel_base, _USUAL_BASE)) or _USUAL_BASE
     limit = min(max(_number(drive.steering_limit, _USUAL_LIMIT), 0.0), math.pi / 2)
     tightest = math.sin(limit) / base
-    return mixed((curve,), lambda k: max(-tightest, min(k, tightest)), _GRID)
+    return mix_lines((curve,), lambda k: max(-tightest, min(k, tightest)), _GRID)
 
 
 def _speeds(drive: WheelDrive, ahead: Knots, curve: Knots) -> dict[str, Knots]:
@@ -200,7 +200,7 @@ def _speeds(drive: WheelDrive, ahead: Knots, curve: Knots) -> dict[str, Knots]:
         def speed(v: float, k: float, arm: float = arm, base: float = base) -> float:
             return v * (1.0 + arm * k) * math.hypot(1.0, base * k) / radius if radius else 0.0
 
-        speeds[wheel.joint.scoped_name] = mixed((ahead, curve), speed, _GRID)
+        speeds[wheel.joint.scoped_name] = mix_lines((ahead, curve), speed, _GRID)
     return speeds
 
 
@@ -213,4 +213,4 @@ def _angles(drive: WheelDrive, curve: Knots) -> Iterator[tuple[str, Knots]]:
         def angle(k: float, arm: float = arm) -> float:
             return math.atan2(base * k, 1.0 + arm * k)
 
-        yield joint.scoped_name, mixed((curve,), angle, _GRID)
+        yield joint.scoped_name, mix_lines((curve,), angle, _GRID)

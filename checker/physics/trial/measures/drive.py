@@ -136,7 +136,7 @@ def _drift(motion: Motion, leg: Leg, centre: Array) -> float:
     """Return how far the middle of the wheels comes from where it was, metres."""
     import numpy as np
 
-    during = motion.during(leg)
+    during = motion.samples_during(leg)
     places = motion.position[during] + motion.rotation[during] @ np.array((*centre, 0.0))
     return float(np.hypot(*(places - places[0])[:, :2].T).max())
 
@@ -175,7 +175,7 @@ def measure_drive(motion: Motion) -> Iterator[Measurement]:
 
 
 def _straight(motion: Motion, leg: Leg) -> Iterator[Measurement]:
-    during, steady = motion.during(leg), motion.last(leg, _STEADY)
+    during, steady = motion.samples_during(leg), motion.last(leg, _STEADY)
     commands = [value_at(motion.plan.linear, time) for time in motion.time[steady]]
     commanded = sum(commands) / len(commands)
     if commanded > 0.0:
@@ -201,13 +201,13 @@ def _stops(motion: Motion) -> Iterator[Measurement]:
     if left:
         yield Measurement("stop_speed", max(*left, 0.0))
     for leg in stops[:1]:
-        place = motion.position[motion.during(leg)]
+        place = motion.position[motion.samples_during(leg)]
         yield Measurement("stop_distance", float(np.hypot(*(place[-1] - place[0])[:2])))
 
 
 def _full_speed(motion: Motion, leg: Leg) -> Iterator[Measurement]:
-    speeds = motion.forward[motion.during(leg)]
-    times = motion.time[motion.during(leg)]
+    speeds = motion.forward[motion.samples_during(leg)]
+    times = motion.time[motion.samples_during(leg)]
     step = float(times[1] - times[0])
     apart = max(round(_STRETCH / step), 1)
     gained = (speeds[apart:] - speeds[:-apart]) / (apart * step)

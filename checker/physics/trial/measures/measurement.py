@@ -49,7 +49,7 @@ def _hover(motion: Motion) -> Iterator[Measurement]:
     effort = motion.run.hover_effort
     if effort is not None:
         yield Measurement("hover_effort", effort)
-    heights = motion.position[motion.during(leg)][:, 2]
+    heights = motion.position[motion.samples_during(leg)][:, 2]
     end = motion.last(leg, _END)
     yield Measurement("hover_sink", float(heights[0] - heights[-20:].mean()))
     yield Measurement("hover_tilt", float(motion.tilt[end].max()))
@@ -106,7 +106,7 @@ def measure_energy(motion: Motion) -> Iterator[Measurement]:
 
 
 def _undriven(motion: Motion, leg: Leg) -> slice:
-    return motion.during(leg) if leg.name == SETTLE else motion.last(leg, _AFTER_STOP)
+    return motion.samples_during(leg) if leg.name == SETTLE else motion.last(leg, _AFTER_STOP)
 
 
 # What the drive wheels carry at rest.
@@ -142,7 +142,7 @@ def measure_hold(motion: Motion) -> Iterator[Measurement]:
     leg = motion.leg(HOLD)
     if leg is None:
         return
-    during, end = motion.during(leg), motion.last(leg, _HELD)
+    during, end = motion.samples_during(leg), motion.last(leg, _HELD)
     sags = np.abs(np.array(motion.run.samples.joints)[end] - motion.run.rig.initial).max(axis=0)
     if sags.size:
         # Of joints that give way alike the first is named, mostly whatever the last digits say.
@@ -167,7 +167,7 @@ def measure_settle(motion: Motion) -> Iterator[Measurement]:
     leg = motion.leg(SETTLE)
     if leg is None:
         return
-    during, rest = motion.during(leg), motion.last(leg, _SETTLED)
+    during, rest = motion.samples_during(leg), motion.last(leg, _SETTLED)
     place = motion.position[during]
     heights = place[:, 2] - place[0, 2]
     yield Measurement("settle_drop", float(-heights.min()))
@@ -192,7 +192,7 @@ _MEASURES = (
 )
 
 
-def measured(motion: Motion) -> Iterator[Measurement]:
+def measure_motion(motion: Motion) -> Iterator[Measurement]:
     """Yield the figures of a run; those that are no finite numbers are none."""
     for measure in _MEASURES:
         for measurement in measure(motion):

@@ -66,20 +66,20 @@ class Motion:
         self.forward = np.einsum("ij,ij->i", self.velocity, self.rotation[:, :, 0])
         self.contacts = self.run.contacts.touches(self.run.rig)
 
-    def between(self, start: float, end: float) -> slice:
+    def samples_between(self, start: float, end: float) -> slice:
         """Return the samples of a stretch of time, seconds, its end excluded."""
         import numpy as np
 
         first, behind = np.searchsorted(self.time, (start - _SLACK, end - _SLACK))
         return slice(int(first), int(behind))
 
-    def during(self, leg: Leg) -> slice:
+    def samples_during(self, leg: Leg) -> slice:
         """Return the samples of a leg."""
-        return self.between(leg.start, leg.end)
+        return self.samples_between(leg.start, leg.end)
 
     def last(self, leg: Leg, seconds: float) -> slice:
         """Return the samples of the end of a leg."""
-        return self.between(max(leg.end - seconds, leg.start), leg.end)
+        return self.samples_between(max(leg.end - seconds, leg.start), leg.end)
 
     def leg(self, name: str) -> Leg | None:
         """Return a leg that was driven to its end; None without."""
@@ -145,7 +145,7 @@ def replay_of(run: Run) -> Replay | None:
     return Replay(tuple(samples.time[:end]), moving, carriers)
 
 
-def too_many(scene: Scene) -> Iterator[str]:
+def excess_links(scene: Scene) -> Iterator[str]:
     """Say so where more links move than are kept."""
     if scene.welded and not carriers_of(scene):
         yield f"more than {TRACKED} links move, so there is no replay of the trial"

@@ -15,7 +15,14 @@ from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.physics.trial.mjcf.names import FAR, bounded, numbers, placed, usable, well_placed
+from checker.physics.trial.mjcf.names import (
+    FAR,
+    clamp,
+    is_finite_pose,
+    numbers,
+    pose_attributes,
+    usable,
+)
 from checker.physics.trial.mjcf.repairs import Ledger
 
 # The friction of a collision, as far as MuJoCo can have it: one coefficient in all directions.
@@ -35,10 +42,10 @@ def sliding_friction(
 
     MuJoCo has no friction directions of a shape's own: the first coefficient counts.
     """
-    stated = reader.of(link, collision)
+    stated = reader.friction_of(link, collision)
     mu = stated.first.value if stated.first is not None else _DEFAULT
     other = stated.second.value if stated.second is not None else mu
-    taken = bounded(mu, 0.0, MOST, _DEFAULT)
+    taken = clamp(mu, 0.0, MOST, _DEFAULT)
     if abs(min(other, MOST) - min(mu, MOST)) > _ALIKE * max(mu, _ALIKE):
         ledger.note(
             f"Friction is {mu:g} in its first direction and {other:g} in its second; the trial "
@@ -48,7 +55,7 @@ def sliding_friction(
     return taken
 
 
-def touches(collision: Collision) -> bool:
+def is_solid(collision: Collision) -> bool:
     """Return whether a collision pushes what it touches, and not only feels it."""
     surface = collision.element.child("surface")
     contact = surface.child("contact") if surface is not None else None
@@ -88,7 +95,7 @@ class Geom(Record):
     @property
     def mjcf(self) -> str:
         """All attributes but names and friction."""
-        return f"{self.shape} {placed(self.pose)}"
+        return f"{self.shape} {pose_attributes(self.pose)}"
 
 
 @dataclass
@@ -105,7 +112,7 @@ class GeomReader:
     ledger: Ledger
     assets: dict[Points, str] = field(default_factory=dict)
 
-    def of(self, link: Link, collision: Collision) -> Geom | None:
+    def geom_of(self, link: Link, collision: Collision) -> Geom | None:
         """Return a shape as MuJoCo can collide it; None where it is left out."""
         at, frame = self._pose_in_link(link, collision), self.poses[link.scoped_name]
         if at is None:
@@ -126,7 +133,7 @@ class GeomReader:
     def _pose_in_link(self, link: Link, collision: Collision) -> Transform | None:
         """Return where a shape is in its link's frame."""
         pose = self.robot.pose_in_link(link, collision.pose)
-        return pose if pose is not None and well_placed(pose) else None
+        return pose if pose is not None and is_finite_pose(pose) else None
 
     def _primitive(self, link: Link, collision: Collision) -> str:
         """Return `type` and `size`; nothing for what is left out."""
@@ -168,7 +175,7 @@ class GeomReader:
         """Return the part of a mesh that a collision picks; the whole one where that is unknown."""
         uri = collision.geometry.uri
         used = self.robot.mesh_of(collision)
-        whole = self.robot.scaled_meshes.of(uri) if uri is not None else None
+        whole = self.robot.scaled_meshes.load(uri) if uri is not None else None
         return whole if isinstance(used, MeshFault) else used
 
     def _leave_out(

@@ -11,10 +11,10 @@ from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.names import (
     LARGEST,
+    is_finite_pose,
     numbers,
     quaternion,
     usable,
-    well_placed,
 )
 from checker.physics.trial.mjcf.repairs import Ledger
 
@@ -168,7 +168,7 @@ def _mass_of(link: Link, ledger: Ledger) -> float:
 def _pose_of(robot: Robot, link: Link, stated: Pose) -> Transform | None:
     """Return where the centre of mass and its axes are in the link's frame."""
     pose = robot.pose_in_link(link, stated)
-    return pose if pose is not None and well_placed(pose) else None
+    return pose if pose is not None and is_finite_pose(pose) else None
 
 
 def _physical(moments: Rows, name: str, ledger: Ledger) -> Rows:

@@ -10,7 +10,7 @@ from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.physics.mass.mechanism import AXES, Freedom, Motion, motions_of
-from checker.physics.trial.mjcf.names import LARGEST, bounded, numbers
+from checker.physics.trial.mjcf.names import LARGEST, clamp, numbers
 from checker.physics.trial.mjcf.repairs import Ledger
 
 _KINDS = {Freedom.TURN: "hinge", Freedom.SLIDE: "slide", Freedom.BALL: "ball"}
@@ -118,7 +118,7 @@ def _range(name: str, axis: Axis, ledger: Ledger) -> tuple[float, float] | None:
 
 def _resistance(value: float) -> float:
     """Return a coefficient that resists motion; one that would drive it counts as none."""
-    return bounded(value, 0.0, LARGEST, 0.0)
+    return clamp(value, 0.0, LARGEST, 0.0)
 
 
 def _spring_reference(joint: Joint, number: int) -> float:
@@ -127,4 +127,4 @@ def _spring_reference(joint: Joint, number: int) -> float:
     for tag in ("dynamics", "spring_reference"):
         element = element.child(tag) if element is not None else None
     value = parse_number(element.text.value.strip()) if element is not None else None
-    return bounded(math.nan if value is None else value, -_ENDLESS, _ENDLESS, 0.0)
+    return clamp(math.nan if value is None else value, -_ENDLESS, _ENDLESS, 0.0)

@@ -12,10 +12,10 @@ from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
-from checker.physics.trial.mjcf.geoms import Geom, GeomReader, sliding_friction, touches
+from checker.physics.trial.mjcf.geoms import Geom, GeomReader, is_solid, sliding_friction
 from checker.physics.trial.mjcf.inertials import BodyInertia, inertia_of, thickened
 from checker.physics.trial.mjcf.joints import degrees_of
-from checker.physics.trial.mjcf.names import Names, numbers, placed, well_placed
+from checker.physics.trial.mjcf.names import Names, is_finite_pose, numbers, pose_attributes
 from checker.physics.trial.mjcf.repairs import Ledger
 
 # The links of a robot as trees that MuJoCo can nest: each link hangs on one other at most.
@@ -32,7 +32,7 @@ class Forest(Record, eq=False, dict=True):
         return self.spanning_tree.order
 
     @cached_property
-    def below(self) -> dict[str, list[str]]:
+    def children(self) -> dict[str, list[str]]:
         """Which links hang on each link, and on the world."""
         below: dict[str, list[str]] = {}
         for name in self.order:
@@ -61,7 +61,7 @@ class Forest(Record, eq=False, dict=True):
         while waiting:
             name = waiting.pop()
             yield name
-            waiting.extend(self.below.get(name, []))
+            waiting.extend(self.children.get(name, []))
 
 
 class Layout:
@@ -106,7 +106,7 @@ class Layout:
         return min(heights, default=0.0)
 
     @property
-    def tied(self) -> tuple[tuple[str, str], ...]:
+    def jointed_pairs(self) -> tuple[tuple[str, str], ...]:
         """Pairs of links that others move with and that a joint lets move against each other."""
         pairs: dict[tuple[str, str], None] = {}
         for tie in self.robot.tree.ties:
@@ -125,9 +125,9 @@ class Layout:
         self, link: Link, reader: GeomReader, friction: FrictionReader
     ) -> Iterator[tuple[Geom, float]]:
         for collision in link.collisions:
-            if not touches(collision):
+            if not is_solid(collision):
                 self.ledger.note("A collision is set to touch nothing", link.scoped_name)
-            elif (geom := reader.of(link, collision)) is not None:
+            elif (geom := reader.geom_of(link, collision)) is not None:
                 yield geom, sliding_friction(friction, link, collision, self.ledger)
 
     def _inertias(self) -> dict[str, BodyInertia]:
@@ -145,7 +145,7 @@ class Layout:
         poses: dict[str, Transform] = {}
         for name in self.forest.order:
             pose = self.robot.pose_of(name)
-            if pose is None or not well_placed(pose):
+            if pose is None or not is_finite_pose(pose):
                 base = self.forest.base(name)
                 pose = poses[base] if base is not None else Transform()
                 where = "the pose of its parent link" if base is not None else "the origin"
@@ -225,14 +225,14 @@ class BodyWriter:
             start = lift if base is None else poses[base].inverse
             lines.extend(self._opened(name, start @ poses[name]))
             waiting.append(None)
-            waiting.extend(reversed(forest.below.get(name, [])))
+            waiting.extend(reversed(forest.children.get(name, [])))
         return "\n".join(lines)
 
     def _opened(self, name: str, pose: Transform) -> Iterator[str]:
         """Yield a body and what is in it, all but the bodies below and the end."""
         link = self.layout.robot.tree.links[name]
         weightless = "" if link.gravity.value else ' gravcomp="1"'
-        yield f'<body name="{self.names.body(name)}" {placed(pose)}{weightless}>'
+        yield f'<body name="{self.names.body(name)}" {pose_attributes(pose)}{weightless}>'
         yield from self._joints(name)
         yield self.layout.inertias[name].mjcf
         yield from self._geoms(name)
@@ -251,7 +251,7 @@ class BodyWriter:
         own = self.names.joint(joint, ball=degrees[0].kind == "ball")
         inverse = self.layout.poses[name].inverse
         at = self.layout.robot.pose_of_joint(tie.joint)
-        known = at is not None and well_placed(at)
+        known = at is not None and is_finite_pose(at)
         anchor = inverse.apply(at.translation) if at is not None and known else (0.0, 0.0, 0.0)
         for degree, mj in zip(degrees, (own, f"{own}_2"), strict=False):
             axis = Transform(inverse.rotation).rotate(degree.axis)

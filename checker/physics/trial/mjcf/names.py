@@ -24,7 +24,7 @@ def usable(value: float, largest: float = LARGEST) -> bool:
     return abs(value) <= largest
 
 
-def bounded(value: float, low: float, high: float, default: float) -> float:
+def clamp(value: float, low: float, high: float, default: float) -> float:
     """Return a number within bounds; the default for NaN."""
     return default if math.isnan(value) else min(max(value, low), high)
 
@@ -34,12 +34,12 @@ def numbers(values: Iterable[float]) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def placed(pose: Transform) -> str:
+def pose_attributes(pose: Transform) -> str:
     """Return the attributes that pose a body or geom."""
     return f'pos="{numbers(pose.translation)}" quat="{numbers(quaternion(pose.rotation))}"'
 
 
-def well_placed(pose: Transform) -> bool:
+def is_finite_pose(pose: Transform) -> bool:
     """Return whether a pose is of finite numbers, within `FAR`."""
     turns = [number for row in pose.rotation for number in row]
     return all(usable(number, FAR) for number in pose.translation) and all(

@@ -180,7 +180,7 @@ def build_scene(
         actuators=names.actuators,
         belts=names.belts,
         welded=layout.welded,
-        tied=layout.tied,
+        tied=layout.jointed_pairs,
         swept=swept_joints(robot, names.joints),
         repairs=tuple(ledger.repairs),
         notes=ledger.notes,

@@ -171,7 +171,7 @@ def overlaps(scene: Scene) -> tuple[Measurement, ...]:
     """
     query = ContactQuery(scene)
     at_start = query.depths()
-    swept = query.swept(already=at_start)
+    swept = query.swept_overlaps(already=at_start)
     left_out = (Measurement("unswept_joints", float(query.unswept)),) if query.unswept else ()
     overlapping = (*_measured("start_overlap", at_start), *_measured("sweep_overlap", swept))
     return (*overlapping, *left_out)
@@ -188,7 +188,7 @@ class ContactQuery:
     """Which parts of a robot are inside each other, in poses of its joints.
 
     Attributes:
-        unswept: Joints that `swept` left out: with so many shapes it would take too long.
+        unswept: Joints that `swept_overlaps` left out: with so many shapes it would take too long.
     """
 
     scene: Scene
@@ -226,7 +226,7 @@ class ContactQuery:
                 deepest[pair] = max(deepest.get(pair, 0.0), -distance)
         return deepest
 
-    def swept(self, already: Mapping[Pair, float]) -> dict[Pair, float]:
+    def swept_overlaps(self, already: Mapping[Pair, float]) -> dict[Pair, float]:
         """Return the deepest overlaps while one joint after another moves and all else rests.
 
         Args:

@@ -41,7 +41,9 @@ class Allocation(Record):
     weight: float
 
     @classmethod
-    def of(cls, rotors: Sequence[PlannedRotor], centre: Array, weight: float) -> Allocation:
+    def from_rotors(
+        cls, rotors: Sequence[PlannedRotor], centre: Array, weight: float
+    ) -> Allocation:
         """Compute the shares.
 
         Args:
@@ -61,7 +63,7 @@ class Allocation(Record):
         lift = effect[2:]
         # Least squares of shares, not of newtons: a weak rotor is asked for less.
         steer = most[:, None] * np.linalg.pinv(lift * most, rcond=1e-9)
-        hover = balanced(lift * most, np.array((weight, 0.0, 0.0, 0.0)))
+        hover = balanced_shares(lift * most, np.array((weight, 0.0, 0.0, 0.0)))
         return cls(effect, most, gain, hover, steer, weight)
 
     def thrusts(self, lift: float, torque: Array) -> Array:
@@ -80,7 +82,7 @@ class Allocation(Record):
         thrusts: Array = carrying + self.steer @ np.array((0.0, *torque))
         return thrusts
 
-    def given(self, thrusts: Array) -> Array:
+    def delivered_thrusts(self, thrusts: Array) -> Array:
         """Return the thrusts that come when these are asked for, N."""
         import numpy as np
 
@@ -93,7 +95,7 @@ class Allocation(Record):
         return both[:3], both[3:]
 
 
-def balanced(effect: Array, wanted: Array) -> Array | None:
+def balanced_shares(effect: Array, wanted: Array) -> Array | None:
     """Return the shares s ≥ 0 with effect · s = wanted whose largest is the least; None without.
 
     A linear program: least squares would ask too much of the weakest arm of a hexacopter.
@@ -159,7 +161,7 @@ class Pilot:
         position, rotation = self.rig.pose()
         self.heading = rotation[:2, 0] / max(np.hypot(*rotation[:2, 0]), 1e-9)
         self.inertia = self._inertia(rotation)
-        self.allocation = Allocation.of(
+        self.allocation = Allocation.from_rotors(
             self.plan.rotors, rotation.T @ (self.goal - position), self.weight
         )
         hover = self.allocation.hover
@@ -185,7 +187,7 @@ class Pilot:
         thrusts = self.allocation.thrusts(
             float(push @ rotation[:, 2]), self._twist(push, rotation, motion[:3])
         )
-        given = self.allocation.given(thrusts)
+        given = self.allocation.delivered_thrusts(thrusts)
         forces, torques = self.allocation.wrench(given)
         data.qfrc_applied[:] = 0.0
         force, torque = rotation @ forces, rotation @ torques

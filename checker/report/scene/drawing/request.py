@@ -12,7 +12,7 @@ from msgspec import to_builtins
 from checker.base.record import Record
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface, surface_to_json
-from checker.physics.trial.mjcf.names import quaternion, well_placed
+from checker.physics.trial.mjcf.names import is_finite_pose, quaternion
 from checker.report.scene.scene import DisplayScene, Item, Layer
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Camera(Record):
         return members
 
 
-def framed(points: Array, azimuth: float, elevation: float, aspect: float) -> Camera:
+def camera_framing(points: Array, azimuth: float, elevation: float, aspect: float) -> Camera:
     """Return the nearest camera of a direction that sees all points.
 
     Args:
@@ -192,7 +192,7 @@ def _is_sound(item: Item) -> bool:
     import numpy as np
 
     corners = [surface.vertices for surface in item.surfaces if len(surface.vertices)]
-    if not corners or not well_placed(item.pose):
+    if not corners or not is_finite_pose(item.pose):
         return False
     largest = max(float(np.abs(corner).max()) for corner in corners) * max(map(abs, item.scale))
     return 0.0 < largest < _FARTHEST

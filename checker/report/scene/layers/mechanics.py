@@ -12,9 +12,17 @@ from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Rotation, Transform, Vector
 from checker.physics.mass.inertia import moments_of
 from checker.physics.mesh.surface import Colour, Surface
-from checker.physics.trial.mjcf.names import FAR, usable, well_placed
+from checker.physics.trial.mjcf.names import FAR, is_finite_pose, usable
 from checker.report.scene.mesh_files import short
-from checker.report.scene.primitives import bar, box, joined, revolved, sphere, tapered, tube
+from checker.report.scene.primitives import (
+    bar,
+    box,
+    cone_profile,
+    merge_surfaces,
+    revolve,
+    sphere,
+    tube,
+)
 from checker.report.scene.scene import Item, Layer
 from checker.report.scene.shapes import turn_to
 from checker.report.scene.shown_robot import Hung, Showing
@@ -41,7 +49,7 @@ def joints(showing: Showing) -> Hung:
         for surfaces, direction, share in _marks(showing, tie.joint):
             turned = Transform(turn_to(to_child.rotate(direction)))
             place = Transform(turned.rotation, to_child.apply(frame.translation))
-            if well_placed(place):
+            if is_finite_pose(place):
                 size = share * _ARROW_SHARE * showing.size
                 yield (
                     tie.child,
@@ -69,7 +77,7 @@ def _marks(showing: Showing, joint: Joint) -> Iterator[tuple[tuple[Surface, ...]
 
 @cache
 def _arrow() -> tuple[Surface, ...]:
-    shaft, head = revolved(tube(_SHAFT, 0.0, _NECK)), revolved(tapered(_HEAD, _NECK, 1.0))
+    shaft, head = revolve(tube(_SHAFT, 0.0, _NECK)), revolve(cone_profile(_HEAD, _NECK, 1.0))
     return (replace(shaft, colour=_YELLOW), replace(head, colour=_YELLOW))
 
 
@@ -214,4 +222,4 @@ def _whole(
 def _cross() -> tuple[Surface, ...]:
     ends = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     bars = [bar([-number for number in end], end, _WIDTH) for end in ends]
-    return (replace(joined(bars), colour=_RED),)
+    return (replace(merge_surfaces(bars), colour=_RED),)

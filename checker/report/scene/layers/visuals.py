@@ -15,7 +15,7 @@ from checker.model.robot import Robot
 from checker.model.values import ValueReader
 from checker.physics.mesh.surface import Colour, Surface
 from checker.report.scene.scene import Item, Layer
-from checker.report.scene.shapes import drawn
+from checker.report.scene.shapes import triangulate
 from checker.report.scene.shown_robot import Hung, Showing
 from checker.source.xml import Element
 
@@ -30,7 +30,7 @@ def collisions(showing: Showing) -> Hung:
     for link in showing.links:
         for collision in link.collisions:
             shape, place = (
-                drawn(showing, collision),
+                triangulate(showing, collision),
                 showing.placed(link, collision, collision.pose),
             )
             if shape is not None and place is not None:
@@ -65,7 +65,7 @@ class Paint:
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
 
-    def painted(self, visual: Visual, surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
+    def paint(self, visual: Visual, surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
         """Return surfaces as a visual shows them: in its own colour, else as they are."""
         colour = self._colour(visual)
         clear = ValueReader().number(visual.element, "transparency", 0.0).value
@@ -154,7 +154,7 @@ def visuals(showing: Showing) -> Hung:
     paint = Paint(showing.robot)
     for link in showing.links:
         for visual in link.visuals:
-            shape, place = drawn(showing, visual), showing.placed(link, visual, visual.pose)
+            shape, place = triangulate(showing, visual), showing.placed(link, visual, visual.pose)
             if shape is not None and place is not None:
                 yield (
                     link.scoped_name,
@@ -163,7 +163,7 @@ def visuals(showing: Showing) -> Hung:
                         visual.name.value,
                         visual.element.path,
                         place @ shape.turn,
-                        paint.painted(visual, shape.surfaces),
+                        paint.paint(visual, shape.surfaces),
                         shape.scale,
                     ),
                 )

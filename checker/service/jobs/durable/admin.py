@@ -12,7 +12,7 @@ from checker.base.errors import CheckerError
 from checker.base.record import Record
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.receipts import key_of_check
-from checker.service.jobs.durable.stages import patiently
+from checker.service.jobs.durable.stages import retry_until_answered
 from checker.service.jobs.durable.tasks import Row, state_of
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, Stage, State
@@ -53,7 +53,7 @@ class Admin(Record):
     checks: Checks
     workers: Workers
 
-    def listed(self) -> Iterator[Listed]:
+    def list_checks(self) -> Iterator[Listed]:
         """Yield the checks that wait, run or have failed, those first that were ordered first."""
         known, over = set[str](), set[str]()
         for row in self.checks.all_rows():
@@ -91,7 +91,7 @@ class Admin(Record):
         [first, *others] = self.checks.rows([key])[key]
         self.checks.client.delete_workflows([row.task.id for row in others])
         # The first row holds what was asked for: it stays, whatever happens now.
-        patiently(lambda: self.checks.again(replace(first.task, end=None), _FAILED))
+        retry_until_answered(lambda: self.checks.retry(replace(first.task, end=None), _FAILED))
 
     def drain(self, names: Sequence[str]) -> Sequence[str]:
         """Have workers end when what they have in hand is finished, and return their names.
@@ -102,7 +102,7 @@ class Admin(Record):
         Raises:
             CheckerError: None of that name is alive.
         """
-        living = self.workers.living(SILENCE_SECONDS)
+        living = self.workers.live_workers(SILENCE_SECONDS)
         for name in names:
             if not any(_is_called(each, name) for each in living):
                 them = ", ".join(sorted(living)) or "none"

@@ -84,7 +84,7 @@ class Checks(Record):
         ):
             self.client.enqueue_in_transaction(connection, options, to_builtins(task))
 
-    def again(self, task: Task, reason: str) -> None:
+    def retry(self, task: Task, reason: str) -> None:
         """Have a task tried again later, or given up."""
         pause = 0.0 if task.number >= TRIES else self.pauses[task.number - 1]
         self.enter(replace(task, number=task.number + 1, reason=reason), pause)
@@ -104,7 +104,7 @@ class Checks(Record):
             if each.queue_name == KNOWN:
                 self.client.resume_workflow(each.workflow_id, queue_name=KNOWN)
                 continue
-            self.again(row_of(each).task, WORKER_ENDED)
+            self.retry(row_of(each).task, WORKER_ENDED)
             self.client.cancel_workflow(each.workflow_id)
         return sorted({each.executor_id or "" for each in lost})
 
@@ -157,7 +157,7 @@ class Checks(Record):
         )
         return {name: counted[name] for name in (*_QUEUES, "")}
 
-    def ahead(self, task: Task) -> int:
+    def count_ahead(self, task: Task) -> int:
         """Return how many tasks probably come before one that waits; 0 if it does not wait.
 
         Whose turn is next among senders is drawn, with shorter tasks first within each: so many of

@@ -14,7 +14,7 @@ from checker.base.record import Record
 from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, reachable
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.pulse import watch
 from checker.service.jobs.durable.receipts import digest_of_secret, key_of_check, receipt_for
 from checker.service.jobs.durable.senders import Senders
@@ -96,7 +96,7 @@ class DurableJobs(Record):
             state = state_of(id, rows)
             if state is None or state.stage.is_final or rows[-1].begun:
                 return state
-            return replace(state, ahead=self.checks.ahead(rows[-1].task))
+            return replace(state, ahead=self.checks.count_ahead(rows[-1].task))
 
     def events(self, after: Mapping[str, int]) -> Mapping[str, Sequence[Event]]:
         """Return what has happened to checks, of each behind the number of an event.
@@ -168,7 +168,7 @@ class DurableJobs(Record):
     def alive(self) -> Alive:
         """Return what is known of the engine."""
         with reachable():
-            silence, layers = Workers(self.checks.engine).known()
+            silence, layers = Workers(self.checks.engine).worker_states()
             waiting = dict(self.checks.waiting())
         running = waiting.pop("")
         return Alive(silence, waiting, running, layers)
@@ -201,4 +201,4 @@ def durable_jobs(
     engine = open_database(database_url)
     if engine.dialect.name == "postgresql":
         watch(engine)
-    return DurableJobs(prepared(engine), Senders(engine), store, retention_days)
+    return DurableJobs(prepare_database(engine), Senders(engine), store, retention_days)

@@ -115,7 +115,7 @@ def client_of(engine: sa.Engine) -> DBOSClient:
     """Return what asks DBOS's tables; where the database is away, it fails at once."""
     from dbos import DBOSClient, DBOSPortableJSONSerializer
 
-    quiet()
+    configure_logging()
     return DBOSClient(
         system_database_engine=engine,
         dbos_system_schema=SCHEMA,
@@ -126,7 +126,7 @@ def client_of(engine: sa.Engine) -> DBOSClient:
     )
 
 
-def quiet() -> None:
+def configure_logging() -> None:
     """Have DBOS log by the handlers of this process, and what is amiss alone."""
     logger = logging.getLogger("dbos")
     logger.setLevel(logging.WARNING)

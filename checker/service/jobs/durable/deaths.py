@@ -8,7 +8,7 @@ from time import monotonic
 
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.workers import Workers
-from checker.service.store.locks import forget, the_dead
+from checker.service.store.locks import dead_processes, forget
 from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)
@@ -48,15 +48,15 @@ class Deaths:
         When the database was away, or this machine slept, all workers have been silent: the first
         one that is back must not take the others for dead.
         """
-        if self._workers.beat(self._name):
+        if self._workers.record_heartbeat(self._name):
             self.drained.set()
         now = monotonic()
         if now - self._last > self._silence / 2.0:
             self._since = now
         self._last = now
-        living = self._workers.living(self._silence) | {self._name}
+        living = self._workers.live_workers(self._silence) | {self._name}
         steady = now - self._since >= self._silence
-        dead = the_dead(self._folder)
+        dead = dead_processes(self._folder)
         for name in self._checks.recover(
             lambda name: name in dead or (steady and name not in living)
         ):

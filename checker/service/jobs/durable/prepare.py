@@ -11,7 +11,7 @@ from checker.service.jobs.durable.database import (
     METADATA,
     SCHEMA,
     client_of,
-    quiet,
+    configure_logging,
     reachable,
 )
 from checker.service.jobs.durable.receipts import key_of_check
@@ -32,7 +32,7 @@ _KEY_LENGTH = 64
 """Of a digest; version 0.1.0 wrote ids, which are shorter."""
 
 
-def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
+def prepare_database(engine: sa.Engine, trials: int = 0) -> Checks:
     """Return the checks of a database, with all tables made; many may do so at once.
 
     Args:
@@ -44,7 +44,7 @@ def prepared(engine: sa.Engine, trials: int = 0) -> Checks:
     """
     from dbos import DBOS
 
-    quiet()
+    configure_logging()
     with reachable():
         with engine.begin() as connection:  # the first on SQLite sets how it writes
             _lock(connection)

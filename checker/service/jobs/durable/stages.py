@@ -89,14 +89,14 @@ class Stages(Record):
         match outcome:
             case Cancelled():
                 if self.hand_back.is_set():
-                    patiently(lambda: self.checks.hand_back(task))
+                    retry_until_answered(lambda: self.checks.hand_back(task))
             case Disturbed(reason):
                 _LOG.warning("to be tried again: %s", reason, extra=_about(task))
-                patiently(lambda: self.checks.again(task, reason))
+                retry_until_answered(lambda: self.checks.retry(task, reason))
             case Checked() if task.stage is Stage.STATIC:
                 cost = _TRIAL_SECONDS + _TRIAL_SHARE * (time.monotonic() - begun)
                 trial = _trial_after(task, outcome, cost)
-                patiently(lambda: self.checks.enter(trial))
+                retry_until_answered(lambda: self.checks.enter(trial))
             case Checked():
                 return End(Stage.DONE, outcome.words, outcome.key, outcome.packages)
             case Refused(reason):
@@ -137,7 +137,7 @@ def _trial_after(task: Task, outcome: Checked, cost: float) -> Task:
     )
 
 
-def patiently(ask: Callable[[], _T]) -> _T:
+def retry_until_answered(ask: Callable[[], _T]) -> _T:
     """Ask the database until it answers: the result of minutes of work is not thrown away."""
     is_away = False
     while True:

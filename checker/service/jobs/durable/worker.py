@@ -21,7 +21,7 @@ from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.database import APPLICATION, SCHEMA, open_database, reachable
 from checker.service.jobs.durable.deaths import Deaths
-from checker.service.jobs.durable.prepare import prepared
+from checker.service.jobs.durable.prepare import prepare_database
 from checker.service.jobs.durable.retention import UNUSED_SECONDS, Retention
 from checker.service.jobs.durable.stages import Stages
 from checker.service.jobs.durable.tasks import KNOWN, PAUSES, STAGES
@@ -29,7 +29,7 @@ from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.service.jobs.sandbox import layers_of_checks
 from checker.service.logs import log_to_stderr
-from checker.service.store.locks import living
+from checker.service.store.locks import hold_lock
 from checker.service.store.store import Store
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
         JobsUnreachable: The database does not answer at the start.
     """
     engine = open_database(options.database_url)
-    checks = replace(prepared(engine, options.trials), pauses=options.pauses)
+    checks = replace(prepare_database(engine, options.trials), pauses=options.pauses)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
     # DBOS would take up by itself what a worker of the same name had in hand: no try were counted.
@@ -96,7 +96,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     retention = Retention(checks, options.store, options.unused_seconds)
     # What every result depends on takes 0.1 s to look through: now no upload waits for it.
     program_parts()
-    with living(options.store.workers, name):
+    with hold_lock(options.store.workers, name):
         deaths = Deaths(checks, workers, options.store, name, options.silence_seconds)
         with reachable():
             deaths.look()

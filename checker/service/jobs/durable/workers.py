@@ -34,7 +34,7 @@ class Workers(Record):
     engine: sa.Engine
     layers: Sequence[Layer] = ()
 
-    def beat(self, worker: str) -> bool:
+    def record_heartbeat(self, worker: str) -> bool:
         """Show a sign of life; return whether this worker is to end."""
         layers = [to_builtins(layer) for layer in self.layers]
         alive = {"beat": now(self.engine), "layers": layers}
@@ -51,7 +51,7 @@ class Workers(Record):
             theirs = sa.update(WORKERS).where(WORKERS.c.name.in_(names))
             connection.execute(theirs.values(drains=True))
 
-    def living(self, silence: float) -> set[str]:
+    def live_workers(self, silence: float) -> set[str]:
         """Return who has been silent for less than `silence` seconds."""
         fresh = WORKERS.c.beat > now(self.engine) - silence
         with self.engine.connect() as connection:
@@ -68,7 +68,7 @@ class Workers(Record):
         with self.engine.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(silent))
 
-    def known(self) -> tuple[Mapping[str, float], Mapping[str, Sequence[Layer]]]:
+    def worker_states(self) -> tuple[Mapping[str, float], Mapping[str, Sequence[Layer]]]:
         """Return for how many seconds each worker has been silent, and its layers."""
         silence = (now(self.engine) - WORKERS.c.beat).label("silence")
         with self.engine.connect() as connection:

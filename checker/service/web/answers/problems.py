@@ -60,7 +60,7 @@ def _is_read_by_people(request: Request) -> bool:
     return opens and "text/html" in request.headers.get("accept", "")
 
 
-def say_no_by(app: FastAPI) -> None:
+def install_error_handlers(app: FastAPI) -> None:
     """Have an application answer by this module whatever goes wrong."""
     from fastapi.exceptions import RequestValidationError
 

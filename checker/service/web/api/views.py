@@ -52,7 +52,7 @@ async def event_stream(request: Request, services: Services, state: State, after
             return Response(status_code=204)
     with ExitStack() as place:
         place.enter_context(services.admission.stream(request))
-        check = place.enter_context(services.watchers.following(state.id))
+        check = place.enter_context(services.watchers.follow(state.id))
         if not check.last:
             await services.watchers.look([check])
         return EventStream(check.lines(after), place.pop_all())

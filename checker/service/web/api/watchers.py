@@ -97,7 +97,7 @@ class Watchers:
         return self._task is None
 
     @contextmanager
-    def following(self, id: str) -> Iterator[Followed]:
+    def follow(self, id: str) -> Iterator[Followed]:
         """Follow a check."""
         check = self._checks.setdefault(id, Followed(id))
         check.followers += 1

@@ -43,7 +43,7 @@ class Claim:
     written: int = 0
 
     @property
-    def to_come(self) -> int:
+    def bytes_to_come(self) -> int:
         """Bytes reserved that are not there yet, with those of the copy."""
         return max(_COPIES * self.reserved - self.written, 0)
 
@@ -100,7 +100,7 @@ class Space:
 
     def _refuse_beyond(self, claim: Claim, size: int) -> None:
         room = self._room()
-        others = sum(each.to_come for each in self._claims if each is not claim)
+        others = sum(each.bytes_to_come for each in self._claims if each is not claim)
         if room is not None and room < _COPIES * size - claim.written + others:
             raise no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 

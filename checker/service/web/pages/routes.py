@@ -13,7 +13,7 @@ from checker.package.archives.index import ArchiveLimits
 from checker.package.formats import single_file_suffixes
 from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.pages import about, escaped, parse_page
+from checker.rulebook.pages import escaped, group_description, parse_page
 from checker.rulebook.profiles import profile, profile_names
 from checker.rulebook.site import rule_blocks
 from checker.service.jobs.port import Stage, State
@@ -76,7 +76,7 @@ def rule_groups() -> tuple[RuleGroup, ...]:
     for letters, members in groupby(all_rules(), lambda rule: rule.group):
         rules = list(members)
         entries = tuple(rule_pages()[rule.id].entry for rule in rules)
-        groups.append(RuleGroup(letters, _line(about(rules)), entries))
+        groups.append(RuleGroup(letters, _line(group_description(rules)), entries))
     return tuple(groups)
 
 
@@ -190,7 +190,7 @@ class _Pages(Record):
             name=progress.title(state, packages),
             file=plain(state.order.name),
             final=state.stage.is_final,
-            mine=bool(receipts.kept(request)),
+            mine=bool(receipts.stored_secret(request)),
             headline=progress.headline(state, packages),
             steps=progress.steps_of(state, told.get(state.id, ())),
             packages=packages,
@@ -206,13 +206,13 @@ class _Pages(Record):
     def cancel(self, request: Request) -> Response:
         """End a check and go back to its page."""
         id = request.path_params["id"]
-        receipts.cancel(self.services, id, receipts.kept(request))
+        receipts.cancel(self.services, id, receipts.stored_secret(request))
         return _see_other(f"/checks/{id}")
 
     def ask_to_delete(self, request: Request) -> Response:
         """Ask whether a check is really to be deleted."""
         state = self.services.check(request.path_params["id"])
-        if not receipts.kept(request):
+        if not receipts.stored_secret(request):
             raise receipts.not_yours("delete its check")
         packages = progress.package_lines(state, ())
         name = progress.title(state, packages)
@@ -221,7 +221,7 @@ class _Pages(Record):
     def delete(self, request: Request) -> Response:
         """Delete a check, and say so: its own page is gone."""
         state = self.services.check(request.path_params["id"])
-        receipts.delete(self.services, state.id, receipts.kept(request))
+        receipts.delete(self.services, state.id, receipts.stored_secret(request))
         name = progress.title(state, progress.package_lines(state, ()))
         answer = html("delete.html.j2", name=name, deleted=True)
         receipts.take(answer, state.id)

@@ -10,7 +10,7 @@ from multipart import MultipartError, MultipartSegment, PushMultipartParser, par
 
 from checker.package.formats import single_file_suffixes
 from checker.package.inputs import ARCHIVE_SUFFIXES
-from checker.package.no_package import said_of_file
+from checker.package.no_package import reason_not_checked
 from checker.service.web.answers.refusal import Refused, sentence
 
 # Names that clients send, made safe; they are shown and tell the kind, and never become paths.
@@ -30,7 +30,7 @@ class UnknownKind(ValueError):
     """
 
     def __init__(self, name: str) -> None:
-        reason, advice = said_of_file(name)
+        reason, advice = reason_not_checked(name)
         known = ", ".join(SUFFIXES[:-1])
         ends = f"its name does not end in {known} or {SUFFIXES[-1]}"
         super().__init__(f"the file {reason}: {ends}")
@@ -175,7 +175,7 @@ class UploadForm:
         head, self._head = bytes(self._head or b""), None
         if not head:
             raise Refused(422, f"{self.name} is empty.", _WHAT_TO_SEND, "no file")
-        if expected := misfit(self.name, head[:HEAD]):
+        if expected := signature_mismatch(self.name, head[:HEAD]):
             message = f"{self.name} has the name of {expected}, but not its content."
             raise Refused(415, message, _WHAT_TO_SEND, "kind")
         return head
@@ -204,7 +204,7 @@ def _damaged(why: str) -> Refused:
     return Refused(400, f"The upload form cannot be read: {shown}.", _HOW_TO_SEND, "form")
 
 
-def misfit(name: str, head: bytes) -> str:
+def signature_mismatch(name: str, head: bytes) -> str:
     """Return what the file should begin with and does not; empty if it does.
 
     Args:

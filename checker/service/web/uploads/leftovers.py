@@ -21,7 +21,7 @@ SECONDS = 30.0
 _LOG = logging.getLogger(LOGGER)
 
 
-def swept(store: Store) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
+def sweep_while_serving(store: Store) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
     """Return what goes on beside an application as long as it serves.
 
     Args:

@@ -51,7 +51,7 @@ _SIGNS = (
 )
 
 
-class ToldTarget(Record):
+class DetectedTarget(Record):
     """What a package is made for, where its content says it.
 
     Attributes:
@@ -65,7 +65,7 @@ class ToldTarget(Record):
     reason: str = ""
 
 
-def told_target(package: Package, distro: str = "") -> ToldTarget:
+def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """Read what a package is made for.
 
     Gazebo Classic is told by a launch file, a plugin or a dependency that only Classic has, where
@@ -80,15 +80,15 @@ def told_target(package: Package, distro: str = "") -> ToldTarget:
     signs = package.simulator_signs
     if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
         reason = f"Gazebo Classic 11, {_SUPPORT}: {signs[CLASSIC]}"
-        return ToldTarget(True, _known_distribution(distro or _OLDEST), reason)
+        return DetectedTarget(True, _known_distribution(distro or _OLDEST), reason)
     if named is not None:
-        return ToldTarget(
+        return DetectedTarget(
             False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
         )
     if [*signs] == [IGNITION] and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
-        return ToldTarget(False, _OLDEST, reason)
-    return ToldTarget(False, distro)
+        return DetectedTarget(False, _OLDEST, reason)
+    return DetectedTarget(False, distro)
 
 
 def is_described_for_ros_2(package: Package) -> bool:
