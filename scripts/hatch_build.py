@@ -2,7 +2,10 @@
 
 A checkout has the packages `checker` and `rules`. A second `rules` in site-packages would be in the
 way of others (django-rules has one), so the wheel holds both as `subt_check`; the one thing that is
-changed in a file are its imports, so that lines of tracebacks stay.
+changed in a file are its imports, so that lines of tracebacks stay. So no string names a module in
+full (`f"{__package__}.worker"`), and imports are written `from … import`; tests check both. In a
+checkout, `subt_check.py` makes each module of `checker` importable as one of `subt_check`.
+`checker.base.resources` knows which layout it is.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ def _assert_fresh(name: str, expected: str, request: pytest.FixtureRequest) -> N
         assert part.group() == expected, "stale: pytest tests/test_docs.py --update-golden"
 
 
-@pytest.mark.parametrize(("document", "most"), [(README, 150)])
+@pytest.mark.parametrize(("document", "most"), [(README, 150), (ROOT / "ARCHITECTURE.md", 200)])
 def test_what_is_read_first_is_short(document: Path, most: int) -> None:
     assert len(document.read_text("utf-8").splitlines()) <= most
 
@@ -201,6 +201,14 @@ def test_the_way_of_a_finding_names_what_exists() -> None:
     assert len(links) > 30
     gone = [link for link in links if link[0] not in _defined(page.parent / link[1])]
     assert not gone
+
+
+def test_architecture_names_every_part_that_a_rule_needs() -> None:
+    section = (ROOT / "ARCHITECTURE.md").read_text("utf-8").partition("## A rule")[2]
+    rows = re.findall(r"^  \| (`.+?) \|", section.partition("\n## ")[0], re.MULTILINE)
+    listed = [name for row in rows for name in re.findall(r"\w+", row)]
+    needed = {re.split(r"\W", kind)[-1] for rule in OUR_RULES for kind in rule.needs.values()}
+    assert sorted(listed) == sorted(needed)
 
 
 def test_architecture_names_every_folder() -> None:
