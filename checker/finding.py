@@ -16,7 +16,7 @@ _LINE_NUMBER = re.compile(r"\bline \d+")
 
 
 def fingerprint(*parts: str) -> str:
-    """Return 16 hexadecimal digits that stand for these texts in this order."""
+    """Return 16 hexadecimal digits that represent these texts in this order."""
     return hashlib.sha256("\0".join(parts).encode(errors="surrogatepass")).hexdigest()[:16]
 
 

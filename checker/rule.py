@@ -225,7 +225,7 @@ class Rule(Record, dict=True):
 def rule(
     id: str, name: str, severity: Severity, concern: Concern, *, judges: tuple[str, ...] = ()
 ) -> Callable[[Check], Rule]:
-    """Make a rule of a function; the page is the docstring of the module it stands in.
+    """Make a rule of a function; the page is the docstring of its module.
 
     Args:
         id: Such as `SEN005`; never reused.

@@ -1,7 +1,7 @@
 """The rule kit: examples of rules, made into packages, and checked.
 
 An example is an XML fragment for model.sdf, or a mapping from paths to texts that change a minimal
-package: `None` removes a file, bytes are written as they are, `../other/…` lies in a sibling. Names
+package: `None` removes a file, bytes are written as they are, `../other/…` is in a sibling. Names
 with `@` mean:
 
 - `@fragment`: a fragment for model.sdf.

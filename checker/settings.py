@@ -1,6 +1,6 @@
 """Settings: what to check and how strictly, from files and from the command line.
 
-A package's settings stand in `subt-check.toml`, or below `[tool.subt-check]` in `pyproject.toml`,
+A package's settings are in `subt-check.toml`, or below `[tool.subt-check]` in `pyproject.toml`,
 in its own folder or in the nearest folder above that has one.
 """
 
@@ -351,7 +351,7 @@ def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
 
 
 def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
-    """Read a table of arguments; TOML's own numbers and truth values stand for their texts."""
+    """Read a table of arguments; TOML's own numbers and truth values represent their texts."""
     arguments: dict[str, str] = {}
     for name, given in _table("xacro-args", value, path).items():
         if not isinstance(given, str | int | float):

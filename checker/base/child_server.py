@@ -98,7 +98,7 @@ class Asked:
 
 
 class Server:
-    """Starts its process when it is first asked; one that has died is started anew."""
+    """Starts its process when it is first asked; one that has died is started again."""
 
     def __init__(self, module: str, limits: Limits) -> None:
         """Start nothing yet.

@@ -63,7 +63,7 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
     """Read a regular file of at most `limit` bytes.
 
     Args:
-        location: Where it lies on disk, links resolved; a link put there since is refused.
+        location: Where it is on disk, links resolved; a link put there since is refused.
         path: What to call it.
         limit: In bytes.
     """

@@ -1,4 +1,4 @@
-"""What goes on, on one line of a terminal that is written anew each time."""
+"""Progress on one line of a terminal, which is overwritten each time."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from difflib import SequenceMatcher, get_close_matches
 
-# Did you mean: the known word that a misspelt one may stand for.
+# Did you mean: the known word that a misspelt one may represent.
 
 
 EFFORT = 200_000
@@ -92,7 +92,7 @@ def listed(words: Sequence[str]) -> str:
 def plain(text: str) -> str:
     """Replace characters that would steer a terminal: escapes, line breaks, bidi marks.
 
-    Halves of surrogate pairs, which stand for bytes of file names that are no text, go too.
+    Halves of surrogate pairs, which represent bytes of file names that are no text, go too.
     """
     return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
 

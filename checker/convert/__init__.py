@@ -1,1 +1,1 @@
-"""The robot in other formats: URDF, SDF and MJCF written anew from the model."""
+"""The robot in other formats: URDF, SDF and MJCF written from the model."""

@@ -44,12 +44,12 @@ class Notes:
 
 
 class CarriedPlugin(Record, eq=False):
-    """A plugin of the source that stands in the result, for the caller to judge.
+    """A plugin of the source that is in the result, for the caller to judge.
 
     Attributes:
         plugin: As the source says it; its element leads to the file and line.
         link: Name of the link of the result that its tag is about; empty for the whole robot.
-        sensor: Name of the sensor that it stands in; else empty.
+        sensor: Name of the sensor that contains it; else empty.
         reference: Name, without prefix, of the link or joint that the source's tag is about.
         node: Its element in the result.
     """
@@ -85,7 +85,7 @@ class Conversion(Record, eq=False):
     Attributes:
         tree: The outermost element of the new document: `<sdf>` or `<robot>`.
         notes: What was dropped or decided, as sentences that start with the file and line.
-        plugins: What stands in the document and was copied from the source as it is.
+        plugins: Plugins copied from the source unchanged.
         lumped: Links of the source by their name without prefix; one that was dropped is missing.
     """
 

@@ -54,7 +54,7 @@ _FALSE = ("0", "false")
 
 
 def short_tags(reference: str) -> Mapping[str, tuple[str, ...]]:
-    """Return the short tags of `<gazebo>` and the SDF that each stands for, as a path.
+    """Return the short tags of `<gazebo>` and the SDF that each represents, as a path.
 
     Args:
         reference: What it refers to: `link`, `joint`, or nothing for the model. Paths of a link's

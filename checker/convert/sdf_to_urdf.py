@@ -252,7 +252,7 @@ class _Writer:
 
 XACRO = "http://www.ros.org/wiki/xacro"
 _MARK = "\ue000"
-"""Stands for the argument until all else is escaped; unused by robots, and legal in XML."""
+"""Placeholder for the argument until all else is escaped; unused by robots, and legal in XML."""
 _NAME = "${name}/"
 
 

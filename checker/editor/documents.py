@@ -50,7 +50,7 @@ class Document(Record, eq=False, dict=True):
 
 
 def open_document(uri: str, version: int, text: str) -> Document | None:
-    """Return a file as it was opened; None for what lies on no disk, such as a draft."""
+    """Return a file as it was opened; None for what is on no disk, such as a draft."""
     path = path_of(uri)
     if path is None:
         return None
@@ -71,7 +71,7 @@ def path_of(uri: str) -> Path | None:
 
 
 def overlay_of(documents: Mapping[str, Document]) -> Overlay:
-    """Return what stands for the open files when packages are read."""
+    """Return the overlay with the open files, for reading packages."""
     return Overlay(
         {each.path: OverlayText(each.text, each.encoding) for each in documents.values()}
     )

@@ -34,7 +34,7 @@ class Place(Record):
 def place_of(tags: Sequence[str], *, refers: bool = True) -> Place:
     """Return where an element stands.
 
-    Tags of xacro's own are looked through: what stands in a macro stands where that is called.
+    Tags of xacro's own are looked through: what is in a macro stands where that is called.
 
     Args:
         tags: From the root of the file down to the element.
@@ -54,7 +54,7 @@ def place_of(tags: Sequence[str], *, refers: bool = True) -> Place:
 
 
 def _in_extension(tags: tuple[str, ...], *, refers: bool) -> tuple[str, ...]:
-    """Return where SDF would have what stands in a `<gazebo>` tag."""
+    """Return where SDF would have what is in a `<gazebo>` tag."""
     if not refers or tags[0] == "plugin":
         return (*_MODEL, *tags)
     of_link, of_joint = short_tags("link"), short_tags("joint")

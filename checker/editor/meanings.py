@@ -110,7 +110,7 @@ def urdf_children(path: str) -> tuple[str, ...]:
 
 
 def _table_path(path: str) -> str:
-    """Return the path of the tables that a path in a macro stands for, else itself."""
+    """Return the path of the tables that a path in a macro represents, else itself."""
     known = _paths()
     if path in known:
         return path

@@ -11,7 +11,7 @@ from checker.editor.xacro_names import PREFIX
 
 
 class NameKind(StrEnum):
-    """What a name stands for. A frame is a named frame or a nested model."""
+    """What a name represents. A frame is a named frame or a nested model."""
 
     LINK = "link"
     JOINT = "joint"

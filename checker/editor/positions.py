@@ -36,7 +36,7 @@ class Columns(Record):
         return lsp.Range(self.position(source, start), self.position(source, max(start, end)))
 
     def range_of(self, source: SourceText, place: Place) -> lsp.Range:
-        """Return the range of a place; what lies outside of the text is its nearest end."""
+        """Return the range of a place; what is outside of the text is its nearest end."""
         start = _offset(source, place.line, place.column)
         end = _offset(source, place.end_line, place.end_column)
         return self.range(source, start, end)

@@ -67,7 +67,7 @@ class RobotParts(Record, eq=False, dict=True):
         Args:
             name: As written.
             kinds: What it may be.
-            scopes: What may stand in front of it in a scoped name, the likeliest first.
+            scopes: What may be in front of it in a scoped name, the likeliest first.
         """
         for kind in kinds:
             for robot in self.robots:

@@ -54,7 +54,7 @@ class State(Record, eq=False, dict=True):
     """What is known of a unit.
 
     Attributes:
-        unit: As it lies on disk.
+        unit: As it is on disk.
         checked: The last check; None when there was none.
         problem: Why it is not checked; None when it is.
         measured: The last check with weights and trial; None when there was none.
@@ -110,7 +110,7 @@ class Session:
         self._processes.stop()
 
     def forget(self) -> None:
-        """Read anew what lies on disk the next time."""
+        """Read again what is on disk the next time."""
         self.units.forget()
         self._settings.clear()
         self._states = {key: replace(it, checked=None) for key, it in self._states.items()}
@@ -261,6 +261,6 @@ def path_in(package: Package, file: Path) -> str:
 
 
 def location_of(package: Package, place: Place) -> Path | None:
-    """Return where the file of a place lies on disk; None for the package as a whole."""
+    """Return where the file of a place is on disk; None for the package as a whole."""
     entry = package.resolve(place.file) if place.file else None
     return entry.location if entry is not None and entry.is_file else None

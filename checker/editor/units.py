@@ -16,7 +16,7 @@ from checker.package.package import Package
 
 
 class Unit(Record, eq=False):
-    """What is checked by itself, as it lies on disk.
+    """What is checked by itself, as it is on disk.
 
     Attributes:
         path: What was opened: a folder of the editor's, else the package or file.
@@ -46,7 +46,7 @@ class Units:
         self._found: dict[Path, Unit | None] = {}
 
     def forget(self) -> None:
-        """Look anew at what lies on disk the next time."""
+        """Look again at what is on disk the next time."""
         self._opened.clear()
         self._found.clear()
 

@@ -27,7 +27,7 @@ _OTHER = (("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">"))
 
 
 class Where(StrEnum):
-    """What a caret stands in."""
+    """What is around a caret."""
 
     TEXT = "text"
     TAG = "tag"
@@ -48,7 +48,7 @@ class OpenElement(Record):
     Attributes:
         tag: Name as written.
         attributes: Values by name, as written.
-        children: Tags of the elements in it that stand in front of the caret.
+        children: Tags of the elements in it that are in front of the caret.
         start: Offset of its `<`.
     """
 
@@ -59,15 +59,15 @@ class OpenElement(Record):
 
 
 class Context(Record):
-    """What a caret stands in.
+    """What is around a caret.
 
     Attributes:
         where: Kind of place.
-        around: Elements around it, outermost first; a tag that it stands in is none of them.
+        around: Elements around it, outermost first; a tag that it is in is none of them.
         tag: Name of the start or end tag that it stands in.
         attributes: Of that start tag, by name.
         attribute: Name of the attribute in whose value it stands.
-        typed: What stands between the start of the word and the caret.
+        typed: What is between the start of the word and the caret.
         start: Offset of the word: a name, a value, a text of one line.
         end: Offset behind it.
     """
@@ -116,7 +116,7 @@ class _Open:
 
 
 def xml_context(text: str, offset: int) -> Context:
-    """Return what the caret in front of the character at an offset stands in.
+    """Return what is around the caret in front of the character at an offset.
 
     Args:
         text: May be malformed in any way.

@@ -1,7 +1,7 @@
 """Remembers reports: a package that did not change is not checked again.
 
 What a report depends on is hashed: the program, the settings, the package's content, and which
-files lie in the packages beside it (by size and time of change).
+files are in the packages beside it (by size and time of change).
 """
 
 from __future__ import annotations

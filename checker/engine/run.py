@@ -224,7 +224,7 @@ def unfinished(what: str, error: Exception | Exceeded) -> NotChecked:
 def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAvailable:
     """Return one set of arguments for each combination of the parts that a rule asks for.
 
-    None stands for a part that the package has not and the rule can do without; one that only
+    None represents a part that the package has not and the rule can do without; one that only
     cannot be had is missed anyway.
     """
     wanted: dict[str, Sequence[object]] = {}

@@ -167,7 +167,7 @@ def _words(kind: str) -> str:
 
 
 def _provider(kind: str) -> Provider | None:
-    """Return what makes a part: it stands in the module of the type, or in one of `PROVIDERS`."""
+    """Return what makes a part: it is in the module of the type, or in one of `PROVIDERS`."""
     modules = (kind.partition(":")[0], *(f"{PACKAGE}.{name}" for name in PROVIDERS))
     return next((found[kind] for found in map(_providers, modules) if kind in found), None)
 

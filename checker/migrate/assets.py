@@ -156,5 +156,5 @@ def _target_path(old: str) -> str:
 
 
 def _fit(path: str) -> str:
-    """Return a path that stands in URIs, xacro and launch files as it is."""
+    """Return a path that is in URIs, xacro and launch files as it is."""
     return _UNFIT.sub("_", path)

@@ -84,7 +84,7 @@ def drive_of(robot: Robot, wheels: Wheels, wishes: MigrationOptions) -> Drive:
     """Compute the drive plugin of a robot with wheels.
 
     Raises:
-        NotMigrated: The wheels have no size or stand in one place.
+        NotMigrated: The wheels have no size or are in one place.
     """
     separation = _mean_y(wheels.left) - _mean_y(wheels.right)
     radii = [wheel.radius for wheel in wheels.all if wheel.radius]

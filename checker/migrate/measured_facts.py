@@ -16,7 +16,7 @@ from checker.model.sensing.kind import SensorType
 _ABOVE_GROUND = 0.05
 """Metres that a robot falls when it is spawned."""
 _STANDING = 0.003
-"""Metres between the ground and a robot that stands in a world from the start."""
+"""Metres between the ground and a robot that is in a world from the start."""
 _DIGITS = 4
 _NARROW = math.radians(30)
 

@@ -87,7 +87,7 @@ _NAMED = ("link", "joint", "sensor")
 def check_names(tree: etree._Element) -> None:
     """Look at the names of a model that go into other files.
 
-    Ruby would run what stands in `#{…}`, roslaunch replaces `$(…)` and parts `args` at blanks.
+    Ruby would run what is in `#{…}`, roslaunch replaces `$(…)` and parts `args` at blanks.
 
     Raises:
         NotMigrated: A name has other characters than letters, digits and `_ . : + -`.
@@ -103,7 +103,7 @@ def check_names(tree: etree._Element) -> None:
 
 
 NO_ORGANIZATION = "my_team"
-"""Stands for the organization that nobody has named."""
+"""Placeholder for the organization, if none is given."""
 _LENGTH_LIMIT = 60
 _UNFIT = re.compile(r"[^a-z0-9]+")
 _ENDING = re.compile(r"(?:_(?:description|gazebo|urdf|model|sensor_config_\d+))+$", re.IGNORECASE)

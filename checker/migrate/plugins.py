@@ -260,7 +260,7 @@ def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
 def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree._Element]:
     """Return the cameras that a device consists of.
 
-    They bear the plugin's prefix, stand in its link, or are called by what they see.
+    They bear the plugin's prefix, are in its link, or are called by what they see.
     """
     cameras = [sensor for sensor in tree.iter("sensor") if sensor.get("type") in _LENSES]
     prefix = _prefix(carried)

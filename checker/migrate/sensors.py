@@ -111,7 +111,7 @@ def _is_range(plugin: etree._Element | None) -> bool:
 
 
 def _one_row(sensor: etree._Element) -> bool:
-    """Leave one row of rays to a sensor that stands for a distance; say whether it had more."""
+    """Leave one row of rays to a sensor that represents a distance; say whether it had more."""
     scan = sensor.find("lidar/scan")
     if scan is None or number_at(scan, "vertical/samples", 1.0) <= 1.0:
         return False
@@ -138,7 +138,7 @@ def _form(sensor: etree._Element, kind: str, plugin: etree._Element | None) -> N
 
 
 def _take_range(sensor: etree._Element, plugin: etree._Element) -> None:
-    """Let the range of a lidar's plugin stand for that of its rays, which it narrows."""
+    """Let the range of a lidar's plugin represent that of its rays, which it narrows."""
     reach = sensor.find("lidar/range")
     if reach is None:
         return
@@ -172,7 +172,7 @@ def _name_apart(tree: etree._Element) -> None:
     for holder in (*tree.iter("link"), *tree.iter("joint")):
         taken: set[str] = set()
         for sensor in holder.iterfind("sensor"):
-            # What stands before a slash is the robot's name in Gazebo 9.
+            # What is before a slash is the robot's name in Gazebo 9.
             own = _UNFIT.sub("_", (sensor.get("name") or "").rpartition("/")[2])
             name, number = own[:_NAME_LIMIT] or "sensor", 2
             unique = name

@@ -31,7 +31,7 @@ class Source(Record, eq=False):
     """A description to migrate.
 
     Attributes:
-        package: It stands in.
+        package: The package that contains it.
         description: The robot, after xacro.
     """
 

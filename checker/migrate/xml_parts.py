@@ -18,7 +18,7 @@ from checker.model.values import parse_number
 TOLERANCE = 1e-3
 """Radians: 1.57, 1.5708 and 3.1416 are meant, 1.56 is not."""
 _PRECISE = 1e-15
-"""Radians a quarter turn, that the 16th digit stands for."""
+"""Radians a quarter turn, that the 16th digit represents."""
 _NUMBERS = 6
 
 

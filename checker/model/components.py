@@ -49,7 +49,7 @@ class Pose(Record, eq=False):
 
     Attributes:
         transform: The numbers, as a transform into the frame `relative_to`.
-        relative_to: Name of that frame; empty for the default of the place it stands in.
+        relative_to: Name of that frame; empty for the default of its place.
         numbers: As written, each with its place: x, y, z (metres), then roll, pitch, yaw (radians,
             or degrees), or a quaternion x, y, z, w.
         span: The pose element, or the element that could have stated one.
@@ -106,7 +106,7 @@ class Plugin(Part):
 
     Attributes:
         filename: The library.
-        owner: Name of the link or sensor it stands in; empty for the model.
+        owner: Name of the link or sensor that contains it; empty for the model.
         nested_in: Scoped name of the nested model it stands in, else empty.
     """
 
@@ -209,7 +209,7 @@ class Light(Part, dict=True):
 
     @cached_property
     def casts_shadows(self) -> bool:
-        """Whether what stands in its way darkens what lies behind."""
+        """Whether what is in its way darkens what lies behind."""
         return ValueReader().boolean(self.element, "cast_shadows", False).value
 
 
@@ -276,7 +276,7 @@ class Joint(Part):
     Attributes:
         parent: Name of a link or frame, as written; `world` for the world.
         child: Name of a link or frame, as written.
-        scope: Scoped name of the model it stands in, with `::` behind; empty for the robot.
+        scope: Scoped name of the model that contains it, with `::` behind; empty for the robot.
     """
 
     scoped_name: str
@@ -301,7 +301,7 @@ class Joint(Part):
 
     @property
     def starts_outside(self) -> bool:
-        """Whether 0, where a trial starts it, lies outside its limits: they push it from there."""
+        """Whether 0, where a trial starts it, is outside its limits: they push it from there."""
         return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in self.axes)
 
     @property
@@ -327,8 +327,8 @@ class Model(Part):
         scoped_name: `arm` for a model nested in the robot.
         pose: In the model around it, unless it says otherwise.
         definition: The `<model>` itself, which an include takes from another file.
-        scope: What stands in front of scoped names around it; empty for the robot.
-        prefix: What stands in front of scoped names inside it.
+        scope: What is in front of scoped names around it; empty for the robot.
+        prefix: What is in front of scoped names inside it.
         included_from: URI of the include; None for a model written in place.
     """
 

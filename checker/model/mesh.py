@@ -64,7 +64,7 @@ class Mesh(Record, dict=True):
         low: Least x, y, z of its box, metres.
         high: Greatest.
         metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
-        hull: Corners of the convex hull, metres; none where all points lie in a plane.
+        hull: Corners of the convex hull, metres; none where all points are in a plane.
         volume: Of the surface as it stands, m³; negative when inside out, None when not watertight
             or when neighbours disagree on which side is outside.
         hull_volume: m³.

@@ -48,7 +48,7 @@ from checker.source.xml import Element, XmlDocument
 
 
 class Robot(Part, dict=True):
-    """A whole robot; the parts of nested models stand in the same tuples, with scoped names.
+    """A whole robot; the parts of nested models are in the same tuples, with scoped names.
 
     Attributes:
         document: The file it was read from.

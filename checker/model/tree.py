@@ -198,7 +198,7 @@ class _Carriers:
 
 
 def canonical_link(robot: Robot) -> str | None:
-    """Return the link that stands for the model: the one it names, else its first."""
+    """Return the link that represents the model: the one it names, else its first."""
     stated = (robot.element.get("canonical_link") or "").strip()
     return stated or _first_links(robot).get("")
 

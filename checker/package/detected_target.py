@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 CLASSIC, IGNITION, GZ = "classic", "ignition", "gz"
 _OLDEST = "humble"
-"""The oldest distribution that is judged; it stands for those before it."""
+"""The oldest distribution that is judged; it represents those before it."""
 _SUPPORT = "whose support ended in January 2025"
 
 _LAUNCH = {

@@ -70,7 +70,7 @@ def _tells(path: str) -> bool:
 
 
 def _files_above(package: Package) -> Iterator[SourceText]:
-    """Yield the files at the top of the folder that the package and its siblings lie in."""
+    """Yield the files at the top of the folder that the package and its siblings are in."""
     top = package.workspace.directories[0]
     for folder in (".", ".devcontainer", ".github/workflows"):
         for location in _files(top / folder):

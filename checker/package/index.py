@@ -40,7 +40,7 @@ class FileEntry(Record):
         path: Relative to the package folder, with `/`.
         kind: What stands at the path.
         size: Of the file, in bytes; of the target when a link is followed; 0 for folders.
-        location: Where the content lies on disk, links resolved.
+        location: Where the content is on disk, links resolved.
         content: `FILE` or `FOLDER` when there is content to read, a followed link's target
             included; otherwise the kind.
         target_state: Where a link leads; None for other entries.
@@ -67,7 +67,7 @@ class FileEntry(Record):
 
     @property
     def is_of_tests(self) -> bool:
-        """Whether it lies in a folder of tests, which may be about another robot."""
+        """Whether it is in a folder of tests, which may be about another robot."""
         return not {"test", "tests"}.isdisjoint(self.path.split("/")[:-1])
 
 

@@ -115,7 +115,7 @@ def _unpack(path: Path, real: Path, target: Path, shown: str, limits: ArchiveLim
 
 
 def _archive_stem(shown: str) -> str:
-    """Return the name of a package whose files lie at the top of an archive."""
+    """Return the name of a package whose files are at the top of an archive."""
     lower = shown.lower()
     suffix = next(suffix for suffix in ARCHIVE_SUFFIXES if lower.endswith(suffix))
     stem = Path(shown[: -len(suffix)]).name

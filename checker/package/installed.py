@@ -74,7 +74,7 @@ class LeftOut(Record):
 def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
     """Return a file that is there in the source, and that certainly nothing installs there.
 
-    None for what lies in one of the usual folders of the checked package if nothing of that is
+    None for what is in one of the usual folders of the checked package if nothing of that is
     installed: it is reported as such, whichever file names it.
 
     Args:
@@ -99,7 +99,7 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
 
 
 def resolve_listed(package: Package, path: str) -> tuple[Package, str]:
-    """Return the package that a listed path lies in, and its path there: `../arm/urdf/a.urdf`."""
+    """Return the package that a listed path is in, and its path there: `../arm/urdf/a.urdf`."""
     name, _, inside = path.removeprefix("../").partition("/")
     holder = package.workspace.package(name) if path.startswith("../") else None
     return (holder, inside) if holder is not None else (package, path)

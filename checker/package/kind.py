@@ -44,7 +44,7 @@ def _is_file(path: Path) -> bool:
 
 
 def holds_loose_models(folder: Path) -> bool:
-    """Say whether model files lie in a folder, or in its `urdf/`, without a package around."""
+    """Say whether model files are in a folder, or in its `urdf/`, without a package around."""
     return any(
         name.lower().endswith(model_suffixes())
         for place in (folder, folder / "urdf")
@@ -136,7 +136,7 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
         here: Where the command runs, links resolved.
 
     Returns:
-        Folders, relative to `here` where they lie below it.
+        Folders, relative to `here` where they are below it.
 
     Raises:
         UnreadableInput: A file is a folder, or a link to a package.

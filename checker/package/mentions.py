@@ -35,7 +35,7 @@ _DELIMITER = re.compile(rb"[\x00-\x1f/\\\"'<>=()\[\]{},;:|&?#*]")
 
 
 def mentioned_names(package: Package) -> frozenset[str]:
-    """Return the names of meshes, pictures and models that stand in any file, in lower case.
+    """Return the names of meshes, pictures and models that are in any file, in lower case.
 
     A name with spaces is among them both as a whole and as its last word. Files larger than
     `FILE_LIMIT` are left out; see `unsearched`.

@@ -1,4 +1,4 @@
-"""Texts that stand for what files hold: what an editor has not saved, and what a fix makes.
+"""Texts that replace the content of files: unsaved text of an editor, and the result of a fix.
 
 Every file of a package is read through the overlay of its workspace.
 """
@@ -39,7 +39,7 @@ class Overlay(Record, eq=False):
         """Return a file's text.
 
         Args:
-            location: Where it lies on disk, links resolved.
+            location: Where it is on disk, links resolved.
             path: What to call it.
             limit: In bytes, of a file that is read from disk.
         """

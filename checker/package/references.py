@@ -77,7 +77,7 @@ class Reference(Record):
         kind: How.
         place: Where.
         file: The launch file that roslaunch is to start, such as `description.launch`.
-        by_sibling: Whether it stands in another package's Ruby file, which the spawner loads.
+        by_sibling: Whether it is in another package's Ruby file, which the spawner loads.
     """
 
     package_name: str

@@ -19,7 +19,7 @@ TEXTS = (
 """Files whose text can name a package and is changed."""
 _LIMIT = 50_000_000
 """Bytes; with a larger file nobody knows what it mentions."""
-# What stands in front of a name that can mean nothing but a package.
+# What is in front of a name that can mean nothing but a package.
 _OF_PACKAGE = re.compile(
     r"(?:\$\(\s*(?:find|find-pkg-share|find-pkg-prefix|dirname)\s+|(?:package|model)://"
     r"|\b(?:rospack|catkin_find|ros2 pkg prefix)\s+(?:find\s+)?|\b(?:roslaunch|rosrun)\s+"
@@ -40,7 +40,7 @@ def package_renamed(package: Package, old: str, new: str) -> Fix | None:
 
     None where a mention would be left over or lost: in the name of a file, in a longer name, in a
     file that is not text, in a sibling package; where another package bears one of the names; and
-    where a plain word such as `rover` stands for something else too.
+    where a plain word such as `rover` represents something else too.
 
     Args:
         package: The package.

@@ -40,7 +40,7 @@ class Units(Record):
     """All that a folder holds.
 
     Attributes:
-        units: By path, packages before what lies in them.
+        units: By path, packages before what is in them.
         complete: Whether all folders were looked into.
         ignored: Files that keep the build tools, and this search, out of their folders.
     """
@@ -53,7 +53,7 @@ class Units(Record):
 def units_below(folder: Path) -> Units:
     """Find packages, model folders and loose model files in a folder, however deep.
 
-    What lies in a model folder or a submission is a part of it. A ROS package may hold models and
+    What is in a model folder or a submission is a part of it. A ROS package may hold models and
     worlds; these are units of their own beside it. Links are not followed.
 
     Args:
@@ -91,7 +91,7 @@ class _Search:
 
         Args:
             folder: To look into.
-            inside: Whether it lies in a ROS package.
+            inside: Whether it is in a ROS package.
             depth: Folders above it that were searched.
         """
         self.folders += 1

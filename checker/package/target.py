@@ -48,7 +48,7 @@ def usual_profile(package: Package) -> str:
 
 
 def ros_2_package(package: Package) -> Package | None:
-    """Return the package of ROS 2 that a package is, or that a model or file lies in."""
+    """Return the package of ROS 2 that a package is, or that a model or file is in."""
     manifest = None if package.only else package.xml("package.xml")
     around = None if isinstance(manifest, XmlDocument) else _enclosing(package)
     holders = (around, package)
@@ -56,7 +56,7 @@ def ros_2_package(package: Package) -> Package | None:
 
 
 def _usual_around(package: Package) -> str:
-    """Return the profile of the package that a model or file lies in; empty without one."""
+    """Return the profile of the package that a model or file is in; empty without one."""
     whole = _enclosing(package)
     return usual_profile(whole) if whole is not None else ""
 

@@ -38,7 +38,7 @@ class Workspace(Record, eq=False, dict=True):
         directories: Links resolved. The first is where the checked packages lie; further ones
             come from the user, to find siblings in.
         within: The folder that an archive was unpacked into, which nothing leaves; else None.
-        overlay: Texts that stand for what files hold.
+        overlay: Texts that replace the content of files.
     """
 
     directories: tuple[Path, ...]
@@ -122,7 +122,7 @@ class Workspace(Record, eq=False, dict=True):
         return frozenset(word for text in readable for word in _WORD.findall(text.text))
 
     def holds(self, real: Path) -> bool:
-        """Say whether a real path lies within a package of the workspace."""
+        """Say whether a real path is within a package of the workspace."""
         for directory in self.directories:
             if real.is_relative_to(directory) and real != directory:
                 first = real.relative_to(directory).parts[0]

@@ -20,7 +20,7 @@ ARTEFACT_NAME = re.compile(
 )
 """For those that others made, a service or a child: nothing else of theirs is written or served."""
 STALE = (PAGE, INDEX, MODEL)
-"""Files of an earlier run that this one may not write anew: they would tell of something else."""
+"""Files of an earlier run that this one may not write again: they belong to another report."""
 
 
 def _for_programs(report: Report, manner: RenderSettings) -> Iterator[Artefact]:

@@ -258,7 +258,7 @@ class PackageJson(Record, kw_only=True):
 
 
 class NotOpenedJson(Record):
-    """What was given, or lies below it, and was not checked at all."""
+    """What was given, or is below it, and was not checked at all."""
 
     path: str
     reason: str

@@ -35,7 +35,7 @@ def _numbered(text: str) -> str:
 
 
 def with_code(text: str) -> str:
-    """Return text of a rule's page with what stands in backticks as code."""
+    """Return text of a rule's page with what is in backticks as code."""
     pieces = text.split("`")
     if len(pieces) % 2 == 0:
         return escaped(text)

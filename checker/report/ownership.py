@@ -20,7 +20,7 @@ def identity(package: PackageReport, finding: ReportedFinding) -> Identity:
 
 
 def is_foreign(place: Place) -> bool:
-    """Say whether a place lies outside the package that the report is about."""
+    """Say whether a place is outside the package that the report is about."""
     return place.file.startswith("../")
 
 
@@ -33,7 +33,7 @@ def owners(report: Report) -> Mapping[Identity, str]:
 
 
 def owned_by(package: PackageReport) -> dict[Identity, str]:
-    """Return the findings that lie in a package's own files, each with its name."""
+    """Return the findings that are in a package's own files, each with its name."""
     return {
         identity(package, finding): package.name
         for finding in package.findings
@@ -77,7 +77,7 @@ def share_of(package: PackageReport, owner_of: Mapping[Identity, str]) -> Share:
 
 
 def each_once(report: Report) -> Iterator[tuple[PackageReport, ReportedFinding]]:
-    """Yield every finding once, however many packages share the file it lies in."""
+    """Yield every finding once, however many packages share the file it is in."""
     owner_of, seen = owners(report), set[Identity]()
     for package in report.packages:
         for finding in share_of(package, owner_of).own:

@@ -21,11 +21,11 @@ Json = dict[str, Any]
 
 
 def artifact(path: str, folder: str) -> Json:
-    """Return where a file is: relative to a folder if it lies in it, else with its whole path.
+    """Return where a file is: relative to a folder if it is in it, else with its whole path.
 
     Args:
         path: From the folder where the command was run.
-        folder: That folder, absolute; stands for `BASE`.
+        folder: That folder, absolute; represents `BASE`.
     """
     whole = posixpath.normpath(posixpath.join(folder, path))
     above = folder.rstrip("/") + "/"
@@ -65,7 +65,7 @@ def location(place: Place, package: PackageReport, folder: str) -> Json:
 def region(place: Place) -> Json:
     """Return the stretch of a place, with its text where the report has it.
 
-    A place of no width, as that of something missing, stands for its line.
+    A place of no width, as that of something missing, represents its line.
     """
     if (place.line, place.column) >= (place.end_line, place.end_column):
         return {"startLine": place.line}

@@ -75,7 +75,7 @@ def may_hold_description(package: Package) -> bool:
 
 
 def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate]:
-    """Return the files that launch files load, and those that stand for a robot.
+    """Return the files that launch files load, and those that represent a robot.
 
     Beside an SDF model these count only where no launch file loads any.
 

@@ -21,7 +21,7 @@ def package_descriptions(
     launch: Ros2Launch | NotAvailable,
     ends: ExitStack,
 ) -> PackageDescriptions:
-    """Return the URDF files that stand for a robot, as they are being expanded."""
+    """Return the URDF files that represent a robot, as they are being expanded."""
     ros2 = None if isinstance(launch, NotAvailable) else launch
     read = PackageDescriptions(package, expander, args=arguments.values, ros2=ros2)
     ends.callback(read.stop)

@@ -81,7 +81,7 @@ def _value(written: str) -> str | None:
 
 
 def _files(package: Package, text: str) -> tuple[str, ...]:
-    """Return the descriptions whose names stand in a text, where one file alone has that name."""
+    """Return the descriptions whose names are in a text, where one file alone has that name."""
     by_name: dict[str, list[str]] = {}
     for file in package.index.with_suffix(".xacro", ".urdf"):
         by_name.setdefault(posixpath.basename(file.path), []).append(file.path)

@@ -53,7 +53,7 @@ class RobotDescription(Record, eq=False):
 
     @property
     def namespace(self) -> str:
-        """What stands before `robot_description`: `/X1`, or `/`."""
+        """What is before `robot_description`: `/X1`, or `/`."""
         return posixpath.dirname(self.param.name)
 
 

@@ -21,14 +21,14 @@ from checker.ros.topics import comparable
 
 _PARAMETER = re.compile(r"\{(\w+)(?::(\w+))?\}")
 _CHOICES = 30
-"""Topics that one line of the table may stand for: a plugin may name many joints."""
+"""Topics that one line of the table may represent: a plugin may name many joints."""
 
 
 class SimulatedTopic(Record, eq=False):
     """A topic of a sensor or a system.
 
     Attributes:
-        topic: Absolute; `*` stands for the names of world and model where it is a default.
+        topic: Absolute; `*` represents the names of world and model where it is a default.
         messages: Gazebo's messages that it may carry, without their package.
         direction: Which way messages go through a bridge.
         owner: The sensor or plugin.

@@ -69,7 +69,7 @@ class Channel(Record, eq=False):
 def comparable(topic: str) -> str:
     """Return a topic so that spellings of the same one are equal, whichever the robot's name.
 
-    `*` stands for the names of world and model; a leading slash means nothing to Gazebo.
+    `*` represents the names of world and model; a leading slash means nothing to Gazebo.
     """
     parts = [part for part in topic.split("/") if part]
     for start, word in ((0, "world"), (0, "model"), (2, "model")):

@@ -27,7 +27,7 @@ class OpticalFrame(Record, eq=False):
     Attributes:
         node: The node.
         needed: The names that it must have remaps of.
-        remapped: Those of its names that have one, each with the absolute topic it stands for.
+        remapped: Those of its names that have one, each with the absolute topic it represents.
     """
 
     node: Node

@@ -11,7 +11,7 @@ from checker.rule import Rule
 
 _HEADING = re.compile(r"^Options:\n", re.MULTILINE)
 _ENTRY = re.compile(r"^ {4}(\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
-"""A name, and what stands behind it on its own line and on those below that are further in."""
+"""A name, and what is behind it on its own line and on those below that are further in."""
 
 
 class Option(Record):

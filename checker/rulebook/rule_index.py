@@ -32,7 +32,7 @@ class IndexedRule(Record):
         module: That holds it.
         needs: Names of the types of the parts that it asks for, by parameter.
         spares: Parameters for parts that it can do without.
-        options: Their defaults; lists stand for tuples.
+        options: Their defaults; lists represent tuples.
         judges: Figures of the trial that it judges.
     """
 

@@ -41,7 +41,7 @@ class Install(Record, eq=False):
     span: Span
 
     def writes(self, item: Located[str]) -> bool:
-        """Whether an item stands in the call as it is, and not in a variable or a loop."""
+        """Whether an item is in the call as it is, and not in a variable or a loop."""
         inside = self.span.start <= item.span.start and item.span.end <= self.span.end
         same = item.span.text.strip('"') == item.value
         return same and inside and item.span.source is self.span.source

@@ -1,6 +1,6 @@
 """The calls that a CMake file makes: variables put in, loops over words unrolled.
 
-What stands inside `if()` is marked conditional. What is not known, such as
+What is inside `if()` is marked conditional. What is not known, such as
 `${CATKIN_PACKAGE_SHARE_DESTINATION}`, stays as written.
 """
 
@@ -35,7 +35,7 @@ class Call(Record, eq=False):
     Attributes:
         name: In lower case.
         arguments: Words after expansion; each knows the argument it comes from.
-        conditional: Whether it stands inside `if()`, a loop that is not unrolled, or a function.
+        conditional: Whether it is inside `if()`, a loop that is not unrolled, or a function.
         span: The whole call.
     """
 

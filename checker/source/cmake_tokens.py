@@ -47,7 +47,7 @@ class CMakeFault(Record, eq=False):
 
 
 class Argument(Record, eq=False):
-    """One argument as written, escapes read; `${…}` stands in it unchanged.
+    """One argument as written, escapes read; `${…}` is in it unchanged.
 
     The span has no quotes around it.
     """

@@ -21,7 +21,7 @@ class Piece(Record):
     Attributes:
         text: The characters; never empty.
         span: What it came from; None for an argument that is not written anywhere yet.
-        literal: The text stands in the source as it is, or as an escape such as `\n`;
+        literal: The text is in the source as it is, or as an escape such as `\n`;
             otherwise it was computed by the expression at `span`.
         parameters: Parameters of the called function, and globals, that influenced it.
     """
@@ -69,10 +69,10 @@ def _holds(outer: Span, inner: Span) -> bool:
 
 
 class EmittedText(SourceText, dict=True, kw_only=True):
-    """A text whose places lie in the files that it came from.
+    """A text whose places are in the files that it came from.
 
     Offsets and lines (`line`, `position`) count in the emitted text; `place`, and with it every
-    span, lies in the Ruby, YAML or xacro file that it came from.
+    span, is in the Ruby, YAML or xacro file that it came from.
 
     Attributes:
         origin: What emitted it: a Ruby function, a xacro file.
@@ -94,7 +94,7 @@ class EmittedText(SourceText, dict=True, kw_only=True):
         """Return where the characters from `start` up to `end` come from.
 
         A stretch of several pieces reaches from the first one's origin to the last one's, when
-        both lie in one file and in this order; otherwise it is the first one's.
+        both are in one file and in this order; otherwise it is the first one's.
         """
         if not self.pieces:
             return self.origin

@@ -37,7 +37,7 @@ class RubyNode:
     """One node of the syntax tree.
 
     Attributes:
-        source: The text it stands in.
+        source: The text that contains it.
         type: Name in the grammar of tree-sitter-ruby, or the token itself (`"end"`).
         named: False for bare tokens such as keywords and brackets.
         start: Offset of the first character.

@@ -23,7 +23,7 @@ def blank_markup(text: str) -> str:
     """Return a text of the same length with blanks for what is no text.
 
     Args:
-        text: What stands between two tags of a well-formed document.
+        text: What is between two tags of a well-formed document.
     """
     if "<" not in text:
         return text

@@ -80,7 +80,7 @@ class XmlDocument(Record, eq=False, dict=True):
         return self.elements[0]
 
     def element_of(self, node: etree._Element) -> Element:
-        """Return the element that stands for a node of lxml's tree (as XPath returns it)."""
+        """Return the element that represents a node of lxml's tree (as XPath returns it)."""
         return self._by_node[node]
 
     def find_all(self, xpath: str) -> list[Element]:
@@ -153,7 +153,7 @@ class Element(Record, eq=False, dict=True):
 
     @property
     def source(self) -> SourceText:
-        """The text this element stands in."""
+        """The text that contains this element."""
         return self.document.source
 
     @cached_property

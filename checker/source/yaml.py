@@ -1,7 +1,7 @@
 """YAML as values with places.
 
-libyaml's events are put together here, without recursion: aliases stand for the node they name and
-are counted at their full size, so a small file cannot stand for a huge one.
+libyaml's events are put together here, without recursion: aliases represent the node they name and
+are counted at their full size, so a small file cannot represent a huge one.
 """
 
 from __future__ import annotations

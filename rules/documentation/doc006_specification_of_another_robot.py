@@ -53,7 +53,7 @@ def check(package: Package, paperwork: Paperwork, specification: Specification |
     if specification is None:
         return
     source = specification.source
-    # An inherited sheet speaks of the package that it lies in.
+    # An inherited sheet speaks of the package that it is in.
     owner = source.file.split("/")[1] if source.file.startswith("../") else package.name
     number = configuration_number(owner)
     if number is None:

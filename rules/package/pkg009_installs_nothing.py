@@ -190,6 +190,6 @@ BAD = [
     {"CMakeLists.txt": None, "setup.py": _SETUP.replace('/spawner.rb"]),', '"]),  # ^ PKG009')},
     {"CMakeLists.txt": _INSTALL.replace("urdf", "urdf meshes  # ^ PKG009")},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES Model.sdf DESTINATION share)  # ^ PKG009\n"},
-    # No file stands for a folder.
+    # No file represents a folder.
     {"CMakeLists.txt": f"{_INSTALL}install(DIRECTORY model DESTINATION share)  # ^ PKG009\n"},
 ]

@@ -106,7 +106,7 @@ def _is_set(element: Element, place: str) -> bool:
 
 
 def _is_recorded(element: Element) -> bool:
-    """Whether it stands in the `<state>` of a world, a recording that Gazebo does not read."""
+    """Whether it is in the `<state>` of a world, a recording that Gazebo does not read."""
     above = element.parent
     while above is not None and above.tag != "state":
         above = above.parent

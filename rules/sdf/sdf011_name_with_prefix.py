@@ -30,7 +30,7 @@ _NAMED = {Link: "link", Joint: "joint"}
 
 @rule("SDF011", "name-with-prefix", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, package: Package) -> Findings:
-    """Report names with a slash in which the prefix stands for the robot."""
+    """Report names with a slash in which the prefix represents the robot."""
     if not robot.conventions.read_by_gazebo:
         return  # RViz needs the prefix in URDF files.
     prefixes = _of_robot(robot)
@@ -48,7 +48,7 @@ def check(robot: Robot, package: Package) -> Findings:
 
 
 def _of_robot(robot: Robot) -> set[str]:
-    """Return the prefix that stands for the robot: the only one, or the model's name."""
+    """Return the prefix that represents the robot: the only one, or the model's name."""
     prefixes = {prefix for part in _parts(robot) if (prefix := _prefix(part))}
     if len(prefixes) <= 1:
         return prefixes

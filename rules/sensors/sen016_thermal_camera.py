@@ -1,7 +1,7 @@
 """A thermal camera with other settings than the SubT standard.
 
 Only the system ThermalSensor, inside `<sensor>`, gives a thermal camera its 8-bit image and its
-temperature range. Without it, or with other settings, a pixel value stands for another temperature
+temperature range. Without it, or with other settings, a pixel value represents another temperature
 than detectors expect.
 
 Fix: write `<format>L8` and, inside `<sensor>`, the plugin `ignition-gazebo-thermal-sensor-system`

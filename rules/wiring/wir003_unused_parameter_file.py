@@ -8,7 +8,7 @@ It is reported where a block has the usual name of the program or the node's nam
 namespace, and no node of the launch reads it; or where no node of the launch reads any of the
 file's blocks.
 
-Fix: write the same name in both files. Two asterisks in a key stand for any namespace, and alone
+Fix: write the same name in both files. Two asterisks in a key represent any namespace, and alone
 for every node, as in the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`; ROS 2 design, "Parameters".
 """

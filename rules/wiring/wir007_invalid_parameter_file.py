@@ -10,7 +10,7 @@ value is the path of such a file is not reported. For a component, launch itself
 accepts values at the top.
 
 Fix: put the values below the name of the node and `ros__parameters`. A slash and two asterisks
-instead of the name stand for every node.
+instead of the name represent every node.
 Source: ros2/rcl, rcl_yaml_param_parser, `parse_file_events`.
 """
 

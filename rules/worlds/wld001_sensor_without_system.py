@@ -52,7 +52,7 @@ def _label(sensors: list[tuple[Robot, Sensor]]) -> str:
 
 
 def _own_sensors(world: World, sensors: list[tuple[Robot, Sensor]]) -> Iterator[tuple[Sensor, str]]:
-    """Yield the sensors that stand in the world's own file."""
+    """Yield the sensors that are in the world's own file."""
     file = world.span.source.file
     for _, sensor in sensors:
         if sensor.span.source.file == file:

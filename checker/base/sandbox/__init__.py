@@ -1,6 +1,6 @@
 """The sandbox of processes that read strangers' files.
 
-One process starts all others (`launcher_process`). It is started anew, with nothing of its
+One process starts all others (`launcher_process`). It is started again, with nothing of its
 parent's, enters its sandbox (`layers`) before there is anything to read, and forks. So no
 process within needs to start a program, and none is allowed to; a fork takes 2 ms, where a new
 interpreter takes 50.

@@ -1,6 +1,6 @@
 """Starts processes that read strangers' files: all by one clean process in the sandbox.
 
-That one is started anew, with none of the descriptors, variables and memory of who starts it, and
+That one is started again, with none of the descriptors, variables and memory of who starts it, and
 enters its sandbox before it does anything else. A new process is a fork of it: two milliseconds,
 against fifty for a new interpreter.
 """

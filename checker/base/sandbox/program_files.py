@@ -16,7 +16,7 @@ _SYSTEM = (
 _OF_PREFIX = ("bin", "include", "lib", "lib32", "lib64", "pyvenv.cfg")
 """Of the folder that Python is installed in, or of a virtual environment."""
 _PARTS = ("checker", "rules", "samples", "subt_check", "subt_check.py", "templates")
-"""Of this program, where it lies in a folder with other things, as a checkout or installed."""
+"""Of this program, where it is in a folder with other things, as a checkout or installed."""
 MACHINE = ("/proc/cpuinfo", "/proc/meminfo")
 """What libraries ask about processors and memory."""
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")

@@ -44,7 +44,7 @@ def write_files(package: Package, files: Iterable[FixedFile]) -> None:
     be written to leaves everything as it was; then each takes its file's place.
 
     Raises:
-        NotWritten: A file is a link, lies outside, changed meanwhile, or cannot be written.
+        NotWritten: A file is a link, is outside, changed meanwhile, or cannot be written.
     """
     prepared: list[tuple[Path, Path]] = []
     try:

@@ -194,7 +194,7 @@ def _libraries(extras: Collection[str]) -> Iterator[Result]:
     """Yield what is wrong with libraries, then those that are well.
 
     Args:
-        extras: Whose libraries are looked at; empty stands for those that everybody needs.
+        extras: Whose libraries are looked at; empty represents those that everybody needs.
     """
     try:
         needed = [_NEEDED.fullmatch(requirement) for requirement in requires("subt-check") or ()]

@@ -85,7 +85,7 @@ def _values(request: Request) -> Iterator[Completion]:
 
 
 def _quoted(request: Request, items: Iterator[Completion]) -> Iterator[Completion]:
-    """Yield values with quotes around them where none stands behind the `=` yet."""
+    """Yield values with quotes around them where none is behind the `=` yet."""
     in_front = request.text[request.xml.start - 1 : request.xml.start]
     for item in items:
         bare = in_front not in _QUOTES and item.start == request.xml.start

@@ -1,4 +1,4 @@
-"""Files and folders, where XML names one: packages, then what lies in the folder so far."""
+"""Files and folders, where XML names one: packages, then what is in the folder so far."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def _package(request: Request, name: str) -> Package | None:
 def _entries(
     request: Request, package: Package, written: str, wanted: _Wanted
 ) -> Iterator[Completion]:
-    """Yield what lies in the folder written so far, in place of the last name."""
+    """Yield what is in the folder written so far, in place of the last name."""
     folder, _, last = written.rpartition("/")
     start = request.offset - len(last)
     prefix = f"{posixpath.normpath(folder)}/" if folder else ""

@@ -73,7 +73,7 @@ class Request(Record, eq=False, dict=True):
         path: Of the file.
         text: Of the file as it is now.
         offset: Of the caret.
-        xml: What the caret stands in.
+        xml: What is around the caret.
         target: What the package is written for.
     """
 
@@ -166,7 +166,7 @@ class Request(Record, eq=False, dict=True):
 
     @cached_property
     def own_place(self) -> Place:
-        """Where the element stands in whose start tag, or in whose text, the caret is."""
+        """Place of the element whose start tag or text contains the caret."""
         tags = (*self.xml.tags, self.xml.tag) if self.xml.tag else self.xml.tags
         return place_of(tags, refers=self.refers)
 

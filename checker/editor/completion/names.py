@@ -54,7 +54,7 @@ def _declared(text: str) -> Iterator[tuple[str, NameKind]]:
 
 
 def _scope(request: Request) -> str:
-    """Return what stands in front of scoped names of the models around the caret."""
+    """Return what is in front of scoped names of the models around the caret."""
     models = [it.attributes.get("name", "") for it in request.xml.around if it.tag == "model"]
     return "".join(f"{name}::" for name in models[1:])
 

@@ -33,7 +33,7 @@ def escaped(text: str) -> str:
 
 
 def writable_default(default: str) -> str:
-    """Return a default that an author could write; nothing for one that stands for another."""
+    """Return a default that an author could write; nothing for one that represents another."""
     return "" if default.startswith(_NO_VALUE) else default
 
 

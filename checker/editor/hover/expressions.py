@@ -83,7 +83,7 @@ def _argument(name: str, known: XacroNames) -> Iterator[tuple[str, str]]:
 def _named_in(
     expression: Expression, element: Element, known: XacroNames
 ) -> Iterator[tuple[str, str]]:
-    """Yield what the name under the pointer stands for; without one, what all names do."""
+    """Yield what the name under the pointer represents; without one, what all names do."""
     inner = [expression.word] if expression.word else _NAME.findall(expression.text)
     macro = macro_around(element)
     parameters = {} if macro is None else {it.name: it for it in macro.parameters}

@@ -235,7 +235,7 @@ def _scale(element: Element) -> tuple[float, ...]:
 
 
 def _scopes(element: Element) -> list[str]:
-    """Return what may stand in front of a name: the models around it, those nearest first."""
+    """Return what may be in front of a name: the models around it, those nearest first."""
     models = [it.get("name") or "" for it in ancestry(element) if it.tag == "model"]
     inner = list(reversed(models))[1:]
     return ["".join(f"{name}::" for name in inner[:end]) for end in range(len(inner), -1, -1)]

@@ -1,4 +1,4 @@
-"""What a hover says of a sensor: the device that it stands for, its rate, what it measures."""
+"""What a hover says of a sensor: the device that it represents, its rate, what it measures."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def misread_values(text: Located[str], value_type: str) -> list[Misread]:
 
 
 def values_out_of_bounds(text: Located[str], bounds: tuple[float, float]) -> list[Misread]:
-    """Say which numbers of a text lie outside what the schema allows."""
+    """Say which numbers of a text are outside what the schema allows."""
     low, high = bounds
     if (low, high) == (-math.inf, math.inf):
         return []

@@ -50,7 +50,7 @@ class _Scopes:
         self._named: dict[Element, dict[str, Element]] = {}
 
     def named(self, holder: Element) -> dict[str, Element]:
-        """Return frames by name; empty stands for an include whose name is not known."""
+        """Return frames by name; empty represents an include whose name is not known."""
         if holder not in self._named:
             kinds = _IN_WORLD if holder.tag == _WORLD else _IN_MODEL
             children = (child for child in reversed(holder.children) if child.tag in kinds)

@@ -52,7 +52,7 @@ def read_sdf(document: XmlDocument, include: IncludeReader = read_no_include) ->
 def read_robot(
     element: Element, include: IncludeReader = read_no_include, placed: Element | None = None
 ) -> Robot:
-    """Read one `<model>` as a robot of its own; an include places it and may name it anew."""
+    """Read one `<model>` as a robot of its own; an include places it and may rename it."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
     version = sdf_version(document)
@@ -104,7 +104,7 @@ class _Collected:
 
     def read(self, model: Element, scope: Scope, depth: int) -> None:
         """Read the inside of a model."""
-        # Joints come last: where one has the name of a link, the name stands for the link.
+        # Joints come last: where one has the name of a link, the name represents the link.
         for child in sorted(model.children, key=lambda child: child.tag == "joint"):
             match child.tag:
                 case "link":

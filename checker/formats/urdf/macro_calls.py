@@ -23,7 +23,7 @@ _GIVEN = {"parent": WORLD, "parent_link": WORLD, "prefix": "", "tf_prefix": ""}
 
 
 def macro_around(element: Element) -> Element | None:
-    """Return the macro that an element stands in; None outside of macros."""
+    """Return the macro that contains an element; None outside of macros."""
     around = element.parent
     while around is not None and around.tag != _MACRO:
         around = around.parent

@@ -206,7 +206,7 @@ def _children() -> Mapping[str, frozenset[str]]:
 
 
 def _descendants(document: XmlDocument) -> Iterator[tuple[Element, str]]:
-    """Yield all that stands in links and joints, with its path; readers look no deeper than 4."""
+    """Yield all that is in links and joints, with its path; readers look no deeper than 4."""
     waiting = [(part, part.tag) for part in document.root.children if part.tag in ("link", "joint")]
     waiting.reverse()
     while waiting:

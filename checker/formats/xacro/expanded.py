@@ -17,7 +17,7 @@ _BLANKS = " \t\r\n"
 
 
 class ExpandedText(SourceText, dict=True, kw_only=True):
-    """What xacro made of a file: offsets and lines count in it, places lie in what was written.
+    """What xacro made of a file: offsets and lines count in it, places are in what was written.
 
     Attributes:
         plain: The text as a document, of which nobody knows where it came from.
@@ -56,7 +56,7 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         return tuple(document for document in read if document is not None)
 
     def states_path(self, uri: str) -> bool:
-        """Whether a `package://` URI stands for the path of a file, `file://$(find p)/x`."""
+        """Whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
         path = f"file://{ROOT}/{uri.removeprefix('package://')}"
         return any(f"{path}{end}" in str(self.answer["xml"]) for end in ('"', "<"))
 

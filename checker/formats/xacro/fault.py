@@ -31,7 +31,7 @@ class XacroFault(Record, eq=False):
 
     Attributes:
         kind: What sort of fault it is.
-        file: The file that was to be expanded; the fault may stand in one that it includes.
+        file: The file to expand; the fault may be in one that it includes.
         span: Where it stands.
         message: The end of a sentence.
         hint: How to mend it; may be empty.

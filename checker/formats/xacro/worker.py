@@ -43,7 +43,7 @@ def _refuser() -> Callable[[str, object], None]:
     refusal = PermissionError
 
     def refuse(event: str, _: object) -> None:
-        # The names stand in the code itself: a set elsewhere could be changed.
+        # The names are in the code itself: a set elsewhere could be changed.
         if event not in ("compile", "exec", "builtins.id", "sys._getframe"):
             raise refusal(f"an expression may not do this ({event})")
 

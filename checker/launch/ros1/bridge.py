@@ -82,7 +82,7 @@ class Bridge(Record, eq=False):
 class SensorTopic(Record):
     """Parts of a sensor's default topic in Gazebo.
 
-    `suffix` is what stands behind the sensor's name: `scan/points`, or empty.
+    `suffix` is what is behind the sensor's name: `scan/points`, or empty.
     """
 
     world: str

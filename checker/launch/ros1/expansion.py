@@ -222,7 +222,7 @@ class _Expansion:
         self._read_bridges(node)
 
     def _inside_node(self, element: Element, name: str, scope: Scope) -> list[Remap]:
-        """Read what stands inside a node, and return its own remaps."""
+        """Read what is inside a node, and return its own remaps."""
         own: list[Remap] = []
         for child in element.children:
             if not self._reader.is_enabled(child, scope):

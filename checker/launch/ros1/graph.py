@@ -62,7 +62,7 @@ _DESCRIPTION = "description.launch"
 
 
 class LaunchFaultKind(enum.Enum):
-    """What sort of fault stands in a launch file."""
+    """What sort of fault is in a launch file."""
 
     UNDECLARED_ARG = "an arg is used but not declared"
     MISSING_ARG = "a required arg is not given"
@@ -92,7 +92,7 @@ class Remap(Record, eq=False):
         source: The name that the node asks for (`from`).
         target: The name that it gets (`to`).
         span: The start tag.
-        inherited: Whether it stands outside the node, in a group or in the file.
+        inherited: Whether it is outside the node, in a group or in the file.
     """
 
     source: str
@@ -219,7 +219,7 @@ class LaunchGraph(Record, eq=False, dict=True):
         faults: What is wrong.
         unread: Why parts of what the robot starts are not known.
         unknown_commands: Why the commands that start it are not known; then sample arguments
-            stand for theirs.
+            represent theirs.
     """
 
     nodes: tuple[Node, ...] = ()

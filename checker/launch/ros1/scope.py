@@ -47,7 +47,7 @@ class LaunchFile(Record, eq=False):
 
     @property
     def directory(self) -> str:
-        """What `$(dirname)` stands for: `./` and the folder, from the package folder on."""
+        """What `$(dirname)` represents: `./` and the folder, from the package folder on."""
         return HERE + posixpath.dirname(self.name)
 
 

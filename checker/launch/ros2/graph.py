@@ -73,7 +73,7 @@ def display_path(text: str) -> str:
 
 
 class LaunchFaultKind(enum.Enum):
-    """What sort of fault stands in a launch file."""
+    """What sort of fault is in a launch file."""
 
     SYNTAX = "the file cannot be parsed"
     NO_DESCRIPTION = "the file describes no launch"
@@ -207,7 +207,7 @@ class Started(Record, eq=False, kw_only=True):
 
     Attributes:
         conditions: Its own and those around it.
-        certain: Whether it stands outside of tests and loops that could not be decided.
+        certain: Whether it is outside of tests and loops that could not be decided.
         after: Whether an event or a timer starts it.
         span: The call or start tag.
     """
@@ -259,7 +259,7 @@ class Node(Started, eq=False, kw_only=True):
     unread: tuple[Unread, ...] = ()
 
     def parameter(self, name: str) -> Parameter | None:
-        """Return the parameter of a name that counts, among those that stand in the launch file."""
+        """Return the parameter of a name that counts, among those that are in the launch file."""
         named = (p for p in reversed(self.parameters) if isinstance(p, Parameter))
         return next((p for p in named if p.name == name), None)
 

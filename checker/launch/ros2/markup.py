@@ -180,7 +180,7 @@ class Markup:
         return Made(made.name, values, entity.span)
 
     def attributes(self, entity: Entity, /, **names: str) -> dict[str, Value]:
-        """Return attributes by the names of the arguments that they stand for."""
+        """Return attributes by the names of the arguments that they represent."""
         return {name: self.text(entity, attribute) for name, attribute in names.items()}
 
     # Parts of elements.

@@ -75,5 +75,5 @@ def installed_path(package: Package, file: str) -> str:
 
 
 def installs(package: Package, target: SharePath) -> bool:
-    """Whether a package installs what lies at a path of its share folder."""
+    """Whether a package installs what is at a path of its share folder."""
     return source_of(package, target.path) is not None

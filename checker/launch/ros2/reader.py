@@ -206,7 +206,7 @@ class LaunchReader:
         return self._modules[path]
 
     def perform(self, value: Value, span: Span) -> Value:
-        """Return the text that substitutions stand for, while a function is called."""
+        """Return the text that substitutions represent, while a function is called."""
         if self._context is None:
             return Unknown("substitutions have no text yet", span)
         return perform(value, self._context, span)

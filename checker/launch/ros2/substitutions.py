@@ -1,4 +1,4 @@
-"""The texts that substitutions stand for, with the defaults of arguments."""
+"""The texts that substitutions represent, with the defaults of arguments."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def truth_of(text: str) -> bool | None:
 def perform(  # noqa: PLR0911 - one per kind of value
     value: Value, context: Context, span: Span
 ) -> Text:
-    """Return the text that a value stands for.
+    """Return the text that a value represents.
 
     Args:
         value: A text, a substitution, or a list of them.

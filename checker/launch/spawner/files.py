@@ -65,7 +65,7 @@ def resolve(call: Call, path: Value) -> str:
     """Return the path in the workspace that an absolute path of Ruby means.
 
     Raises:
-        Unreadable: It is relative to where Ruby runs, or lies outside the workspace.
+        Unreadable: It is relative to where Ruby runs, or is outside the workspace.
     """
     text = call.text(path)
     if len(text) > MAX_PATH_LENGTH:

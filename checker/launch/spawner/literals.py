@@ -79,7 +79,7 @@ def computed_string(text: str, span: Span | None, parameters: frozenset[str]) ->
 Range = tuple[int, int]
 
 DOUBLE_QUOTED = re.compile(r"\r\n|\\(?:\r\n|.)", re.DOTALL)
-"""What stands for something else in a literal in which escapes count."""
+"""What represents something else in a literal in which escapes count."""
 RAW = re.compile(r"\r\n")
 """The same in a literal without any escapes, such as a heredoc of `<<'XML'`."""
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "s": " ", "\n": "", "\r\n": ""}

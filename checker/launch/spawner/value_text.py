@@ -75,7 +75,7 @@ def interpolate(data: Data, budget: Budget) -> str:
 
 
 def _element_text(data: Data, budget: Budget, depth: int) -> str:
-    """Write a value as it stands inside an array: numbers, as in a pose."""
+    """Write a value as it is inside an array: numbers, as in a pose."""
     budget.spend()
     if depth > _MAX_NESTING:
         raise NotWritable("arrays nested too deeply")

@@ -1,4 +1,4 @@
-"""Devices of which datasheets are known, and which sensor of a robot stands for which."""
+"""Devices of which datasheets are known, and which sensor of a robot represents which."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Device(Record, eq=False):
         name: As its maker calls it.
         kind: `lidar3d`, `lidar2d`, `lidar1d`, `camera`, `rgbd`, `thermal`, `imu`, …
         match: Regular expression for its name in running text, ignoring case.
-        sdf_types: Types of `<sensor>` that may stand for it.
+        sdf_types: Types of `<sensor>` that may represent it.
         values: Figures of its datasheet; the table says what each key means.
         body: `mass_kg` and `size_mm`, where they are known.
         source: Where its figures come from.
@@ -66,7 +66,7 @@ class Device(Record, eq=False):
 
 
 class SensorDevice(Record, eq=False):
-    """A sensor and the device that it stands for.
+    """A sensor and the device that it represents.
 
     Attributes:
         sensor: Of the robot.
@@ -89,7 +89,7 @@ class SensorDevice(Record, eq=False):
 
 
 class SensorDevices(Record, eq=False, dict=True):
-    """The devices that a robot's sensors stand for, as far as sheet and names tell.
+    """The devices that a robot's sensors represent, as far as sheet and names tell.
 
     Attributes:
         known: One for each sensor of which something is known.
@@ -104,7 +104,7 @@ class SensorDevices(Record, eq=False, dict=True):
         return {device.sensor: device for device in self.known}
 
     def device_of(self, sensor: Sensor) -> SensorDevice | None:
-        """Return the device that a sensor stands for; None when nothing tells."""
+        """Return the device that a sensor represents; None when nothing tells."""
         return self._by_sensor.get(sensor)
 
     def are_diverted(self, device: Device, figure: str) -> bool:

@@ -25,7 +25,7 @@ class KnownDevices(Record, eq=False):
     """Devices of which figures are known.
 
     Attributes:
-        devices: The first one whose name stands in a text is meant.
+        devices: The first one whose name is in a text is meant.
     """
 
     devices: tuple[Device, ...]
@@ -35,7 +35,7 @@ class KnownDevices(Record, eq=False):
 
         Args:
             text: Its first 500 characters count.
-            types: Types of `<sensor>`; devices that none of them may stand for do not count.
+            types: Types of `<sensor>`; devices that none of them may represent do not count.
         """
         named = self.find_all_in_text(text, types)
         return named[0] if len(named) == 1 else None

@@ -1,4 +1,4 @@
-"""Finds out which sensor of a robot stands for which device.
+"""Finds out which sensor of a robot represents which device.
 
 The specification sheet's list of sensors counts most; where it is silent or leaves a choice, names
 and comments of the model do, then the rest of the sheet. Two answers count as none: figures must
@@ -65,7 +65,7 @@ class _Named(Record, eq=False):
 def find_sensor_devices(
     robot: Robot, known: KnownDevices, sheet: Specification | None, configurations: Set[int]
 ) -> SensorDevices:
-    """Return the devices that a robot's sensors stand for.
+    """Return the devices that a robot's sensors represent.
 
     Args:
         robot: Its sensors beyond the first 500 are left out.

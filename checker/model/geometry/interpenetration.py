@@ -42,7 +42,7 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
     """Yield pairs of links that start more than `depth` metres inside each other, once each.
 
     Only parts that no joint ties: neither directly nor over parts without collision, such as the
-    knuckle of a steered wheel. Two wheels may overlap: rows of them stand for a track. Meshes
+    knuckle of a steered wheel. Two wheels may overlap: rows of them represent a track. Meshes
     count where they are nearly convex.
 
     Raises:

@@ -256,7 +256,7 @@ class Locomotion(Record, eq=False):
             freely about an axis that lies. The side is the one that they stand on; casters are
             steered.
         by_joint: How plugins together drive a robot of which each turns one wheel, as those of an
-            autopilot's rover do; the first of them stands for all.
+            autopilot's rover do; the first of them represents all.
         doubt: Why that is not certain, as the end of a sentence.
     """
 

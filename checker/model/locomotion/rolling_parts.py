@@ -120,7 +120,7 @@ def carriers(robot: Robot, parts: Iterable[RollingPart]) -> set[str]:
 
 
 def on_one_axle(parts: Iterable[RollingPart]) -> bool:
-    """Say whether all wheels stand in one line: the robot then stands on something else too."""
+    """Say whether all wheels are in one line: the robot then stands on something else too."""
     wheels = list(parts)
     if any(part.is_track for part in wheels):
         return False

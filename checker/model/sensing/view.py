@@ -12,7 +12,7 @@ class Hit(Record, eq=False):
     """A ray of a sensor that ends at a shape of its own robot.
 
     Attributes:
-        share: Of the view that the ray stands for, 0 to 1.
+        share: Of the view that the ray represents, 0 to 1.
         metres: Along the ray.
         azimuth: Of the ray, to the left of the sensor's x axis, radians.
         by: The shape, and its link.
@@ -72,7 +72,7 @@ class SensorViews(Record, eq=False):
 
     Attributes:
         views: Those that could be computed, in the order of the sensors.
-        unseen: Why something that may stand in a view is not known, as ends of sentences.
+        unseen: Why something that may be in a view is not known, as ends of sentences.
         covered: Its lights in the boxes around concave meshes.
     """
 

@@ -31,7 +31,7 @@ class SensorKind(enum.StrEnum):
 
     @property
     def is_sensor(self) -> bool:
-        """Whether a `<sensor>` or a plugin of its own stands for it in the model."""
+        """Whether a `<sensor>` or a plugin of its own represents it in the model."""
         return self not in _PAYLOADS
 
 
@@ -96,7 +96,7 @@ def _lidar(device: str) -> SensorKind:
     return SensorKind.PLANAR_LIDAR if _PLANAR.search(device) else SensorKind.LIDAR
 
 
-# Which sensor types of SDF stand for a kind of sensor that words name.
+# Which sensor types of SDF represent a kind of sensor that words name.
 
 
 _LIDARS = frozenset({"gpu_lidar", "gpu_ray", "lidar", "ray"})
@@ -117,7 +117,7 @@ TYPES = {
     SensorKind.ALTIMETER: frozenset({"altimeter"}),
     SensorKind.GPS: frozenset({"gps", "navsat"}),
 }
-"""Types that stand for a kind; kinds that plugins may stand for are left out."""
+"""Types that represent a kind; kinds that plugins may represent are left out."""
 
 SUBSTITUTES = {SensorKind.CAMERA: _DEPTH, SensorKind.DEPTH_CAMERA: _CAMERAS}
 """Types that words may mean as well: a camera that also measures depth."""

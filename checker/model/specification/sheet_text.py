@@ -9,7 +9,7 @@ from checker.base.record import Record
 from checker.source.markdown import Markdown, Passage
 from checker.source.text import Located, Span
 
-# `spawner.rb, lines 23-26`: claims about what stands in which lines of a file.
+# `spawner.rb, lines 23-26`: claims about what is in which lines of a file.
 
 
 _REFERENCE = re.compile(

@@ -86,7 +86,7 @@ class ArchiveIndex:
         return self.limits.allowed_bytes(self.packed_bytes)
 
     def add(self, name: str, size: int, *, is_folder: bool) -> Member | None:
-        """Check an entry; None stands for the archive's own top folder (`./`).
+        """Check an entry; None represents the archive's own top folder (`./`).
 
         Raises:
             RefusedArchive: The entry is not allowed.

@@ -75,7 +75,7 @@ def _distance(a: Point, b: Point, point: Point) -> float:
 
 
 _RIM = 16
-"""Points that stand for the rim of a disc that lies flat."""
+"""Points that represent the rim of a disc that lies flat."""
 _FLAT = 0.99
 """Cosine of the tilt (8°) up to which a disc counts as lying flat."""
 
@@ -213,7 +213,7 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
     """Return how far the ground can tilt before the robot tips, radians.
 
     That is when its centre of mass stands above the nearest edge of what it stands on. Negative
-    where it stands outside from the start; None without anything to stand on.
+    where it is outside from the start; None without anything to stand on.
     """
     if centre is None or stand.height is None or not stand.polygon:
         return None

@@ -162,7 +162,7 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
 def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float] | None:
     """Return the least and the greatest volume that shapes fill together, m³.
 
-    They may lie in one another: the largest alone, and all side by side. None without shapes, and
+    They may be in one another: the largest alone, and all side by side. None without shapes, and
     where one is not known.
     """
     volumes = [volume_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]

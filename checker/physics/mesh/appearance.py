@@ -1,6 +1,6 @@
 """What mesh files look like: their triangles by colour, and few enough of them.
 
-Pictures become colours of corners, sampled where these lie in the picture. Runs in a child process
+Pictures become colours of corners, sampled where these are in the picture. Runs in a child process
 only (see `worker`).
 """
 

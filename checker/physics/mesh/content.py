@@ -36,7 +36,7 @@ class Piece(Record, eq=False):
     Attributes:
         corners: n triangles × 3 corners × (x, y, z), metres.
         material: What they look like.
-        places: Where each corner lies in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
+        places: Where each corner is in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
             once across); None where the file does not say.
         part: Name of the part of the file that they belong to; empty where that is not known.
     """

@@ -194,7 +194,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
     Raises:
         NoSurface: It is no XML, no COLLADA, or declares a document type.
     """
-    # A zero byte stands between the letters of UTF-16.
+    # A zero byte is between the letters of UTF-16.
     if _DOCTYPE.search(data.replace(b"\0", b"")):
         reason = "declares a document type (<!DOCTYPE>), which is not read here"
         raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)

@@ -19,7 +19,7 @@ _FAINTEST = 0.02
 
 
 def places_in_picture(triangles: Any) -> Any:
-    """Return where corners lie in a picture, by the first set that the file has of it."""
+    """Return where corners are in a picture, by the first set that the file has of it."""
     import numpy as np
 
     if not triangles.texcoordset:
@@ -52,7 +52,7 @@ class DaeMaterials:
 
 
 def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
-    """Return the id of the material that each symbol of a geometry stands for."""
+    """Return the id of the material that each symbol of a geometry represents."""
     return {
         (_target(shown, "url"), bound.get("symbol", "")): _target(bound, "target")
         for shown in root.iter("{*}instance_geometry")

@@ -96,7 +96,7 @@ _AT_ONCE = 100_000
 def convex_hull(points: NDArray[float64]) -> tuple[tuple[Vector, ...], float]:
     """Return the corners of the convex hull, metres, and its volume, m³.
 
-    No corners and no volume where all points lie in a plane. A hull of more than `MOST_CORNERS`
+    No corners and no volume where all points are in a plane. A hull of more than `MOST_CORNERS`
     is reduced to the corners that reach farthest in that many directions, spread evenly, and along
     the axes: its box stays exact. The volume is that of the whole hull.
     """

@@ -15,7 +15,7 @@ class MeshFile(Record):
 
     Attributes:
         path: Relative to the package, with `/`.
-        location: Where it lies on disk, links resolved.
+        location: Where it is on disk, links resolved.
     """
 
     path: str

@@ -54,7 +54,7 @@ class BeltSurface(Record):
 
 
 class RecordedState(Record):
-    """Where everything stands before a step, as MuJoCo's `qpos` and `qvel`."""
+    """Where everything is before a step, as MuJoCo's `qpos` and `qvel`."""
 
     step: int
     positions: tuple[float, ...]

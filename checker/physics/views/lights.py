@@ -1,4 +1,4 @@
-"""How much of what a light shines at stands in its way close by: rays from it at one mesh."""
+"""How much of what a light shines at is in its way close by: rays from it at one mesh."""
 
 from __future__ import annotations
 

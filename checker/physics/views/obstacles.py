@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 # Where rays meet the outer sides of triangles.
 #
-# Each triangle lies in a ball, and so in a cone around the direction of its middle, and so within a
+# Each triangle is in a ball, and so in a cone around the direction of its middle, and so within a
 # range of azimuth and of elevation: only the rays of the grid within that range are tried. Small
 # triangles have none or one, so the work grows with their number and not with that of the rays.
 
@@ -71,7 +71,7 @@ def ball_around(corners: Array) -> tuple[Array, float]:
 
 
 def in_view(middle: Array, radius: float, grid: Grid) -> bool:
-    """Say whether a ray of a grid may meet what lies within a ball.
+    """Say whether a ray of a grid may meet what is within a ball.
 
     Args:
         middle: Of the ball (3), metres, in the sensor's frame.
@@ -116,7 +116,7 @@ def _candidates(corners: Array, grid: Grid) -> Iterator[tuple[Whole, Whole]]:
 def _rows_in_cones(
     azimuth: Array, elevation: Array, wide: Array, high: Array, grid: Grid
 ) -> tuple[Range, list[Range]]:
-    """Return the rows of a grid that lie within cones, and its columns: those of each turn."""
+    """Return the rows of a grid that are within cones, and its columns: those of each turn."""
     import numpy as np
 
     rows = _range(grid.up, elevation - high, elevation + high)

@@ -1,4 +1,4 @@
-"""Rays that stand for the view of a sensor: a grid of equal steps in azimuth and elevation."""
+"""Rays that represent the view of a sensor: a grid of equal steps in azimuth and elevation."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class Grid(Record, dict=True):
 
     @cached_property
     def weights(self) -> NDArray[float64]:
-        """Share of the view that each ray stands for; 0 for those beyond the picture's edge."""
+        """Share of the view that each ray represents; 0 for those beyond the picture's edge."""
         import numpy as np
 
         azimuth, elevation = self._angles
@@ -165,7 +165,7 @@ def _of_camera(camera: Camera) -> Grid | None:
 
 def _of_lidar(lidar: Lidar) -> Grid | None:
     near, far = lidar.range_min.value, lidar.range_max.value
-    # One row gets as many rays as eight: thin posts stand in it.
+    # One row gets as many rays as eight: thin posts are in it.
     rows = int(min(max(lidar.vertical.samples.value, 1.0), _LIDAR[1]))
     across = _scanned(lidar.horizontal, _LIDAR[0] * _LIDAR[1] // rows)
     up = _scanned(lidar.vertical, _LIDAR[1])

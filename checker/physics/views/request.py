@@ -32,7 +32,7 @@ Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 
 
 class ViewRequest(Record, eq=False):
-    """A request, and what its numbers stand for.
+    """A request, and what its numbers represent.
 
     Attributes:
         item: For the worker.

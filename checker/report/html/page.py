@@ -188,7 +188,7 @@ def environment() -> Environment:
 
 
 def with_code(text: str) -> Markup:
-    """Return text of a rule's page with what stands in backticks as code."""
+    """Return text of a rule's page with what is in backticks as code."""
     from markupsafe import Markup, escape
 
     pieces = text.split("`")

@@ -52,7 +52,7 @@ class GlbBuffer:
             array: n numbers or n × k, of one of glTF's types.
             target: What a view is used for, if for drawing.
             bounds: Whether the accessor states the least and greatest numbers.
-            normalized: Whether whole numbers stand for 0 to 1.
+            normalized: Whether whole numbers represent 0 to 1.
         """
         stored = array.astype(array.dtype.newbyteorder("<"), order="C")
         view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}

@@ -33,7 +33,7 @@ class Item(Record, eq=False):
 
     Attributes:
         layer: What it is shown and hidden with.
-        name: Of the visual, joint, sensor, … it stands for.
+        name: Of the visual, joint, sensor, … it represents.
         element: Path of that one's element, as `Place.element` has it.
         pose: In the frame of the link that it hangs on.
         surfaces: Its triangles, before `scale`.

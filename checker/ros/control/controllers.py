@@ -140,7 +140,7 @@ class ControlSystem(Record, eq=False, dict=True):
         publishes_states: Whether a Gazebo plugin publishes the joint states by itself.
         has_manager: Whether a Gazebo plugin, that one or another, runs a controller manager.
         otherwise_moved: Names that plugins other than `gazebo_ros_control` mention.
-        controllers: Configured in YAML that a launch file loads, or that lies in the package.
+        controllers: Configured in YAML that a launch file loads, or that is in the package.
         simulator_gains: Of `gazebo_ros_control` itself.
         launches: One for each launch file that no other one starts.
         dormant: Controllers started by nodes that a condition leaves out.

@@ -51,7 +51,7 @@ def read_controllers(
         below: list[tuple[YamlNode, str, str]] = []
         for key, value in node.entries:
             name = _name(key)
-            # Whatever stands within a controller is its own, but for absolute names.
+            # Whatever is within a controller is its own, but for absolute names.
             if value.kind != "mapping" or not name or (inside and not name.startswith("/")):
                 continue
             full = above if name == _OF_NODE else resolve_name(name, above)

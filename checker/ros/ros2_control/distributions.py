@@ -44,7 +44,7 @@ class HardwareClass(Record):
     """A class of hardware components that is known by its name.
 
     Attributes:
-        distros: Where it exists; empty for a name that stands for no class.
+        distros: Where it exists; empty for a name that represents no class.
         evidence: What the entry rests on; `memory` is not enough for an error.
     """
 
@@ -102,7 +102,7 @@ class ControllerType(Record):
         joint_params: Parameters that name joints.
         sensor_params: Parameters that name a sensor or gpio of `<ros2_control>`.
         required: Parameters without which it cannot be configured, and where.
-        params: All its parameters by name; `<joints>` in a name stands for each of that list.
+        params: All its parameters by name; `<joints>` in a name represents each of that list.
         interface: Command interface of its joints; empty where the parameters say it.
     """
 

@@ -122,7 +122,7 @@ class RobotControl(Record, eq=False, dict=True):
         return {joint.name.value: joint for joint in reversed(every)}
 
     def joint(self, joint: HardwareJoint) -> Joint | None:
-        """Return the joint of the robot that one of the hardware stands for."""
+        """Return the joint of the robot that one of the hardware represents."""
         return self.robot.joints_by_name.get(joint.name.value)
 
     @cached_property
@@ -164,7 +164,7 @@ class ControlReader:
         unread: list[str] = []
         named = tuple(self._plugin_files(managers, faults, unread))
         mere = RobotControl(robot, hardware, managers)
-        # A file that is named and not there is a fault of its own, and no other one stands for it.
+        # A file that is named and not there is a fault of its own, and no other one replaces it.
         guesses = not any(manager.files for manager in managers)
         files = self._likely(mere.components) if guesses else named
         left = tuple(faults), tuple(unread)
@@ -203,7 +203,7 @@ class ControlReader:
                     yield ControllerFile(file.path, blocks, file.text.span, bare)
 
     def _likely(self, names: frozenset[str]) -> tuple[ControllerFile, ...]:
-        """Return the files that launch files name, else those that lie in the package."""
+        """Return the files that launch files name, else those that are in the package."""
         launched = tuple(self._mentioning(self.launched, names))
         index = self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]
         paths = [entry.path for entry in index if not entry.is_of_tests]

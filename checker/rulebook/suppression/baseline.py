@@ -45,7 +45,7 @@ class Baseline(Record):
     Attributes:
         path: Of the file; None without a baseline.
         fault: Why it cannot be used, as the end of a sentence that starts with the path.
-        digest: Stands for all entries: what is remembered of a check depends on them.
+        digest: Of all entries; the key of a cached check contains it.
         packages: Entries by the name of the package.
         missing: Whether nothing is in the way of a new file there.
     """

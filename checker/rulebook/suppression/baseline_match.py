@@ -31,7 +31,7 @@ class Matched(Record):
 def match_entries(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     """Find the entry of each spot.
 
-    An entry stands for as many spots of a place as it counts there, and for none that is graver
+    An entry represents as many spots of a place as it counts there, and none that is graver
     than it was.
     """
     left = [dict(entry.places) for entry in entries]

@@ -22,7 +22,7 @@ class SettingsEntry(Record):
     Attributes:
         rule: Id or name.
         reason: Why they do not.
-        file: Pattern of the files they stand in, relative to the package; `.` is its folder.
+        file: Pattern of their files, relative to the package; `.` is its folder.
             Empty for all.
         element: A part of the path of their element, such as `link[base]`. Empty for all.
     """

@@ -29,7 +29,7 @@ class UnusedEntries(Record):
     Attributes:
         place: Of the settings file; of the package folder when it lies elsewhere.
         file: What to call the settings file.
-        own: Whether it lies in the package, so that it serves no other.
+        own: Whether it is in the package, so that it serves no other.
     """
 
     entries: tuple[SettingsEntry, ...]

@@ -29,7 +29,7 @@ Trace = Callable[[str, Mapping[str, Any]], None]
 ANSWER_LIMIT = 1_000_000
 """Bytes of an answer that tells how a check stands."""
 _BUSY = (408, 429, 502, 503, 504)
-"""Answers of a service, or of what stands before it, that cannot do it just now."""
+"""Answers of a service, or of what is before it, that cannot do it just now."""
 _SHOWN = 300
 
 

@@ -43,7 +43,7 @@ class Died(Record):
 
 
 class Disturbed(Record):
-    """It came to nothing for a cause that lies outside of the package, and may pass.
+    """It came to nothing for a cause that is outside of the package, and may pass.
 
     It was killed, the disk was full, or the machine had no time for it.
 

@@ -42,7 +42,7 @@ class Order(Record):
             kind.
         profile: Of the check; empty for what suits.
         sender: Who asks, so that none of them keeps all others waiting; empty for anybody. It is
-            not kept: a digest stands for it that means nothing after the day.
+            not kept: a digest represents it that means nothing after the day.
     """
 
     upload: str

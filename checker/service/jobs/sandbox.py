@@ -14,7 +14,7 @@ from checker.service.store.store import Store
 
 
 def layers_of_checks(store: Store) -> Sequence[Layer]:
-    """Return the layers around a check, whose folder lies in the store.
+    """Return the layers around a check, whose folder is in the store.
 
     Raises:
         OSError: The system starts no process, or the disk is full.
@@ -32,5 +32,5 @@ def _of_store(layer: Layer, store: Store) -> Layer:
     within = next((path for path in program_paths() if folder.is_relative_to(path)), None)
     if within is None or layer.name == ACCOUNT:
         return layer
-    words = f"{layer.words}; but the data lies in {within}, which the program needs"
+    words = f"{layer.words}; but the data is in {within}, which the program needs"
     return replace(layer, words=words, hides=False) if layer.hides else layer

@@ -10,7 +10,7 @@ from typing import Protocol
 
 
 class Kind(StrEnum):
-    """What an object is; it lies under this name.
+    """What an object is; it is under this name.
 
     Uploads are files as received; results and parts of checks are folders of files.
     """
@@ -35,7 +35,7 @@ class Objects(Protocol):
     """
 
     def find(self, kind: Kind, key: str) -> Path | None:
-        """Return where an object lies on this machine, brought here if need be; None without."""
+        """Return where an object is on this machine, brought here if need be; None without."""
 
     def names(self, kind: Kind, key: str) -> tuple[str, ...]:
         """Return the names of a folder's files, such as `pkg/robot.glb`; none without it."""

@@ -2,7 +2,7 @@
 
 `uploads/ab/<hash>/content` is what was uploaded, `results/ab/<key>/content` and
 `parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` beside it says
-when it was last used. Copies lie in a folder as they do in a service without S3 (`FolderObjects`).
+when it was last used. Copies are in a folder as in a service without S3 (`FolderObjects`).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Uploads and results by hash and key: whole or not at all, whichever process dies meanwhile.
 
-Work in progress lies in the folder `incoming/` of this machine; what is kept lies behind a port
+Work in progress is in the folder `incoming/` of this machine; what is kept lies behind a port
 (`checker.service.store.objects`). Many processes use it at once, on any number of machines.
 """
 
@@ -156,7 +156,7 @@ class Store(Record):
     def tighten(self) -> None:
         """Take from other users what an older version, or a copy, has left them of all this.
 
-        What else lies in the folder is not ours; then the folder itself stays as it is.
+        What else is in the folder is not ours; then the folder itself stays as it is.
         """
         for name in _OURS:
             tighten_below(self.folder / name)

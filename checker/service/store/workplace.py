@@ -107,7 +107,7 @@ def move(source: Path, target: Path) -> None:
     A file of that name is replaced; a folder is not.
 
     Raises:
-        OSError: A folder of that name holds files, or the names lie on two file systems.
+        OSError: A folder of that name holds files, or the names are on two file systems.
     """
     rename(source, target)
     settle_name(target)

@@ -112,7 +112,7 @@ def _number(
 
 
 def _tokens(text: str) -> tuple[str, ...]:
-    """Read tokens; what cannot stand in a header would lock its bearer out."""
+    """Read tokens; what a header cannot contain would lock its bearer out."""
     tokens = tuple(token.strip() for token in text.split(",") if token.strip())
     if not all(token.isascii() and token.isprintable() and " " not in token for token in tokens):
         problem = (
@@ -126,7 +126,7 @@ def _base_url(text: str) -> str:
     """Read the address of the service, without a slash at its end."""
     try:
         parts = urlsplit(text.strip().rstrip("/"))
-        # Its pages lie at the root: a path would lead all links astray.
+        # Its pages are at the root: a path would lead all links astray.
         fine = parts.scheme in ("http", "https") and bool(parts.hostname) and not parts.path
     except ValueError:
         fine = False

@@ -25,7 +25,7 @@ class JointSymbol(Record):
 def link_tree(links: Sequence[Symbol], joints: Sequence[JointSymbol]) -> tuple[Symbol, ...]:
     """Return the links that nothing carries, with all that they carry; each link and joint once.
 
-    A joint without a known parent stands beside them. Links that carry each other in a loop begin
+    A joint without a known parent is beside them. Links that carry each other in a loop begin
     with the one that the file names first; of two links with one name, the first is meant.
     """
     return _Tree(links, joints).symbols()

@@ -33,14 +33,14 @@ class Symbol(Record):
     """An entry of an outline.
 
     The symbols within a link are in the order in which the robot is built; in the file, they may
-    lie outside it.
+    are outside it.
 
     Attributes:
         name: As it is written.
         kind: What it is.
         start: Offset of its first character.
         end: Offset behind its last one.
-        name_start: Offset of its name, or of what stands for it.
+        name_start: Offset of its name, or of what represents it.
         name_end: Offset behind its name.
         children: Symbols within.
         detail: More of it in few words, such as the type of a joint.

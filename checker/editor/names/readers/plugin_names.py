@@ -35,7 +35,7 @@ def is_topic_tag(tag: str) -> bool:
 
 
 def verbatim(text: Located[str] | None) -> Located[str] | None:
-    """Return a text as the file writes it; None where entities stand in it.
+    """Return a text as the file writes it; None where entities are in it.
 
     XML makes the line ends in an attribute blanks.
     """

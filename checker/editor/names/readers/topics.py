@@ -1,4 +1,4 @@
-"""How topics are compared: without what stands for the robot's name."""
+"""How topics are compared: without what represents the robot's name."""
 
 from __future__ import annotations
 

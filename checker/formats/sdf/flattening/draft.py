@@ -26,7 +26,7 @@ class Draft:
     changes: list[Change] = field(default_factory=list)
 
     def put(self, span: Span, text: str) -> None:
-        """Have a text stand in place of a stretch."""
+        """Replace a stretch by a text."""
         self.changes.append((span.start, span.end, text))
 
     def name(self, named: Located[str] | None, new: str) -> None:
@@ -100,7 +100,7 @@ class Holder(Record):
 
     Attributes:
         element: The `<model>`.
-        prefix: What stands in front of scoped names in it; empty for the robot.
+        prefix: What is in front of scoped names in it; empty for the robot.
         frame: Scoped name of its own frame.
     """
 

@@ -75,11 +75,11 @@ def _other_versions(robot: Robot) -> Iterator[str]:
             yield f"{model.definition.source.file} is written in SDF {theirs}, not in {ours}"
 
 
-# From SDF 1.7 on: what was written in a nested model's frame names a frame that stands for it.
+# From SDF 1.7 on: what was written in a nested model's frame names a frame that replaces it.
 
 
 def move_part(draft: Draft, part: Element, holder: Holder, names: FlatNames) -> None:
-    """Have a link or frame say that it stands in the frame of the model that it stood in."""
+    """Pose a link or frame relative to the frame of the model that contained it."""
     frame = names.flat_name(holder.frame)
     if part.tag == "frame" and not part.get("attached_to"):
         draft.attribute(part, "attached_to", frame)
@@ -183,7 +183,7 @@ class Flattening(Record, dict=True):
         return sdf_version(self.robot.document) >= _FRAMES_TOO
 
     def _move(self, draft: Draft, holder: Holder) -> None:
-        """Have the parts of a model stand in the robot's."""
+        """Move the parts of a model to the robot."""
         for child in holder.element.children:
             if child.tag in ("model", "include"):
                 self._flatten(draft, child, holder)

@@ -52,7 +52,7 @@ _SCOPE = "::"
 
 
 class FlatNames(Record):
-    """New names by scoped names; what stands in the outermost model keeps its own."""
+    """New names by scoped names; what is in the outermost model keeps its own."""
 
     changed: Mapping[str, str]
 
@@ -72,12 +72,12 @@ class FlatNames(Record):
         return cls(changed)
 
     def flat_name(self, scoped: str) -> str:
-        """Return the name that stands for a scoped one; itself where no part changes that name."""
+        """Return the name that replaces a scoped one; itself where no part changes that name."""
         return self.changed.get(scoped, scoped)
 
 
 def _names(robot: Robot, *, nested: bool) -> Iterator[str]:
-    """Yield the scoped names of what stands in nested models, or of what does not."""
+    """Yield the scoped names of what is in nested models, or of what is not."""
     parts: tuple[Model | Link | Frame | Joint, ...] = (*robot.models, *robot.links)
     for part in (*parts, *robot.frames, *robot.joints):
         # A nested model leaves its name to the frame that stands where it stood.

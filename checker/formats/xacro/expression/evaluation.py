@@ -201,7 +201,7 @@ def evaluate(text: str, names: Names, allowance: Allowance | None = None) -> Any
 
     Args:
         text: As written, without `${` and `}`.
-        names: What its names stand for: data, functions, or namespaces of these.
+        names: What its names represent: data, functions, or namespaces of these.
         allowance: Steps that are left to all expressions of a file.
 
     Raises:

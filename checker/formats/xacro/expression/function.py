@@ -14,7 +14,7 @@ Work = Callable[..., Any]
 
 
 class Function(Record):
-    """What a name may stand for besides data; an expression calls it, or hands it on to another.
+    """What a name may represent besides data; an expression calls it, or hands it on to another.
 
     Attributes:
         name: As an expression writes it.
@@ -51,7 +51,7 @@ def weighed(native: Callable[..., Any]) -> Work:
 
 
 def unavailable_function(name: str) -> Function:
-    """Return what stands for a function that the language does not have."""
+    """Return what represents a function that the language does not have."""
 
     def work(*_: Any, **__: Any) -> Any:
         raise RefusedExpression(f"the function {name}()")

@@ -16,7 +16,7 @@ class Names(Protocol):
     """Where names are looked up that an expression does not bind itself."""
 
     def __getitem__(self, name: str, /) -> Any:
-        """Return what a name stands for, or raise KeyError."""
+        """Return what a name represents, or raise KeyError."""
 
 
 class Scope:
@@ -57,7 +57,7 @@ class Interpreter:
         return plain(self.value(node, scope))
 
     def look_up(self, name: str, scope: Scope | None) -> Any:
-        """Return what a name stands for, be it data or a function.
+        """Return what a name represents, be it data or a function.
 
         Raises:
             NameError: Nothing.

@@ -88,7 +88,7 @@ _CONVERSIONS = {-1: "", 115: "s", 114: "r", 97: "a"}
 
 
 def resolve(run: Interpreter, node: ast.AST, scope: Scope | None) -> Any:
-    """Return what a node stands for, which may be a function or a namespace."""
+    """Return what a node represents, which may be a function or a namespace."""
     if type(node) is ast.Name:
         return run.look_up(node.id, scope)
     if type(node) is ast.Attribute:

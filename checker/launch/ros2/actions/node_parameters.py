@@ -21,7 +21,7 @@ from checker.launch.ros2.values import (
 from checker.source.text import Span
 
 UNKNOWN = "$(unknown)"
-"""Stands for a text that this reader cannot tell."""
+"""Placeholder for a text that this reader cannot evaluate."""
 
 MOVEIT = "MoveItConfigsBuilder computes the parameters"
 """Why some parameters of a node are not here; they concern no other part of the robot."""

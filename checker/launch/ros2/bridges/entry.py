@@ -35,7 +35,7 @@ class BridgeFault(Record, eq=False):
 
     @property
     def is_elsewhere(self) -> bool:
-        """Whether it stands in another package than the one that is checked."""
+        """Whether it is in another package than the one that is checked."""
         return self.span.source.file.startswith("../")
 
 

@@ -49,7 +49,7 @@ class World(Protocol):
         """Return the names of a Python module of a available package."""
 
     def perform(self, value: Value, span: Span) -> Value:
-        """Return the text that substitutions stand for."""
+        """Return the text that substitutions represent."""
 
     def configuration(self, name: str) -> Value:
         """Return the value of an argument; None when there is none."""
@@ -179,7 +179,7 @@ class Interpreter:
             return [*values]
         return [Guarded(value, tuple(self.guards)) for value in values]
 
-    # What imports, attributes and items stand for.
+    # What imports, attributes and items represent.
 
     def builtin(self, name: str) -> Value:
         """Return a function of Python's, or nothing."""
@@ -200,7 +200,7 @@ class Interpreter:
         return Symbol(path)
 
     def attribute(self, owner: Value, name: str, node: ast.AST) -> Value:
-        """Return what `owner.name` stands for."""
+        """Return what `owner.name` represents."""
         if isinstance(owner, Unknown):
             return owner
         if isinstance(owner, Scope):

@@ -75,7 +75,7 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
 
 
 def _rest(configs: Made) -> dict[str, Value]:
-    """Return what stands for the parameters that the builder reads from its other files."""
+    """Return what represents the parameters that the builder reads from its other files."""
     return {"moveit": Unknown(MOVEIT, configs.span)}
 
 

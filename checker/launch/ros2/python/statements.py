@@ -157,7 +157,7 @@ def _either(run: Interpreter, first: Branch, second: Branch, scope: Scope) -> tu
 
 
 RETURNED = object()
-"""Stands for the value of a block whose branches have all returned: they stand in the scope."""
+"""Represents the value of a block whose branches have all returned: they are in the scope."""
 
 
 def _for(run: Interpreter, node: ast.For, scope: Scope) -> tuple[Flow, Value]:

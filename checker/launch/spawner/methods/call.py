@@ -113,7 +113,7 @@ class Call:
         return value.data
 
     def truncate(self, number: int | float) -> int:
-        """Return a number without what stands behind its point.
+        """Return a number without what is behind its point.
 
         Raises:
             RubyError: It is not finite.

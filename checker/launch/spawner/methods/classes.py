@@ -191,7 +191,7 @@ _METHODS: Mapping[str, tuple[Methods, ...]] = {
     "Array.": ({"new": lambda call: call.run.array([])},),
     "Hash.": ({"new": lambda _call, default=None: Value(RubyHash(default=default))},),
 }
-"""A class with a dot stands for its own methods."""
+"""A class with a dot represents its own methods."""
 
 _WITH_BLOCK: Mapping[str, tuple[Methods, ...]] = {
     "Array": (ENUMERABLE_WITH_BLOCK,),
@@ -199,4 +199,4 @@ _WITH_BLOCK: Mapping[str, tuple[Methods, ...]] = {
     "Range": (ENUMERABLE_WITH_BLOCK,),
     "Integer": (INTEGER_WITH_BLOCK,),
 }
-"""Methods that take a block stand in tables of their own."""
+"""Methods that take a block are in tables of their own."""

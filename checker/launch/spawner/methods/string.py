@@ -84,7 +84,7 @@ def _times(call: Call, factor: Value) -> Value:
 
 
 def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
-    """Yield the ranges of a text that do not overlap; an empty one stands between characters."""
+    """Yield the ranges of a text that do not overlap; an empty one is between characters."""
     text, at = _text(call), 0
     while (start := text.find(wanted, at)) >= 0:
         call.run.budget.spend()

@@ -15,7 +15,7 @@ from checker.physics.trial.mjcf.repairs import Ledger
 
 _KINDS = {Freedom.TURN: "hinge", Freedom.SLIDE: "slide", Freedom.BALL: "ball"}
 _ENDLESS = 1e6
-"""Metres or radians that stand for no bound where a joint is bounded on one side alone."""
+"""Metres or radians that represent no bound where a joint is bounded on one side alone."""
 
 
 class Degree(Record):

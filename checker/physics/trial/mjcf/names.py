@@ -20,7 +20,7 @@ Quaternion = tuple[float, float, float, float]
 
 
 def usable(value: float, largest: float = LARGEST) -> bool:
-    """Return whether a number may stand in a model: finite and not beyond a bound."""
+    """Return whether a number may be in a model: finite and not beyond a bound."""
     return abs(value) <= largest
 
 

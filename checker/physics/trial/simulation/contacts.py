@@ -248,7 +248,7 @@ class ContactQuery:
         return deepest
 
     def _ranges(self) -> Iterator[tuple[int, float, float]]:
-        """Yield where each joint to move stands in `qpos`, and between which values it moves.
+        """Yield where each joint to move is in `qpos`, and between which values it moves.
 
         Slides without limits are left out: nothing says how far they go.
         """

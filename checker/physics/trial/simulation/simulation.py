@@ -101,7 +101,7 @@ SETTLED, HOVERING = "settled", "hovering"
 
 @dataclass(frozen=True)
 class State:
-    """Where everything stands before a step.
+    """Where everything is before a step.
 
     Attributes:
         step: Its number.
@@ -129,7 +129,7 @@ class Run:
         trouble: What ended it before its time, as the end of a sentence; else empty.
         commands: Of the servos in each step (steps × servos), rad/s, rad or m.
         thrusts: Of the rotors, N, each with the step in which they begin.
-        states: Where everything stands before a step, by the names of states.
+        states: Where everything is before a step, by the names of states.
         belts: What has surfaces that move; None without.
     """
 

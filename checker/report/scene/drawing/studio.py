@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 GROUND_GROUP = 2
 LIGHT = (-0.45, -0.35, -1.0)
-"""Where it shines: over the left shoulder of who stands before the robot, a little to its left."""
+"""Where it shines: over the left shoulder of who is before the robot, a little to its left."""
 _ROOM = 12.0
 """Times the distance of the farthest camera that can be seen."""
 _SHADOWED = 1.2

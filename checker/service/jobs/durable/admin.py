@@ -87,7 +87,7 @@ class Admin(Record):
         return keys
 
     def requeue(self, key: str) -> None:
-        """Begin a failed check anew, under the same link, with all tries but one."""
+        """Begin a failed check again, under the same link, with all tries but one."""
         [first, *others] = self.checks.rows([key])[key]
         self.checks.client.delete_workflows([row.task.id for row in others])
         # The first row holds what was asked for: it stays, whatever happens now.

@@ -50,7 +50,7 @@ _NO_ADDRESS = (
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 METADATA = sa.MetaData()
-"""Tables of our own, beside those of DBOS. Nothing in them is worth keeping: they are made anew
+"""Tables of our own, beside those of DBOS. Nothing in them is worth keeping: they are made again
 where their columns differ."""
 
 

@@ -102,7 +102,7 @@ def _take_over(engine: sa.Engine, checks: Checks) -> None:
 
 
 def _task_of(row: Any) -> Task:
-    """Return an old check: over, or to be begun anew, which finds what it had in the store."""
+    """Return an old check: over, or to be begun again, which finds what it had in the store."""
     stage = Stage(row["stage"])
     over = End(stage, row["words"], row["result"], tuple(row["packages"]))
     return Task(

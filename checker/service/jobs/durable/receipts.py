@@ -30,7 +30,7 @@ def receipt_for(order: Order, seed: str) -> Receipt:
 
 
 def key_of_check(id: str) -> str:
-    """Return what stands for a check in the database: SHA-256, hexadecimal; it opens no report.
+    """Return what represents a check in the database: SHA-256, hexadecimal; it opens no report.
 
     The id is in the answer to who uploads and in the addresses that they pass on, and nowhere else.
     A plain digest is enough: an id is 128 random bits, and who has its digest would have to try

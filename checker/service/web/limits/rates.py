@@ -17,7 +17,7 @@ from checker.base.record import Record
 CLIENTS = 10_000
 """Remembered at most; who comes new takes the place of who was away the longest."""
 _IPV6_HOME = 64
-"""Bits of an address that one client has: the rest it may choose anew for each request."""
+"""Bits of an address that one client has: the rest it may choose again for each request."""
 
 
 def client_of(connection: HTTPConnection) -> str:

@@ -68,7 +68,7 @@ def glance(store: Store, key: str) -> Glance | None:
 
 @lru_cache(maxsize=64)
 def _read(path: Path) -> Glance | None:
-    """Read a report; what lies under a key never changes."""
+    """Read a report; what is under a key never changes."""
     try:
         if path.stat().st_size > SIZE_LIMIT:
             return None
