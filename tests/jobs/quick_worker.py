@@ -22,6 +22,7 @@ from typing import Any
 from checker.service.jobs.check import result_key
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable import stages
+from checker.service.jobs.durable.tasks import TRIES
 from checker.service.jobs.durable.worker import WorkerOptions, work
 from checker.service.jobs.outcome import Cancelled, Checked, Died, Disturbed, Outcome, Refused
 from checker.service.jobs.port import Order, Stage
@@ -40,7 +41,7 @@ WORDS = "Ready: no error"
 REFUSAL = "robot.zip is not an archive"
 DEATH = "the checker could not finish: it needs more than 4 GB of memory"
 FULL = "the system of the service says: No space left on device"
-PAUSES = (0.1,) * 9
+PAUSES = (0.05,) * (TRIES - 1)
 
 
 def quick_check(

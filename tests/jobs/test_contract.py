@@ -232,7 +232,7 @@ class TestAKilledWorker:
         state = site.end(id)
         assert state.stage is Stage.FAILED
         assert state.words == (
-            "the checker could not finish: its worker process ended; it was tried 10 times"
+            f"the checker could not finish: its worker process ended; it was tried {TRIES} times"
         )
         read = next(event for event in site.events(id) if event.stage is Stage.TRIAL)
         assert (read.stage, read.data["result"]) == (Stage.TRIAL, state.result)
@@ -258,7 +258,7 @@ class TestWhatTheServiceSuffers:
         state = site.end(site.jobs.submit(order).id)
         assert state.stage is Stage.FAILED
         assert state.words.startswith("the checker could not finish: the system of the service")
-        assert state.words.endswith("No space left on device; it was tried 10 times")
+        assert state.words.endswith(f"No space left on device; it was tried {TRIES} times")
         again = site.end(site.jobs.submit(order).id)
         assert (again.stage, again.words) == (Stage.DONE, WORDS)
 

@@ -62,12 +62,12 @@ STORIES = {
     "is tried again": (
         [row(FIRST, "CANCELLED"), row(again(FIRST, 2))],
         Stage.STATIC,
-        "starts again: its worker process ended (try 2 of 10)",
+        f"starts again: its worker process ended (try 2 of {TRIES})",
     ),
     "is given up": (
         [row(FIRST, "SUCCESS"), row(READ, "CANCELLED"), row(again(READ, TRIES + 1))],
         Stage.FAILED,
-        "the checker could not finish: its worker process ended; it was tried 10 times",
+        f"the checker could not finish: its worker process ended; it was tried {TRIES} times",
     ),
     "is cancelled": ([row(FIRST, "CANCELLED", cancelled=1e9)], Stage.CANCELLED, "cancelled"),
     "is cancelled while its worker goes on": (

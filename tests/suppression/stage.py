@@ -36,7 +36,11 @@ def checked(example: str | Mapping[str, Any], folder: Path, *select: str) -> Pac
 
 def checked_again(package: Path, *select: str, profile: str | None = None) -> PackageReport:
     settings = find_settings([package]).overridden(
-        select=("CFG", *(select or ("KIN001",))), trial=False, cache=False, profile=profile
+        select=("CFG", *(select or ("KIN001",))),
+        trial=False,
+        thorough=True,
+        cache=False,
+        profile=profile,
     )
     (report,) = check_package(package, settings).packages
     return report

@@ -24,11 +24,11 @@ STAGES = (Stage.STATIC, Stage.TRIAL)
 """Each has a queue and a workflow of its name."""
 KNOWN = "known"
 """Name of the queue and of the workflow of checks that are over from their beginning."""
-PAUSES = (1.0, 2.0, 5.0, 15.0, 30.0, 60.0, 120.0, 120.0, 120.0)
-"""Seconds before each further try of what came to nothing through no fault of the package. A disk
-that is full, or a machine that is out of memory, may need minutes. All checks that a worker has in
-hand lose a try when it is killed: with five tries, 500 checks would not all survive that one of
-their processes is killed every three seconds."""
+PAUSES = (1.0, 2.0, 5.0, 15.0, 30.0, 60.0, 120.0, 240.0, 300.0, 300.0, 300.0)
+"""Seconds before each further try of what came to nothing through no fault of the package, 23
+minutes together. A disk that is full, or a machine that is out of memory, may need minutes. A
+worker that is killed costs each of its checks a try: with ten tries, 3 of 500 checks failed while a
+process was killed every three seconds on a machine under load."""
 TRIES = len(PAUSES) + 1
 WORKER_ENDED = "its worker process ended"
 CANCELLED = "cancelled"
