@@ -72,15 +72,15 @@ PHYSICS = Extra(
     "physics",
     (
         *("collada", "fast_simplification", "mujoco", "numpy", "PIL", "pinocchio"),
-        *("scipy", "yourdfpy"),
+        *("scipy", "trimesh", "yourdfpy"),
     ),
 )
 """Reads meshes, weighs robots, computes the views of their sensors, drives and draws them."""
 SERVICE = Extra(
     "service",
     (
-        *("blake3", "dbos", "fastapi", "httpx", "multipart", "prometheus_client"),
-        *("psycopg", "sqlalchemy", "uvicorn"),
+        *("blake3", "dbos", "fastapi", "httptools", "httpx", "multipart"),
+        *("prometheus_client", "psycopg", "sqlalchemy", "uvicorn"),
     ),
 )
 """Serves checks, and sends packages to such a service."""

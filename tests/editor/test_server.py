@@ -57,7 +57,7 @@ async def test_a_finding_has_its_rule_related_places_and_hint(editor: Editor, mo
     unknown = by_rule["KIN001"]
     assert unknown.severity is lsp.DiagnosticSeverity.Error
     assert unknown.code_description is not None
-    assert unknown.code_description.href.endswith("KIN.md#kin001-unknown-joint-link")
+    assert unknown.code_description.href.endswith("/rules/KIN001.html")
     assert any(each.related_information for each in found)
     hints = [each for each in found if each.severity is lsp.DiagnosticSeverity.Hint]
     assert len(hints) == 1
