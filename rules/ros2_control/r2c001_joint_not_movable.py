@@ -15,6 +15,7 @@ from checker.ros.ros2_control.distributions import distribution_of, is_from
 from checker.ros.ros2_control.hardware import HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 
 
 @rule("R2C001", "joint-not-movable", Severity.ERROR, Concern.INTERFACE)
@@ -42,17 +43,8 @@ def _wrong(control: RobotControl, joint: HardwareJoint, suggestions: Suggestions
 
 
 def _arm(joint: str, more: str = "") -> dict[str, str]:
-    return {
-        "@urdf": f"""{more}
-<ros2_control name="arm" type="system">
-  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-  {joint}
-    <command_interface name="position"/>
-    <state_interface name="position"/>
-  </joint>
-</ros2_control>
-"""
-    }
+    interfaces = '<command_interface name="position"/><state_interface name="position"/>'
+    return {"@urdf": more + ros2_control(f"{joint}\n{interfaces}</joint>")}
 
 
 _FIXED = """

@@ -27,6 +27,7 @@ from checker.ros.ros2_control.distributions import (
 )
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located, SourceText
 from checker.source.xml import XmlDocument
 
@@ -139,14 +140,7 @@ def _exported_plugins(package: Package) -> Iterator[str]:
 
 
 def _arm(plugin: str, **files: str) -> object:
-    described = f"""
-<ros2_control name="arm" type="system">
-  <hardware>
-    {plugin}
-  </hardware>
-  <joint name="shoulder"><command_interface name="position"/></joint>
-</ros2_control>
-"""
+    described = ros2_control(hardware=plugin)
     return {"@urdf": described, **{path.replace("__", "."): text for path, text in files.items()}}
 
 

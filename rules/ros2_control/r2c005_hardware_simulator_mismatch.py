@@ -18,6 +18,7 @@ from collections.abc import Iterator, Mapping
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import GAZEBO, MOCK, ros2_control
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {
     "gz_ros2_control-system": (
@@ -104,18 +105,8 @@ def _disagreement(control: RobotControl) -> Iterator[Finding]:
         )
 
 
-def _arm(plugin: str, hardware: str = "<plugin>gz_ros2_control/GazeboSimSystem</plugin>") -> object:
-    return {
-        "@urdf": f"""
-<ros2_control name="arm" type="system">
-  <hardware>
-    {hardware}
-  </hardware>
-  <joint name="shoulder"><command_interface name="position"/></joint>
-</ros2_control>
-{plugin}
-"""
-    }
+def _arm(plugin: str, hardware: str = GAZEBO) -> object:
+    return {"@urdf": ros2_control(hardware=hardware) + plugin}
 
 
 def _plugin(library: str, name: str, mark: str = "") -> str:
@@ -124,19 +115,18 @@ def _plugin(library: str, name: str, mark: str = "") -> str:
 
 _GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
 _IGNITION = "<plugin>ign_ros2_control/IgnitionSystem</plugin>"
-_MOCK = "<plugin>mock_components/GenericSystem</plugin>"
 _MARK = "  <!-- ^ R2C005 -->"
 GOOD = [
     _arm(_plugin(*_GZ)),
     _arm(_plugin("libgz_ros2_control-system.so", _GZ[1])),
     _arm(_plugin("libacme_gz_ros2_control-system.so", "acme::Control")),
-    _arm("", _MOCK),
+    _arm("", MOCK),
 ]
 BAD = [
     _arm(_plugin(_GZ[0], "gz_ros2_control", _MARK)),
     _arm(_plugin("ign_ros2_control-system", "ros2_control", _MARK), _IGNITION),
-    _arm("", f"<plugin>gz_ros2_control/GazeboSimSystem</plugin>{_MARK}"),
-    _arm(_plugin(*_GZ), _MOCK + _MARK),
+    _arm("", GAZEBO + _MARK),
+    _arm(_plugin(*_GZ), MOCK + _MARK),
     _arm(_plugin("libgazebo_ros2_control.so", "gazebo_ros2_control", _MARK)),
     {"@urdf": _plugin(*_GZ, _MARK)},
 ]

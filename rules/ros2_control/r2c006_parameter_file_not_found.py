@@ -14,6 +14,7 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import ParametersFile, RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 
 @rule("R2C006", "parameter-file-not-found", Severity.ERROR, Concern.INTERFACE)
@@ -75,18 +76,7 @@ def _label(file: ParametersFile) -> str:
 
 
 def _arm(parameters: str) -> dict[str, str]:
-    described = f"""
-<ros2_control name="arm" type="system">
-  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-  <joint name="shoulder"><command_interface name="position"/></joint>
-</ros2_control>
-<gazebo>
-  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
-    {parameters}
-  </plugin>
-</gazebo>
-"""
-    return {"@urdf": described}
+    return {"@urdf": ros2_control(hardware=GAZEBO) + gazebo_control(parameters)}
 
 
 _MARK = "  <!-- ^ R2C006 -->"

@@ -17,6 +17,7 @@ from checker.model.components import Axis, Joint
 from checker.ros.ros2_control.hardware import STANDARD_INTERFACES, HardwareJoint, Interface
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 
 _LIMITED = ("revolute", "prismatic")
 
@@ -103,16 +104,7 @@ def _most(axis: Axis) -> Mapping[str, float]:
 
 
 def _arm(inside: str) -> object:
-    return {
-        "@urdf": f"""
-<ros2_control name="arm" type="system">
-  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-  <joint name="shoulder">
-    {inside}
-  </joint>
-</ros2_control>
-"""
-    }
+    return {"@urdf": ros2_control(f'<joint name="shoulder">\n{inside}\n</joint>')}
 
 
 def _param(interface: str, name: str, value: str, mark: str = "") -> str:

@@ -26,6 +26,7 @@ from checker.ros.ros2_control.distributions import (
 )
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located
 
 _OF_ROS_1 = {"joint_state_controller"}
@@ -98,12 +99,7 @@ def _another_package(
 
 def _arm(kind: str) -> dict[str, str]:
     return {
-        "@urdf": """
-<ros2_control name="arm" type="system">
-  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-  <joint name="shoulder"><command_interface name="position"/></joint>
-</ros2_control>
-""",
+        "@urdf": ros2_control(),
         "config/arm.yaml": f"""controller_manager:
   ros__parameters:
     arm_controller:

@@ -22,6 +22,7 @@ from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
 from checker.ros.ros2_control.hardware import HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 
 @rule("R2C009", "unavailable-interface", Severity.ERROR, Concern.INTERFACE)
@@ -88,25 +89,19 @@ def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iter
                 )
 
 
+_INTERFACES = """<joint name="shoulder">
+    <command_interface name="position"/>
+    <state_interface name="position"/>
+  </joint>
+  <sensor name="imu"><state_interface name="orientation.x"/></sensor>"""
+_PARAMETERS = "<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"
+
+
 def _arm(
     parameters: str, kind: str = "joint_trajectory_controller/JointTrajectoryController"
 ) -> object:
     return {
-        "@urdf": """
-<ros2_control name="arm" type="system">
-  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-  <joint name="shoulder">
-    <command_interface name="position"/>
-    <state_interface name="position"/>
-  </joint>
-  <sensor name="imu"><state_interface name="orientation.x"/></sensor>
-</ros2_control>
-<gazebo>
-  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
-    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
-  </plugin>
-</gazebo>
-""",
+        "@urdf": ros2_control(_INTERFACES, GAZEBO) + gazebo_control(_PARAMETERS),
         "config/arm.yaml": f"""controller_manager:
   ros__parameters:
     arm_controller:

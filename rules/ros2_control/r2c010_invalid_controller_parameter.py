@@ -30,6 +30,7 @@ from checker.rule import (
     replace_text,
     rule,
 )
+from checker.rulebook.example_parts import SHOULDER, ros2_control
 
 _OF_ALL: Mapping[str, str] = {"update_rate": "int", "use_sim_time": "bool", "is_async": "bool"}
 
@@ -99,12 +100,7 @@ def _mistyped(parameter: Parameter, kind: str, owner: str) -> Iterator[Finding]:
 
 def _arm(parameters: str, manager: str = "update_rate: 100") -> object:
     return {
-        "@urdf": """
-<ros2_control name="arm" type="system">
-  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-  <joint name="shoulder"><command_interface name="velocity"/></joint>
-</ros2_control>
-""",
+        "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
         "config/arm.yaml": f"""controller_manager:
   ros__parameters:
     {manager}

@@ -19,6 +19,7 @@ from checker.ros.ros2_control.distributions import (
 )
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import SHOULDER, ros2_control
 
 _STAMPED = "use_stamped_vel"
 _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinematics.")
@@ -62,12 +63,7 @@ def _known_parameters(kind: ControllerType, distribution: str) -> tuple[str, ...
 
 def _arm(parameter: str) -> object:
     return {
-        "@urdf": """
-<ros2_control name="arm" type="system">
-  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-  <joint name="shoulder"><command_interface name="velocity"/></joint>
-</ros2_control>
-""",
+        "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
         "config/arm.yaml": f"""drive_controller:
   ros__parameters:
     type: diff_drive_controller/DiffDriveController

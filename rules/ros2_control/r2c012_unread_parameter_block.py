@@ -14,6 +14,7 @@ from checker.model.controllers import ControllerFile
 from checker.model.ros_parameters import NodeBlock
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 
 @rule("R2C012", "unread-parameter-block", Severity.WARNING, Concern.INTERFACE)
@@ -50,20 +51,12 @@ def _unread(file: ControllerFile, manager: GazeboManager, names: set[str]) -> li
     ]
 
 
+_PARAMETERS = "<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>\n"
+
+
 def _arm(blocks: str, ros: str = "<ros><namespace>robot</namespace></ros>") -> object:
     return {
-        "@urdf": f"""
-<ros2_control name="arm" type="system">
-  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-  <joint name="shoulder"><command_interface name="position"/></joint>
-</ros2_control>
-<gazebo>
-  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
-    <parameters>$(find acme_arm_description)/config/arm.yaml</parameters>
-    {ros}
-  </plugin>
-</gazebo>
-""",
+        "@urdf": ros2_control(hardware=GAZEBO) + gazebo_control(_PARAMETERS + ros),
         "config/arm.yaml": blocks,
     }
 

@@ -11,6 +11,7 @@ Source: quasi-static balance of Coulomb friction over the wheels; it predicts th
 
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import rover
 
 
 @rule("TRI006", "turn-rate-too-low", Severity.WARNING, Concern.ROBOT, judges=("yaw_of_predicted",))
@@ -51,45 +52,5 @@ def check(
         )
 
 
-_WHEEL = """
-<link name="{name}">
-  <pose>{x} {y} 0.1 0 0 0</pose>
-  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_joint" type="revolute">
-  <parent>base_link</parent><child>{name}</child><axis><xyz>0 1 0</xyz></axis>
-</joint>
-"""
-_PLACES = {"fl": (1, 1), "rl": (-1, 1), "fr": (1, -1), "rr": (-1, -1)}
-
-
-def _rover(half_length: float, half_width: float, mark: str = "") -> str:
-    wheels = "".join(
-        _WHEEL.format(name=name, x=x * half_length, y=y * half_width)
-        for name, (x, y) in _PLACES.items()
-    )
-    return f"""
-<sdf version="1.6">
-<model name="acme_rover_sensor_config_1">
-<link name="base_link">
-  <pose>0 0 0.15 0 0 0</pose>
-  <inertial><mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
-  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
-</link>
-{wheels}
-<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">{mark}
-  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
-  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
-  <wheel_separation>{2 * half_width}</wheel_separation>
-  <wheel_radius>0.1</wheel_radius>
-  <max_velocity>1</max_velocity><min_velocity>-1</min_velocity>
-  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
-</plugin>
-</model>
-</sdf>
-"""
-
-
-GOOD = [_rover(0.2, 0.2)]
-BAD = [_rover(0.6, 0.1, "  <!-- ^ TRI006 -->")]
+GOOD = [rover(0.2, 0.2)]
+BAD = [rover(0.6, 0.1, drive_mark="  <!-- ^ TRI006 -->")]

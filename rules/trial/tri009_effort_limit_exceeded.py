@@ -15,6 +15,7 @@ from checker.model.components import Joint
 from checker.model.specification.sheet import Specification
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import rover
 
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT, judges=("torque",))
@@ -75,45 +76,8 @@ def _unit(driven: SettledTrial, name: str) -> str:
     return "N" if joint is not None and joint.type.value == "prismatic" else "N·m"
 
 
-_WHEEL = """
-<link name="{name}_wheel">
-  <pose>{x} {y} 0.1 0 0 0</pose>
-  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_joint" type="revolute">{mark}
-  <parent>base_link</parent><child>{name}_wheel</child>
-  <axis><xyz>0 1 0</xyz><limit><effort>{effort}</effort></limit></axis>
-</joint>
-"""
-_PLACES = {"fl": (0.2, 0.2), "rl": (-0.2, 0.2), "fr": (0.2, -0.2), "rr": (-0.2, -0.2)}
-
-
 def _rover(effort: float, mark: str = "") -> str:
-    wheels = "".join(
-        _WHEEL.format(name=name, x=x, y=y, effort=effort, mark=mark)
-        for name, (x, y) in _PLACES.items()
-    )
-    return f"""
-<sdf version="1.6">
-<model name="acme_rover_sensor_config_1">
-<link name="base_link">
-  <pose>0 0 0.15 0 0 0</pose>
-  <inertial><mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
-  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
-</link>
-{wheels}
-<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">
-  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
-  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
-  <wheel_separation>0.4</wheel_separation>
-  <wheel_radius>0.1</wheel_radius>
-  <max_velocity>1</max_velocity><min_velocity>-1</min_velocity>
-  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
-</plugin>
-</model>
-</sdf>
-"""
+    return rover(limit=f"<limit><effort>{effort}</effort></limit>", wheel_mark=mark)
 
 
 _REFERENCE = "# Acme Rover\n* Torque limit of each wheel: model.sdf, lines 20 and 30\n"

@@ -11,6 +11,7 @@ Source: quasi-static balance of Coulomb friction at the contact points with thei
 
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import rover
 
 
 @rule("TRI018", "drifts-while-turning", Severity.WARNING, Concern.ROBOT, judges=("turn_drift",))
@@ -53,44 +54,8 @@ _SMALL = 0.005
 """Metres that do not matter."""
 
 
-_WHEEL = """
-<link name="{name}">
-  <pose>{x} {y} 0.1 0 0 0</pose>
-  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_joint" type="revolute">
-  <parent>base_link</parent><child>{name}</child><axis><xyz>0 1 0</xyz></axis>
-</joint>
-"""
-_PLACES = {"fl": (0.4, 0.3), "rl": (-0.4, 0.3), "fr": (0.4, -0.3), "rr": (-0.4, -0.3)}
-
-
 def _rover(offset: float, mark: str = "") -> str:
-    wheels = "".join(_WHEEL.format(name=name, x=x, y=y) for name, (x, y) in _PLACES.items())
-    return f"""
-<sdf version="1.6">
-<model name="acme_rover_sensor_config_1">
-<link name="base_link">
-  <pose>0 0 0.15 0 0 0</pose>
-  <inertial>
-    <pose>{offset} 0 0 0 0 0</pose>
-    <mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia>
-  </inertial>
-  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
-</link>
-{wheels}
-<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">{mark}
-  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
-  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
-  <wheel_separation>0.6</wheel_separation>
-  <wheel_radius>0.1</wheel_radius>
-  <max_velocity>2</max_velocity><min_velocity>-2</min_velocity>
-  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
-</plugin>
-</model>
-</sdf>
-"""
+    return rover(0.4, 0.3, centre=f"{offset} 0 0", speed=2, drive_mark=mark)
 
 
 GOOD = [_rover(0.0)]

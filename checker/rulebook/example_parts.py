@@ -1,0 +1,95 @@
+"""Parts of robots for examples of rules: a rover on four wheels, and `<ros2_control>` of an arm.
+
+Texts alone: examples are built whenever a rule is loaded.
+"""
+
+from __future__ import annotations
+
+MOCK = "<plugin>mock_components/GenericSystem</plugin>"
+GAZEBO = "<plugin>gz_ros2_control/GazeboSimSystem</plugin>"
+SHOULDER = '<joint name="shoulder"><command_interface name="position"/></joint>'
+_WHEEL = """
+<link name="{name}_wheel">
+  <pose>{x} {y} 0.1 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_joint" type="revolute">{mark}
+  <parent>base_link</parent><child>{name}_wheel</child>
+  <axis><xyz>0 1 0</xyz>{limit}</axis>
+</joint>
+"""
+_PLACES = {"fl": (1, 1), "rl": (-1, 1), "fr": (1, -1), "rr": (-1, -1)}
+
+
+def rover(
+    length: float = 0.2,
+    width: float = 0.2,
+    *,
+    centre: str = "0 0 0",
+    limit: str = "",
+    speed: float = 1,
+    drive_mark: str = "",
+    wheel_mark: str = "",
+) -> str:
+    """Return model.sdf of a rover with skid steering: wheels `fl`, `rl`, `fr` and `rr`.
+
+    Args:
+        length: Of the wheels' centres before and behind the middle, metres.
+        width: Of the wheels' centres left and right of it, metres.
+        centre: Of the body's mass: x, y, z.
+        limit: `<limit>` of each wheel's axis.
+        speed: Of the drive, m/s.
+        drive_mark: Comment behind the plugin's start tag.
+        wheel_mark: Comment behind the start tag of each wheel's joint.
+    """
+    wheels = "".join(
+        _WHEEL.format(name=name, x=x * length, y=y * width, limit=limit, mark=wheel_mark)
+        for name, (x, y) in _PLACES.items()
+    )
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link">
+  <pose>0 0 0.15 0 0 0</pose>
+  <inertial>
+    <pose>{centre} 0 0 0</pose>
+    <mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia>
+  </inertial>
+  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
+</link>
+{wheels}
+<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">{drive_mark}
+  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
+  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
+  <wheel_separation>{2 * width}</wheel_separation>
+  <wheel_radius>0.1</wheel_radius>
+  <max_velocity>{speed}</max_velocity><min_velocity>-{speed}</min_velocity>
+  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
+</plugin>
+</model>
+</sdf>
+"""
+
+
+def ros2_control(joint: str = SHOULDER, hardware: str = MOCK) -> str:
+    """Return `<ros2_control>` of the arm, with its joint and its `<hardware>`."""
+    return f"""
+<ros2_control name="arm" type="system">
+  <hardware>
+    {hardware}
+  </hardware>
+  {joint}
+</ros2_control>
+"""
+
+
+def gazebo_control(inside: str) -> str:
+    """Return the `<gazebo>` tag with the plugin gz_ros2_control."""
+    return f"""
+<gazebo>
+  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    {inside}
+  </plugin>
+</gazebo>
+"""
