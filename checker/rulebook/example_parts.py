@@ -1,4 +1,4 @@
-"""Parts of robots for examples of rules: a rover on four wheels, and `<ros2_control>` of an arm.
+"""Robots for examples of rules: rovers on four wheels, and `<ros2_control>` of an arm.
 
 Texts alone: examples are built whenever a rule is loaded.
 """
@@ -70,6 +70,30 @@ def rover(
 </model>
 </sdf>
 """
+
+
+def rover_with_spring(stiffness: float, reference: float, mark: str = "") -> dict[str, object]:
+    """Return an example: the rover of `@robot` with a mast on a spring (N/m, metres)."""
+    added = f"""
+<link name="mast">
+  <pose>0 0 0.4 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
+</link>
+<joint name="spring" type="prismatic">
+  <parent>base_link</parent><child>mast</child>
+  <axis>
+    <xyz>0 0 1</xyz>
+    <dynamics>
+      <spring_stiffness>{stiffness}</spring_stiffness>
+      <spring_reference>{reference}</spring_reference>
+    </dynamics>
+  </axis>
+</joint>
+</model>"""
+    return {
+        "@robot": "rover",
+        "@change": {'sensor_config_1">': f'sensor_config_1">{mark}', "</model>": added},
+    }
 
 
 def ros2_control(joint: str = SHOULDER, hardware: str = MOCK) -> str:

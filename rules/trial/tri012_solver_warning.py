@@ -10,6 +10,7 @@ Source: warnings BADQPOS, BADQVEL and BADQACC of MuJoCo that remain at half the 
 
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import rover_with_spring
 
 
 @rule("TRI012", "solver-warning", Severity.ERROR, Concern.ROBOT)
@@ -19,28 +20,5 @@ def check(driven: RobotTrial) -> Findings:
         yield finding(driven.robot, f"the simulation {trouble}", key="trouble")
 
 
-def _sprung(stiffness: float, reference: float, mark: str = "") -> dict[str, object]:
-    added = f"""
-<link name="mast">
-  <pose>0 0 0.4 0 0 0</pose>
-  <inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
-</link>
-<joint name="spring" type="prismatic">
-  <parent>base_link</parent><child>mast</child>
-  <axis>
-    <xyz>0 0 1</xyz>
-    <dynamics>
-      <spring_stiffness>{stiffness}</spring_stiffness>
-      <spring_reference>{reference}</spring_reference>
-    </dynamics>
-  </axis>
-</joint>
-</model>"""
-    return {
-        "@robot": "rover",
-        "@change": {'sensor_config_1">': f'sensor_config_1">{mark}', "</model>": added},
-    }
-
-
-GOOD = [_sprung(1e3, 0.0)]
-BAD = [_sprung(1e15, 1e3, "  <!-- ^ TRI012 -->")]
+GOOD = [rover_with_spring(1e3, 0.0)]
+BAD = [rover_with_spring(1e15, 1e3, "  <!-- ^ TRI012 -->")]
