@@ -1,4 +1,8 @@
-"""What the tutorials tell people to type works as they say, one after the other."""
+"""What the tutorials and the first page show is so.
+
+The blocks of a page are followed from top to bottom: a model that begins with its file's name is
+written, a patch is applied, a command of ours is run, and the output that a page shows is compared.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +23,9 @@ from tests.conftest import SAMPLES
 
 ROOT = SAMPLES.parent
 RULE = ROOT / "docs/tutorials/write-a-rule.md"
-PAGES = sorted({*RULE.parent.glob("*.md")} - {RULE})
+PAGES = [ROOT / "docs/index.md", *sorted({*RULE.parent.glob("*.md")} - {RULE})]
+_BLOCK = re.compile(r"(?ms)^```(\w+)\n(.*?)^```")
+_HUNK = re.compile(r"@@ -(\d+).*\n((?:-.*\n)*)((?:\+.*\n)*)")
 _CODE = re.compile(r"exit code (\d)")
 _ELSEWHERE = ("serve", "submit", "path/to/your_robot")
 """What needs a port, or the reader's robot."""
@@ -33,13 +39,17 @@ def blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"(?ms)^```{language}\n(.*?)^```", page.read_text("utf-8"))
 
 
+def ours(line: str) -> Iterator[tuple[list[str], int]]:
+    """Yield the words of a command of ours in a line, and the exit code that the page tells."""
+    words = shlex.split(line, comments=True)
+    if words[:1] == ["subt-check"] and not set(words) & set(_ELSEWHERE):
+        told = _CODE.search(line)
+        yield words[1:], int(told[1]) if told else 0
+
+
 def commands(page: Path) -> Iterator[tuple[list[str], int]]:
-    """Yield the words of our own commands, and the exit code that the page tells."""
     for line in "".join(blocks(page, "sh")).splitlines():
-        words = shlex.split(line, comments=True)
-        if words[:1] == ["subt-check"] and not set(words) & set(_ELSEWHERE):
-            told = _CODE.search(line)
-            yield words[1:], int(told[1]) if told else 0
+        yield from ours(line)
 
 
 @pytest.fixture
@@ -51,14 +61,67 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_each_command_ends_as_the_page_says(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    ours = list(commands(page))
-    assert ours
-    for words, code in ours:
-        assert main(words) == code, (words, capsys.readouterr())
-        assert "Traceback" not in capsys.readouterr().err
+def test_a_page_shows_what_is_so(
+    page: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ran = 0
+    for language, text in _BLOCK.findall(page.read_text("utf-8")):
+        match language:
+            case "xml" if name := re.match(r"<!-- ([\w.]+) -->\n", text):
+                (folder / name[1]).write_text(text, "utf-8")
+            case "diff":
+                apply_patch(text, folder)
+            case "sh":
+                for line in text.splitlines():
+                    for words, code in ours(line):
+                        printed(words, code, capsys)
+                        ran += 1
+            case "console":
+                line, _, shown = text.removeprefix("$ ").partition("\n")
+                ((words, code),) = ours(line)
+                assert_shown(shown, printed(words, code, capsys))
+                ran += 1
+    assert ran
+
+
+def apply_patch(patch: str, folder: Path) -> None:
+    """Apply a patch that has no lines of context."""
+    _, *parts = re.split(r"(?m)^--- a/.+\n\+\+\+ b/(.+)\n", patch)
+    for name, hunks in zip(parts[::2], parts[1::2], strict=True):
+        lines = (folder / name).read_text("utf-8").splitlines()
+        for start, old, new in reversed(re.findall(_HUNK, hunks)):
+            gone = [line[1:] for line in old.splitlines()]
+            first = int(start) - bool(gone)
+            assert lines[first : first + len(gone)] == gone, (name, start)
+            lines[first : first + len(gone)] = [line[1:] for line in new.splitlines()]
+        (folder / name).write_text("\n".join([*lines, ""]), "utf-8")
+
+
+def printed(words: list[str], code: int, capsys: pytest.CaptureFixture[str]) -> str:
+    """Run a command of ours and return its output."""
+    assert main(words) == code, (words, capsys.readouterr())
+    done = capsys.readouterr()
+    assert "Traceback" not in done.err
+    return done.out
+
+
+def assert_shown(shown: str, output: str) -> None:
+    """Compare what a page shows with an output; a line of `...` replaces any number of lines."""
+    parts = re.split(r"(?m)^\.\.\.\n", shown)
+    pattern = r"(?:.*\n)*?".join(map(re.escape, parts))
+    assert re.fullmatch(pattern, output), f"{shown}is not what is printed:\n{output}"
+
+
+@pytest.mark.parametrize("shown", ["a\nb\nc\n", "a\n...\nc\n", "...\nc\n", "...\nb\n...\n"])
+def test_what_is_in_an_output_is_found(shown: str) -> None:
+    assert_shown(shown, "a\nb\nc\n")
+
+
+@pytest.mark.parametrize("shown", ["a\nb\n", "b\nc\n", "a\nc\n", "c\n...\na\n", "...\nd\n"])
+def test_what_is_not_in_an_output_is_not_found(shown: str) -> None:
+    with pytest.raises(AssertionError):
+        assert_shown(shown, "a\nb\nc\n")
 
 
 def test_the_rule_that_is_written_is_tested_and_runs(folder: Path) -> None:
