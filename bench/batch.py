@@ -78,7 +78,7 @@ class Taken:
     Attributes:
         seconds: By the clock, from the start of the workers.
         processor: Seconds of processors, of all processes of the service.
-        rows: That the database wrote.
+        rows: Rows that the database wrote.
         log: Bytes that the database wrote ahead.
         database: Bytes by which it grew.
         stored: Bytes of uploads, results and parts.

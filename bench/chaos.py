@@ -159,7 +159,7 @@ def left_over(data: Path) -> list[str]:
 
 
 def _at_work(data: Path) -> list[str]:
-    """Return what lies in `incoming` that nobody holds: processes that wait have a folder each."""
+    """Return what is in `incoming` without an owner: waiting processes have a folder each."""
     left = []
     for path in (data / "incoming").iterdir():
         with suppress(OSError):
@@ -182,11 +182,11 @@ def number_of_checks(group: Group) -> int:
 
 @contextmanager
 def database_away(group: Group, server: int) -> Iterator[None]:
-    """Have the database answer nobody for a while.
+    """Stop the database from answering for a while.
 
     Args:
-        group: Uses it.
-        server: Process of PostgreSQL, which stands still; 0 for SQLite, which lets nobody write.
+        group: The services that use it.
+        server: The process of PostgreSQL, which is paused; 0 for SQLite, which is locked.
     """
     if server:
         with standing_still(server):
@@ -212,12 +212,12 @@ def standing_still(process: int) -> Iterator[None]:
 
 
 def away(group: Group, server: str, seconds: float) -> None:
-    """Have the database of a service answer nobody for a while, soon.
+    """Stop the database of a service from answering for a while, soon.
 
     Args:
         group: Uses it.
         server: Address of PostgreSQL; empty for SQLite.
-        seconds: How long.
+        seconds: The duration.
     """
     sleep(_SOON)
     with database_away(group, server_process(server)):
@@ -236,10 +236,10 @@ class Trouble:
     """What went wrong in all.
 
     Attributes:
-        kills: How often each kind of process was killed.
-        ends: How many checks ended how.
+        kills: The number of kills of each kind of process.
+        ends: The number of checks with each result.
         faults: What is wrong with them.
-        extra: Checks that nobody ordered, or that are missing.
+        extra: Checks that were not ordered, or that are missing.
         left: Files that are left at work.
         seconds: Until all was over.
     """
@@ -265,10 +265,10 @@ def suffered(
     pause: float = 4.0,
     meanwhile: Callable[[], None] = lambda: None,
 ) -> Trouble:
-    """Upload robots, have processes killed and whatever else, and return what came of it.
+    """Upload robots, kill processes and cause other faults, and return the results.
 
     Args:
-        groups: That run, and share one store and database.
+        groups: The running services, which share one store and database.
         uploads: Robots.
         kills: Of processes.
         pause: Seconds between two kills.

@@ -25,8 +25,8 @@ class Value:
 
     Attributes:
         number: The value.
-        verdict: What is judged of the finding at its place; empty where nothing is.
-        text: Where it was found, and what the rule says.
+        verdict: The judgement of the finding at its place; empty without one.
+        text: The place of the finding, and its message.
     """
 
     number: float

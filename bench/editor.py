@@ -1,7 +1,7 @@
 """How soon an editor shows what a change comes to, and what the server needs: real packages.
 
 `python -m bench.editor`, with SUBT_CHECK_CORPUS and SUBT_CHECK_MODERN. A real language server is
-told of one change after the other, each of another number; measured is the time until its findings
+sent one change after the other, each of another number; the time is measured until its findings
 for that text arrive. Machines differ and are shared: the limits are meant for two quiet cores.
 """
 
@@ -114,7 +114,7 @@ def _descendants(pid: int) -> Iterator[int]:
 
 
 def numbered(text: str, number: int) -> str:
-    """Return a text with another number in the middle of it, as of somebody who types digits."""
+    """Return a text with another number in the middle of it, as if a user typed digits."""
     found = _NUMBER.search(text, len(text) // 3)
     assert found is not None
     return f"{text[: found.end()]}{number}{text[found.end() :]}"

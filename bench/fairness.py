@@ -33,7 +33,7 @@ _NO_RATE = {"SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
 
 
 def _sent(address: str, sender: str, name: str, content: bytes) -> str:
-    """Upload a file from an address, as a proxy tells it, and return the id of its check."""
+    """Upload a file from an address, as a proxy reports it, and return the id of its check."""
     headers = {"X-Forwarded-For": sender}
     answer = httpx.post(
         f"{address}/api/checks", files={"file": (name, content)}, headers=headers, timeout=120

@@ -50,9 +50,9 @@ class Robot:
         name: In the table.
         source: Of its package.
         folder: Of its package, below the folder of the source.
-        checked: What is checked, below the package.
-        home: Where the package is copied to, so that its URIs lead somewhere.
-        profile: To judge by.
+        checked: The checked path below the package.
+        home: The folder to copy the package to, so that its URIs resolve.
+        profile: The profile of the check.
         kinds: Faults that can be planted in it.
     """
 
@@ -115,7 +115,7 @@ class Result:
     Attributes:
         robot: Name of the robot.
         kind: Name of the kind.
-        rules: That had to find it.
+        rules: The rules that had to find it.
         found: Those that did.
         cascades: Other rules that report something new, with a message of each.
     """
@@ -163,9 +163,9 @@ def planted(numbers: tuple[int, ...], place: int, seed: int) -> Result | None:
     """Plant a fault and check.
 
     Args:
-        numbers: Of robots; the first that can have the fault gets it.
-        place: Of the kind among those of the robots.
-        seed: Of the random choice of where.
+        numbers: The numbers of robots; the first that can have the fault gets it.
+        place: The place of the kind among those of the robots.
+        seed: The seed of the random choice of the place.
 
     Returns:
         None where no robot has anything that could have this fault.

@@ -23,7 +23,7 @@ from support.service import service, zip_of
 LIMIT = 2.0
 """Seconds."""
 READY_SECONDS = 3.0
-"""In which a service that has just started gets ready for its first check."""
+"""Seconds in which a service that has just started gets ready for its first check."""
 OF_CORPUS = 5
 
 

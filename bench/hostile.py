@@ -1,4 +1,4 @@
-"""Models that nobody wrote by hand: huge, deep, misspelt throughout. Each must end in findings.
+"""Models as only programs write them: huge, deep, misspelt throughout. Each must end in findings.
 
 Run with `make bench`. The figures are seconds for one check under a profile; what matters is that
 none explodes and that no rule crashes. Most models are as large as one that is checked can be:

@@ -1,4 +1,4 @@
-"""Services that are started again whenever they have been killed, and who kills them."""
+"""Services that are started again whenever they have been killed, and what kills them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Group:
         bucket: Variables that lead to one of S3, so that it has data of its own; empty: in a folder
             with other services.
         database: Its address; empty for SQLite with the data.
-        workers: That it starts.
+        workers: The number of workers that it starts.
     """
 
     number: int
@@ -93,7 +93,7 @@ class Group:
         return self._process.wait(120)
 
     def look(self) -> None:
-        """See that it has not ended by itself, after which nobody need wait for anything.
+        """Raise if it has ended by itself, so that no caller waits for it.
 
         Raises:
             SystemExit: It has.
@@ -174,12 +174,12 @@ KINDS: Mapping[str, Callable[[Group, random.Random], bool]] = {
 
 @dataclass
 class Killer:
-    """Kills processes of services until it is told to stop.
+    """Kills processes of services until it is stopped.
 
     Attributes:
-        kills: That there have to be.
+        kills: The required number of kills.
         pause: Seconds between two of them, on average.
-        done: How often each kind was killed.
+        done: The number of kills of each kind.
     """
 
     groups: Sequence[Group]

@@ -1,8 +1,8 @@
 """How much of the machine there is at the moment: others may use the same processors.
 
 What the host gives to others while something is measured says nothing of the program: such a figure
-is measured again. How fast the processors are differs as well, by two from hour to hour; `pace`
-tells.
+is measured again. The speed of the processors differs as well, by two from hour to hour, as `pace`
+shows.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ def ratios(
         own: Our command.
         peer: The other.
         prepare: Called before each of ours.
-        pairs: How often, after one that warms the disk.
+        pairs: The number of pairs, after one that warms the disk.
     """
     found = []
     for number in range(pairs + 1):

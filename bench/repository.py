@@ -55,7 +55,7 @@ def repository(folder: Path, number: int) -> Path:
 
 
 def _rounds(packages: list[Path]) -> Iterator[tuple[Path, int]]:
-    # Of many real packages, every sample is to have its place.
+    # Every sample must have a place among many real packages.
     packages = packages[-PACKAGES:]
     return ((package, round_) for round_ in count() for package in packages)
 

@@ -72,7 +72,7 @@ class Client:
         return self._json(f"/api/checks/{id}/report.json")
 
     def events(self, id: str) -> Iterator[Mapping[str, Any]]:
-        """Yield what happens to a check as it is told, until its end."""
+        """Yield the events of a check until its end."""
         with closing(self._connection()) as connection:
             connection.request("GET", f"/api/checks/{id}/events")
             for line in connection.getresponse():
@@ -116,7 +116,7 @@ def options_of(about: str | None) -> argparse.ArgumentParser:
 
 
 def server_of(options: argparse.Namespace, stack: ExitStack) -> str:
-    """Return the address of PostgreSQL, which is started if it is asked for; else empty."""
+    """Return the address of PostgreSQL, which is started if requested; else empty."""
     return stack.enter_context(started()) if options.postgres else ""
 
 
@@ -140,7 +140,7 @@ def noise(number: int, megabytes: float) -> bytes:
 
 
 def other_robot(model: str, number: int) -> str:
-    """Return a model file whose robot weighs a trifle more, so that nobody drove it before."""
+    """Return a model file whose robot weighs slightly more, so that no earlier trial is used."""
 
     def heavier(found: re.Match[str]) -> str:
         return f"{found[1]}{float(found[2]) * (1 + number * 1e-7)!r}"

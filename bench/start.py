@@ -1,7 +1,7 @@
 """How long after its start the service has taken a first upload.
 
 `subt-check serve` is started with two workers, several times on data of its own and once more on
-data that is there; a small archive is uploaded as soon as its address is told. Run with
+data that is there; a small archive is uploaded as soon as its address is printed. Run with
 `python -m bench.start [--postgres]` from the top folder, as `make bench` does. Machines differ and
 are shared: see the pace that is printed.
 """
@@ -23,11 +23,11 @@ from support.service import service, zip_of
 
 SAMPLE = ROOT / "samples/subtcheck_buggy_sensor_config_1"
 CREATED, REPEATS, LIMIT = 201, 5, 3.0
-"""Seconds, on two processors that nobody else uses."""
+"""Seconds, on two otherwise idle processors."""
 
 
 def start(data: Path, variables: Mapping[str, str], package: bytes) -> tuple[float, float, float]:
-    """Start a service; return when its address is told, its first upload taken, and its work.
+    """Start a service; return when its address is printed, its first upload taken, and its work.
 
     Returns:
         Seconds, seconds, and seconds of processor time of the web process until then.

@@ -40,7 +40,7 @@ Options = dict[str, dict[str, Any]]
 
 
 def packages(source: str) -> list[Path]:
-    """Return what is to be checked of a source of packages."""
+    """Return the paths to check of a source of packages."""
     root = folder_of(source)
     if root is None:
         return []
@@ -119,7 +119,7 @@ def distributions(measures: Sequence[Measure]) -> list[Distribution]:
                     if value is not None:
                         verdict = known.get((rule, file, place.line), "")
                         text = f"{file}:{place.line} {message}"
-                        # The same part of another version of a robot tells nothing new.
+                        # The same part of another version of a robot adds nothing.
                         part = (Path(file).name, message)
                         if verdict or part not in values[measure]:
                             values[measure][part] = Value(value, verdict, text)

@@ -36,7 +36,7 @@ MEASURED_SECONDS = 15.0
 BETWEEN_SECONDS = 0.5
 CHECKS = 20
 PAGE_SECONDS = 10.0
-"""Between two looks of a page to which nothing is told (`MEANWHILE` in templates/web/watch.js)."""
+"""Seconds between two requests of a page without events (`MEANWHILE` in templates/web/watch.js)."""
 PER_ADDRESS = 20
 """Streams of one address: those of this machine are many."""
 MODEL = b'<sdf version="1.6"><model name="a"/></sdf>'

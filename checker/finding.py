@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from checker.base.record import Record
 
-# Fingerprints: what tells one fault from another, wherever its lines move.
+# Fingerprints: they identify a fault while its lines move.
 
 
 _LINE_NUMBER = re.compile(r"\bline \d+")
@@ -119,7 +119,7 @@ class Edit(Record):
     """Replace the text at `place` by `replacement`.
 
     Attributes:
-        place: Where the text stands.
+        place: The place of the text.
         replacement: The new text.
         original: What stands there. Where the file holds something else, as a spawner does that
             puts a text together, the edit cannot be made.

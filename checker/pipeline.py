@@ -47,7 +47,7 @@ def check_package(path: str | Path, settings: Settings | None = None) -> Report:
     Raises:
         UnreadableInput: There is nothing to check at the path.
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
-            own folder, which the report tells among what was not opened.
+            own folder, which the report lists as not opened.
     """
     return join_reports([tuple(_opened_and_checked(Task(Path(path), settings=settings)))])
 
@@ -63,12 +63,12 @@ def check_paths(
     Args:
         paths: What to check.
         wishes: Fields of `Settings` that the command line sets; None leaves them.
-        say: Told what takes long when it begins.
+        say: Called with a message when a long step starts.
         mesh_server: See `Task`.
 
     Raises:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
-            own folder, which the report tells among what was not opened.
+            own folder, which the report lists as not opened.
     """
     return join_reports(check_tasks(tasks_of(paths, wishes, say, mesh_server), 1))
 
@@ -89,7 +89,7 @@ class Task(Record):
         package: The one to check there; None where it has to be opened first.
         settings: To judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
-        say: Told what takes long.
+        say: Called with a message when a long step starts.
         mesh_server: Starts what reads the meshes of a package, if it is not to be started as usual.
         result: Known from the start, as of what cannot be opened.
         opening: Seconds that it took to open the folder of the package.
@@ -279,12 +279,12 @@ def _started_processes(
 
 
 def _with_patch(report: PackageReport, package: Package) -> PackageReport:
-    """Add what the safe fixes change, for those who want to see it."""
+    """Add the patch of the safe fixes, where it was requested."""
     from checker.fix.rounds import one_round, patch
 
     started = perf_counter()
     changes = ""
-    # Who needs a patch that cannot be made asks for it, and hears why.
+    # A request for a patch that cannot be made raises the reason.
     with suppress(Exception, Exceeded), Allowance().piece():
         changes = patch(one_round(package, report.findings[:_PATCHED], (Safety.SAFE,)))
     timings = {**report.timings, "patch": perf_counter() - started}

@@ -53,7 +53,7 @@ class Finding(Record):
         key: Findings of one rule with one key are one fault in many places.
         fix: Text edits that mend it.
         covered_by: Ids of more precise rules: where one of them reports the same place, or all
-            related places, at least as gravely, it is the same fault and told once.
+            related places, at least as severely, it is the same fault and reported once.
     """
 
     places: tuple[Place, ...]
@@ -98,8 +98,8 @@ def finding(
         key: What repeated findings have in common; the message when empty.
         related: Other places, each with a note that says what it has to do with the finding.
         fix: Text edits that mend it.
-        covered_by: Rules that tell the same fault more precisely where they report the same place,
-            or all the related ones.
+        covered_by: Rules that report the same fault more precisely where they report the same
+            place, or all the related ones.
     """
     others = tuple(replace(_place(other), note=note) for other, note in related)
     return Finding((_place(where), *others), message, severity, key, fix, covered_by)
@@ -120,7 +120,7 @@ class Context(Record):
     Attributes:
         profile: Name of the profile that judges the package (`subt`, `sdf`, …).
         release: Gazebo release that the profile aims at (`dome`, `harmonic`, `classic`).
-        sdf_version: SDF version that the profile asks for; empty when the file's own counts.
+        sdf_version: SDF version that the profile requires; empty when the file's own counts.
         reads: Newest SDF version that the target knows: it turns older files into that one, so
             that what is new in it counts in them too.
         distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile that is about none.
@@ -193,7 +193,7 @@ class Rule(Record, dict=True):
 
     @cached_property
     def needs(self) -> dict[str, str]:
-        """Parts of the package that the function asks for: names of types by parameter name.
+        """Parts of the package that the function needs: names of types by parameter name.
 
         Each with its module, as `checker.base.parts.type_name` returns it.
         """
@@ -206,7 +206,7 @@ class Rule(Record, dict=True):
 
     @property
     def _needs(self) -> list[tuple[str, Need]]:
-        """What the parameters ask for."""
+        """The types of the parameters."""
         hints = get_type_hints(self.check)
         parameters = inspect.signature(self.check).parameters.items()
         keyword = inspect.Parameter.KEYWORD_ONLY

@@ -91,7 +91,7 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
     """Run a rule on one of its examples: a bad one is reported at its marks, a good one nowhere.
 
     Args:
-        rule: Whose example it is.
+        rule: The rule of the example.
         kind: `good` or `bad`.
         example: As the module's docstring describes it.
         folder: An empty folder; the package is written below it.

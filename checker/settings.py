@@ -130,7 +130,7 @@ class Settings(Record):
         return replace(told, profile=told._of_model) if wanted == MODEL else told
 
     def _told_by(self, package: Package) -> Settings:
-        """Return the settings with the target that the content of a ROS 2 package tells."""
+        """Return the settings with the target detected from the content of a ROS 2 package."""
         target = detect_target(package, self.distro)
         profile = CLASSIC_ROS_2 if target.of_classic else self.profile
         return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)

@@ -62,7 +62,7 @@ def without_webgl(chromium: Browser) -> Iterator[Browser]:
 
 
 def _itself(url: str) -> str:
-    """Return how all addresses begin that a page may ask for: a file its own, a site its site's."""
+    """Return the prefix of addresses that a page may request: a file its own, a site its site's."""
     parts = urlsplit(url)
     return f"{parts.scheme}://{parts.netloc}/" if parts.netloc else urldefrag(url).url
 
@@ -78,7 +78,7 @@ def watched_page(
     touch: bool = False,
     javascript: bool = True,
 ) -> Iterator[Page]:
-    """A page that must not ask for anything but itself or its site, nor complain on its console."""
+    """A page that must not request anything but itself or its site, nor complain on its console."""
     context = chromium.new_context(
         viewport={"width": width, "height": height},
         color_scheme="dark" if dark else "light",

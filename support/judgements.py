@@ -38,10 +38,10 @@ class Judgement:
     """One judged finding.
 
     Attributes:
-        path: Of what was checked, below the folder of the source.
-        profile: That it was checked with.
-        severity: That is judged.
-        place: Where it is, or was, reported.
+        path: The checked path, below the folder of the source.
+        profile: The profile of the check.
+        severity: The judged severity.
+        place: The place where it is, or was, reported.
         verdict: `true`, `false` or `arguable`.
         reason: Why, in a sentence.
         still_reported: Whether a false one is reported to this day.
@@ -57,7 +57,7 @@ class Judgement:
 
     @property
     def expected(self) -> bool | None:
-        """Whether the rules are to report it; None where nobody can tell."""
+        """Whether the rules must report it; None where undecided."""
         if self.verdict == "arguable":
             return None
         return self.verdict == "true" or self.still_reported

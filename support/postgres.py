@@ -9,7 +9,7 @@ Scripts use `with started() as url:`.
 from __future__ import annotations
 
 import contextlib
-import ctypes  # noqa: F401 (for `end_with_parent`: whom it turns into may not read our modules)
+import ctypes  # noqa: F401 (for `end_with_parent`: the user that it becomes may not read our modules)
 import os
 import secrets
 import shutil
@@ -30,7 +30,7 @@ from checker.base.sandbox.task import end_with_parent
 DATABASES = ("sqlite", pytest.param("postgresql", marks=pytest.mark.service))
 """Kinds of databases, as parameters of fixtures."""
 _NOBODY = 65534
-"""Who runs the server in place of root, which PostgreSQL refuses."""
+"""The user that runs the server in place of root, which PostgreSQL refuses."""
 _FOR_ALL = ("/tmp", "/var/tmp")  # noqa: S108 - only where the folder is made
 _START_SECONDS = 60.0
 _STOP_SECONDS = 20.0
@@ -57,7 +57,7 @@ class NotStarted(Exception):
 class _Place:
     """The server's own folder; its programs are copied there.
 
-    Whoever runs the server need not be able to read this environment: it may lie below `/root`.
+    The server's user need not be able to read this environment: it may lie below `/root`.
     """
 
     folder: Path
@@ -111,7 +111,7 @@ def _as_somebody() -> dict[str, Any]:
 
 
 def _reachable_folder() -> str:
-    """Return where to put things that whoever runs the server can reach; TMPDIR may be root's."""
+    """Return a folder for files that the server's user can reach; TMPDIR may be root's."""
     usual = tempfile.gettempdir()
     for folder in (usual, *_FOR_ALL):
         here = Path(folder).resolve()
@@ -140,10 +140,10 @@ def _make_cluster(place: _Place, password: str) -> None:
 
 
 def free_port() -> int:
-    """Return a port of this machine at which nobody listens just now.
+    """Return a port of this machine on which no process listens.
 
-    It is none of those that the system gives away by itself: who starts again at it, after a crash,
-    may else find it taken by a connection of somebody else.
+    It is none of those that the system assigns: a server that restarts on it, after a crash,
+    may else find it taken by another connection.
     """
     while True:
         port = secrets.choice(_PORTS)

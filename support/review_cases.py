@@ -22,7 +22,7 @@ OUT_OF_REACH = {
     "R254": "the camera looks into a mesh, and the packages are kept without meshes",
     "R269": "the sheet says 'HD Camera', which is no device that a datasheet tells of",
 }
-"""Faults that cannot be told from the available files, and why."""
+"""Faults that the available files do not show, and why."""
 
 Said = tuple[str, str, str]
 """Rule, message and element of a finding."""
@@ -41,7 +41,7 @@ class ReviewCase:
     Attributes:
         id: Of the review finding.
         package: Folder of the package.
-        file: Where the fault stands.
+        file: The file of the fault.
         rules: Ids of which any may report it, those that do not exist yet among them.
         what: The fault in a few words.
     """

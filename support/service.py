@@ -26,8 +26,8 @@ def service(
     Args:
         data: Its folder.
         more: Variables of its environment.
-        workers: How many.
-        options: Of `subt-check serve`, besides.
+        workers: The number of workers.
+        options: Further options of `subt-check serve`.
     """
     command = [sys.executable, "-m", "checker.cli", "serve", "--port", "0"]
     command += ["--workers", str(workers), "--data", str(data), *options]

@@ -35,7 +35,7 @@ def process(
 
 
 def address(started: subprocess.Popen[str]) -> str:
-    """Return where a service is to be found, once it says so."""
+    """Return the address of a service, once it prints it."""
     assert started.stdout is not None
     line = started.stdout.readline()
     said = _SAID.fullmatch(line)

@@ -1,4 +1,4 @@
-"""Faults in launch files and in the xacro that ROS is told of."""
+"""Faults in launch files and in the xacro that ROS expands."""
 
 from __future__ import annotations
 

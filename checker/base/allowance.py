@@ -1,7 +1,7 @@
 """What one piece of work within this process may use: processor time and memory.
 
 Children have limits of their own (`checker.base.child_process`). This process cannot be ended for
-one piece, so that a timer interrupts the piece and what comes after it goes on.
+one piece, so that a timer interrupts the piece and what comes after it continues.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _INTERVAL = 0.05
 class Exceeded(BaseException):
     """A piece of work needs more than it may use.
 
-    Not an `Exception`: what goes on after any error of its own must not go on after this.
+    Not an `Exception`: code that continues after any other error must not continue after this one.
 
     Attributes:
         reason: The end of a sentence whose subject is the work.

@@ -1,6 +1,6 @@
 """Work in the background: its results come from the cache, else from a process with limits.
 
-It is begun early, while the caller does something else, or when its results are asked for.
+It starts early, while the caller does something else, or when its results are requested.
 """
 
 from __future__ import annotations
@@ -40,18 +40,18 @@ def _always(_: object) -> bool:
 
 
 class Work(Record, Generic[T], eq=False):
-    """What is to be computed: some items, by one process.
+    """The items that one process computes.
 
     Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with
     a JSON list of as many results; in place of one, `failed` says why there is none.
 
     Attributes:
-        kind: Of the results in the cache.
-        module: Whose `answer` does the work.
+        kind: The kind of the results in the cache.
+        module: The module whose `answer` does the work.
         limits: What the process may use.
         items: What is asked, as JSON, by the key of its result.
         decode: Makes a result of an entry of the answer. It raises one of `NONSENSE` for what is
-            none: who answers may have been taken over.
+            none: the answering process may be compromised.
         common: What all items need.
         files: Returns paths of files that go with items, and how many bytes each may have.
         lasts: Whether a result holds next time as well.
@@ -70,15 +70,15 @@ class Work(Record, Generic[T], eq=False):
 
 
 class Background(Generic[T]):
-    """Work that may go on while the caller does something else."""
+    """Work that may continue while the caller does something else."""
 
     def __init__(self, work: Work[T], cache: Cache, waiting: Child | Server | None = None) -> None:
         """Begin nothing yet.
 
         Args:
             work: What to do.
-            cache: Where results are kept.
-            waiting: Takes the work, else a process is started for it; who has it stops it.
+            cache: The cache of results.
+            waiting: A process that takes the work; without it one is started. Its owner stops it.
         """
         self._work, self._cache, self._waiting = work, cache, waiting
         self._asked: Child | Asked | None = None
@@ -125,7 +125,7 @@ class Background(Generic[T]):
         return next(iter(self.results().values()))
 
     def stop(self) -> None:
-        """End what nobody has waited for."""
+        """Stop the processes that still run."""
         if self._asked is not None:
             self._asked.stop()
 
@@ -142,7 +142,7 @@ class Background(Generic[T]):
             self._not_given = WorkerFailed(f"could not be started: {error.strerror}", True)
 
     def _answers(self, unknown: Sequence[str]) -> Sequence[Any]:
-        """Return as many answers as were asked for, or why there are none."""
+        """Return as many answers as were requested, or why there are none."""
         if self._work.here is not None:
             return [self._work.here(self._work.items[key]) for key in unknown]
         answer = self._asked.answer() if self._asked is not None else self._not_given or _NONSENSE

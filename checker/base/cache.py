@@ -78,7 +78,7 @@ class Cache(Record):
     """Results by kind and key.
 
     Attributes:
-        folder: Where they are kept; None keeps nothing.
+        folder: The folder of the entries; None keeps nothing.
     """
 
     folder: Path | None

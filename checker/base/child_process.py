@@ -1,7 +1,7 @@
-"""Work on hostile or heavy input in a sandboxed process with limits; it may die, we go on.
+"""Work on hostile or heavy input in a sandboxed process with limits; the caller survives its death.
 
-The process runs one function of one module: `answer(request, files)`. What goes to and fro are
-bytes (JSON, say), never pickles: a process that was taken over must not take who asked it. It is
+The process runs one function of one module: `answer(request, files)`. Messages in both directions
+are bytes (JSON, say), never pickles: a compromised process must not compromise its caller. It is
 started in the sandbox (`checker.base.sandbox`), and given no path.
 """
 
@@ -58,7 +58,7 @@ class Limits(Record):
 
 
 class Child:
-    """A process that works while who asked does something else."""
+    """A process that works while the caller does something else."""
 
     def __init__(
         self,
@@ -81,13 +81,14 @@ class Child:
             limits: What the process may use.
             contents: Files that go with the request: their names, and what is in them.
             starter: Starts it; that of this process when None.
-            works: Whether it writes into the working folder, and asks for processes itself.
+            works: Whether it writes into the working folder, and requests processes itself.
             folder: On whose disk request and answer lie; that of temporary files when None.
-            done: By which it says that an answer is there, if it lasts (see `child_server`).
+            done: The pipe on which it reports that an answer is there, if it lasts (see
+                `child_server`).
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
-        # No names: one that is killed leaves none, and nobody else can open them.
+        # No names: one that is killed leaves none, and no other process can open them.
         self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
         self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
         order = Order(
@@ -108,7 +109,7 @@ class Child:
         if request is not None:
             try:
                 self.give(request, contents)
-            except BaseException:  # such as a full disk: nobody else knows of the process
+            except BaseException:  # such as a full disk: no other code knows of the process
                 self.stop()
                 raise
 
@@ -121,7 +122,7 @@ class Child:
         """Bring the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
         handed.write(self._request, request, contents)
-        # One that has died says why when it is asked for its answer.
+        # A dead process reports why when its answer is requested.
         with suppress(OSError):
             os.write(self._started.input, b"!")
         return self
@@ -144,7 +145,7 @@ class Child:
         return os.fstat(self._request.fileno()).st_size
 
     def ends(self, seconds: float) -> bool:
-        """Wait for its end; False if it goes on after so many seconds."""
+        """Wait for its end; False if it still runs after so many seconds."""
         if self._stopped:
             return True
         poll = select.poll()
@@ -163,8 +164,8 @@ class Child:
 
         Args:
             limit: Bytes of the answer; the files have limits of their own.
-            start: Where the answer begins.
-            end: Where it ends; None where the file does.
+            start: The offset at which the answer begins.
+            end: The offset at which it ends; None for the end of the file.
         """
         size = os.fstat(self._answer.fileno()).st_size
         # A library may end the process with exit code 0 before anything is said.
@@ -198,11 +199,11 @@ def ask(
 
 
 NONSENSE = (AttributeError, IndexError, KeyError, TypeError, ValueError)
-"""What reading an answer raises that has not the form that was asked for."""
+"""What reading an answer of another form than requested raises."""
 
 
 def from_json(answer: bytes) -> Any:
-    """Return what an answer says as JSON; who answered may have been taken over.
+    """Return what an answer says as JSON; the answering process may be compromised.
 
     Raises:
         ValueError: It is no JSON, or nests too deeply.
@@ -214,7 +215,7 @@ def from_json(answer: bytes) -> Any:
 
 
 def _code(data: bytes) -> int | None:
-    """Return an exit code that the launcher tells; it may have been taken over."""
+    """Return the exit code that the launcher reports; the launcher may be compromised."""
     try:
         code = int(data)
     except ValueError:

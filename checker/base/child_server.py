@@ -1,7 +1,7 @@
 """A process with limits that answers one request after the other, so that it loads but once.
 
-Requests come one behind the other in one file, answers in another; two pipes tell where each lies.
-No socket is needed, so that a process in the sandbox can have such a process as well.
+Requests come one behind the other in one file, answers in another; two pipes give the place of
+each. No socket is needed, so that a process in the sandbox can have such a process as well.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class _Process(Child):
         """Bring a request."""
         start = self._request.seek(0, os.SEEK_END)
         handed.write(self._request, request, contents)
-        # One that has died says why when it is asked for its answer.
+        # A dead process reports why when its answer is requested.
         with suppress(OSError):
             os.write(self._started.input, PLACE.pack(start, self._request.tell()))
         self._given += 1
@@ -93,12 +93,12 @@ class Asked:
         return self._process.answer_to(self._number, self._deadline)
 
     def stop(self) -> None:
-        """Want no answer any more; the process goes on for others."""
+        """Cancel this request; the process continues with others."""
         self._wanted = False
 
 
 class Server:
-    """Starts its process when it is first asked; one that has died is started again."""
+    """Starts its process when it is first asked; a dead one is started again."""
 
     def __init__(self, module: str, limits: Limits) -> None:
         """Start nothing yet.

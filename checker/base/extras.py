@@ -42,7 +42,7 @@ class Extra(Record):
         """Go on only where it is installed.
 
         Args:
-            what: Who needs it, as the beginning of a sentence.
+            what: The feature that needs it, as the beginning of a sentence.
 
         Raises:
             MissingExtra: It is not.
@@ -52,7 +52,7 @@ class Extra(Record):
 
 
 class MissingExtra(CheckerError):
-    """Something was asked for that only an extra can do.
+    """A feature was requested that only an extra provides.
 
     Attributes:
         extra: Which.
@@ -63,7 +63,7 @@ class MissingExtra(CheckerError):
         self.extra, self.what = extra, what
 
     def __str__(self) -> str:
-        """Give who needs it, and the remedy."""
+        """Return the feature that needs it, and the remedy."""
         name, remedy = self.extra.name, self.extra.remedy
         return f"{self.what} needs the extra {name!r}, which is not installed: {remedy}"
 

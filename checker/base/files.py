@@ -47,7 +47,7 @@ class NotReadable(Record):
     """A file that cannot be read, and why.
 
     Attributes:
-        path: As it was asked for.
+        path: The requested path.
         reason: The end of a sentence that starts with the path.
     """
 
@@ -63,7 +63,7 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
     """Read a regular file of at most `limit` bytes.
 
     Args:
-        location: Where it is on disk, links resolved; a link put there since is refused.
+        location: Its place on disk, links resolved; a link put there since is refused.
         path: What to call it.
         limit: In bytes.
     """
@@ -84,7 +84,7 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
 
 
 def open_file(location: Path) -> BinaryIO:
-    """Open a file to be read; a link is refused, and a pipe keeps nobody waiting.
+    """Open a file to be read; a link is refused, and a pipe does not block.
 
     Raises:
         OSError: It is a link, or cannot be opened.

@@ -108,7 +108,7 @@ def _forked(
     os.close(results_to)
     with os.fdopen(results_from, "rb") as pipe:
         results = list(islice(_whole(pipe), len(works)))
-        while pipe.read(_PIECE):  # what nobody expects
+        while pipe.read(_PIECE):  # unexpected output
             pass
     return results, os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
 
@@ -141,13 +141,13 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, all_seconds: float
                 pipe.write(len(result).to_bytes(_HEAD, "big") + result)
                 pipe.flush()
                 del result
-    except BaseException as error:  # noqa: BLE001 - it must not go on as its parent
+    except BaseException as error:  # noqa: BLE001 - it must not continue as its parent
         return code_of(error)
     return 0
 
 
 def _allow(seconds: int, all_seconds: float) -> None:
-    """Let this process go on for so many seconds of processor time, or to the end of all."""
+    """Let this process run for so many seconds of processor time, or to the end of all."""
     end = min(process_time() + seconds, all_seconds)
     soft, hard = math.ceil(min(end, _FOREVER)), resource.getrlimit(resource.RLIMIT_CPU)[1]
     resource.setrlimit(resource.RLIMIT_CPU, (tighter(hard, max(soft, 1)), hard))

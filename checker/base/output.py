@@ -15,19 +15,19 @@ from checker.base.errors import CheckerError
 
 
 Say = Callable[[str], None]
-"""Told in a few words what begins."""
+"""Called with a few words when a stage starts."""
 
 
 def say_nothing(_: str) -> None:
-    """Keep progress to oneself, as where nobody looks on."""
+    """Print no progress."""
 
 
 class Stages:
     """The stages of one check.
 
     Attributes:
-        say: Told what begins, in a few words.
-        seconds: That each stage took, without the stages inside it.
+        say: Called with a few words when a stage starts.
+        seconds: The time of each stage, without the stages inside it.
     """
 
     def __init__(self, say: Say = say_nothing) -> None:
@@ -36,11 +36,11 @@ class Stages:
 
     @contextmanager
     def stage(self, name: str, words: str = "") -> Iterator[None]:
-        """Time what is done inside; a stage that is entered again goes on.
+        """Measure the time inside; a stage that is entered again continues.
 
         Args:
-            name: In the report.
-            words: For the person who waits; empty for what is not worth a line.
+            name: The name in the report.
+            words: The progress message; empty for none.
         """
         if words:
             self.say(words)
@@ -80,7 +80,7 @@ def show(text: str) -> None:
 
 
 def say_progress(words: str) -> None:
-    """Say on the standard error what goes on; whether somebody reads it does not matter."""
+    """Print progress on the standard error; errors of writing are ignored."""
     with suppress(OSError):
         sys.stderr.write(f"{words}\n")
         sys.stderr.flush()

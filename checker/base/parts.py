@@ -1,4 +1,4 @@
-"""The parts of a package that rules ask for: what makes them, and why one cannot be had.
+"""The parts of a package that rules need: what makes them, and why one is not available.
 
 A part is found by its type. A function marked `@part` makes it: the type that it returns is that
 of the part, and the types of its parameters are those of the parts that it is made of.
@@ -22,7 +22,7 @@ _MARK = "__provides_part__"
 
 
 class NotAvailable(Record):
-    """A part of a package that a rule asks for and that cannot be had.
+    """A part of a package that a rule needs and that is not available.
 
     Attributes:
         reason: Why, as the end of a sentence.
@@ -102,7 +102,7 @@ class Need(Record):
 
 
 def need_of(hint: Any) -> Need:
-    """Return what an annotation asks for."""
+    """Return the type that an annotation requests."""
     choices = () if get_origin(hint) is tuple else get_args(hint)
     kinds = [each for each in choices if each not in (NotAvailable, NoneType)] or [hint]
     several = get_origin(kinds[0]) is tuple
@@ -125,7 +125,7 @@ class Provider(Record, dict=True):
 def part(function: F) -> F:
     """Mark a function that makes a part.
 
-    It is called once for a package, when the part is first asked for. A parameter without
+    It is called once for a package, when the part is first requested. A parameter without
     `| NotAvailable` is never given one: what a part needs and is missing is why that part is, too.
     """
     function.__dict__[_MARK] = True

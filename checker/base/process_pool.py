@@ -1,6 +1,6 @@
 """Doing one thing after the other in several processes, which all end when one is interrupted.
 
-The workers of `concurrent.futures` go on to their next item when they are told to terminate, and
+The workers of `concurrent.futures` continue with their next item when they should terminate, and
 its executor waits for them: an interrupted check would end after some twenty seconds.
 """
 
@@ -42,7 +42,7 @@ def map_in_processes(
         for process in started:
             process.finish()
     finally:
-        # Whoever interrupts does not wait for what the others are doing.
+        # An interrupt does not wait for the work of the others.
         for process in started:
             process.ask_to_end()
         for process in started:
@@ -109,7 +109,7 @@ class _Process:
 
 def _serve(connection: Connection, work: Callable[[Any], Any]) -> None:
     """Work on what comes, until nothing can come any more."""
-    # A key that interrupts reaches all processes of a terminal: who started this one ends it.
+    # A key that interrupts reaches all processes of a terminal: the parent ends this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # What it has begun is put away on the way out.
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
@@ -117,6 +117,6 @@ def _serve(connection: Connection, work: Callable[[Any], Any]) -> None:
         for item in collect_between(iter(connection.recv, None)):
             try:
                 answer: tuple[bool, Any] = True, work(item)
-            except Exception as error:  # noqa: BLE001 - raised where it was asked for
+            except Exception as error:  # noqa: BLE001 - raised again in the parent
                 answer = False, error
             connection.send(answer)

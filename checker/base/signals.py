@@ -18,7 +18,7 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
 
     Args:
         numbers: Of the signals.
-        do: What is to be done, in this order; further signals do nothing.
+        do: The actions, in this order; further signals do nothing.
     """
     heard, told = os.pipe()  # open until the process ends
     os.set_blocking(told, False)
@@ -36,4 +36,4 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
 
 
 def _do_nothing(_number: int, _frame: object) -> None:
-    """Handle a signal, so that it is told of and does not end the process."""
+    """Handle a signal, so that it is reported and does not end the process."""

@@ -49,7 +49,7 @@ class Suggestions:
     def sure(self, word: str) -> str | None:
         """Return the one known word of which another is a misspelling; None if several may be.
 
-        A fix writes it: at most `SLIP` characters differ, and no digit, which tells parts apart.
+        A fix writes it: at most `SLIP` characters differ, and no digit, which distinguishes parts.
         """
         if word not in self._sure and self.near(word) is not None:
             matches = get_close_matches(word[:200], self._known, n=len(self._known), cutoff=0.8)

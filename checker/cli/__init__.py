@@ -113,7 +113,7 @@ def _end_in_good_order() -> None:
 
     # What is left then goes with the process: to look through it takes a tenth of a short check.
     atexit.register(gc.freeze)
-    with suppress(ValueError):  # not the main thread: whoever runs it handles signals
+    with suppress(ValueError):  # not the main thread: its caller handles signals
         signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
 
 

@@ -46,7 +46,7 @@ def _action(
 
 
 def run(options: argparse.Namespace) -> int:
-    """Do what is asked for."""
+    """Run the command."""
     SERVICE.require_for("admin")
     from checker.service.processes.admin import admin
 

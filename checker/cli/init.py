@@ -110,7 +110,7 @@ def _without_trailing_comments(text: str) -> str:
 
 
 _LOOKED_AT = 100
-"""Packages; more of them tell nothing new."""
+"""Packages; more of them give no new information."""
 _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.UNKNOWN)
 
 
@@ -118,7 +118,7 @@ class Guess(Record):
     """A profile, and what speaks for it.
 
     Attributes:
-        profile: Empty where nothing, or more than one thing, is to be guessed.
+        profile: The guessed profile; empty where there is none or more than one.
         reason: A part of a sentence; holds no text of a user.
     """
 

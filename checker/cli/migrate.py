@@ -38,10 +38,10 @@ def migrate_and_check(
         destination: Folder that the package goes into.
         wishes: What the author asks of the migration.
         check_wishes: Fields of `Settings` that the command line sets; None leaves them.
-        say: Told what takes long when it begins.
+        say: Called with a message when a long step starts.
 
     Returns:
-        What to tell the author, and the report on the new package.
+        The message for the author, and the report on the new package.
 
     Raises:
         NotMigrated: It cannot be done; no package was made.

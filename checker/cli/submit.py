@@ -42,7 +42,7 @@ from checker.service.client.upload import Upload, file_to_send
 # What `submit` does and says.
 
 
-# The report of a check on a service, told as `check` tells its own.
+# The report of a check on a service, printed as `check` prints its own.
 
 
 _AS_THERE = {"json": ("report.json",), "sarif": ("report.sarif",), "html": (PAGE, INDEX)}
@@ -55,10 +55,10 @@ def print_result(
     """Print the report of a check that is done, write what is wanted of it, and return it.
 
     Args:
-        check: Whose result it is.
+        check: The check of the result.
         standing: Its last one.
-        options: Of the command line.
-        folder: Where the command was run.
+        options: The options of the command line.
+        folder: The folder in which the command was run.
 
     Raises:
         CheckerError: The service does not give it, or something cannot be written.
@@ -162,8 +162,8 @@ def submit(options: argparse.Namespace, patience: Patience | None = None) -> Rep
     """Have a service check a package, and print the report as `check` does.
 
     Args:
-        options: Of the command line.
-        patience: With the service; the usual one when None.
+        options: The options of the command line.
+        patience: The time limits for the service; the usual ones when None.
 
     Returns:
         The report; None if the service could not finish, which is said.
@@ -207,7 +207,7 @@ def _token(options: argparse.Namespace) -> str:
 
 
 def _waited(check: Check, say: Say) -> Standing:
-    """Wait for the end; who interrupts is asked whether the check ends as well."""
+    """Wait for the end; an interrupt asks whether to cancel the check as well."""
     try:
         return check.wait(say)
     except KeyboardInterrupt:

@@ -21,7 +21,7 @@ class PartOfBody(Record, eq=False):
     """A link of the source within a body.
 
     Attributes:
-        pose: Of the link's frame in the body's.
+        pose: The pose of the link's frame in the body's.
     """
 
     link: Link
@@ -33,7 +33,7 @@ class Body(Record, eq=False):
 
     Attributes:
         parts: Links of the source that become this one; the first gives its name and frame.
-        tie: By which it hangs on another body; None for one that hangs on nothing.
+        tie: The tie that connects it to another body; None without one.
     """
 
     parts: list[PartOfBody]
@@ -54,9 +54,9 @@ class Bodies(Record, eq=False):
     """The bodies of a robot.
 
     Attributes:
-        bodies: By the name of the link whose frame they have, parents before children.
+        bodies: The bodies by the name of the link whose frame they have, parents before children.
         holders: The body that a link of the source is part of, by its name.
-        poses: Of a link of the source in that body's frame.
+        poses: The pose of a link of the source in that body's frame.
         left_out: Ties that would let a body hang on two others.
     """
 

@@ -68,7 +68,7 @@ class CarriedPlugin(Record, eq=False):
 
 
 class Lumped(Record, eq=False):
-    """Where a link of the source is to be found in the result.
+    """The place of a link of the source in the result.
 
     Attributes:
         link: Name of the link of the result that carries it; its own where it stays a link.

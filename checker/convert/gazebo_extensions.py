@@ -36,7 +36,7 @@ class Copier:
     """Copies elements of the source.
 
     Attributes:
-        naming: Whose prefix is removed from names inside.
+        naming: The naming whose prefix is removed from names inside.
         plugins: Takes the plugins that are copied.
         taken: Names in use, by link and kind.
     """
@@ -62,7 +62,7 @@ class Copier:
             parent: Of the result.
             link: Name of the link of the result that it is about; empty for the robot.
             reference: Name that the source's tag refers to, without prefix.
-            pose: Of the source's link in that of the result.
+            pose: The pose of the source's link in that of the result.
         """
         twin = copy_without_tail(element.node)
         parent.append(twin)

@@ -74,7 +74,7 @@ class Setting(Record, eq=False):
     Attributes:
         path: Tags, from the outside inwards.
         value: Its text.
-        element: That states it.
+        element: The element that states it.
     """
 
     path: tuple[str, ...]

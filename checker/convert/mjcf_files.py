@@ -47,8 +47,8 @@ def mjcf_of(
 
     Args:
         robot: What was driven.
-        scene: In which.
-        plan: What it was commanded.
+        scene: The scene of the trial.
+        plan: The commands of the trial.
         recording: The gains and states of the trial; an empty one leaves them out.
         shown: What the robot looks like.
     """
@@ -106,7 +106,7 @@ def _tune(root: etree._Element, scene: Scene, plan: Plan, recording: Recording) 
     servos = {element.get("name"): element for element in section(root, "actuator")}
     for servo in recording.servos:
         element = servos.get(scene.actuators.get(servo.joint))
-        # Who answers may have been taken over, and name something else.
+        # The answering process may be compromised, and name something else.
         if element is None or servo.joint not in lines:
             continue
         del element.attrib["kv"]

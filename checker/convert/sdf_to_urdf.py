@@ -50,7 +50,7 @@ def steps_of(robot: Robot, tie: Tie, child: Transform) -> Sequence[Step]:
 
     Args:
         robot: The tie's.
-        tie: By which a link hangs.
+        tie: The tie of a link.
         child: The link's pose in the robot's frame.
     """
     motions = motions_of(robot, tie.joint)
@@ -261,7 +261,7 @@ def xacro_of(robot: Robot, *, name: str, mesh_uri: Callable[[str], str]) -> etre
 
     Args:
         robot: From SDF.
-        name: Of the package; the default of the argument `name`.
+        name: The name of the package; the default of the argument `name`.
         mesh_uri: Gives the URI to write for a mesh or texture, as written in the robot's file.
     """
     urdf = urdf_of(robot, mesh_uri=mesh_uri, prefix=_MARK)

@@ -34,7 +34,7 @@ class Shape(Record, eq=False):
     Attributes:
         kind: Its tag.
         sizes: As `Geometry.sizes`.
-        pose: In the frame of the geometry.
+        pose: The pose in the frame of the geometry.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""The language server: what editors are told of a package while it is written.
+"""The language server: diagnostics, completion and more for a package in an editor.
 
 - A workspace has an overlay (`checker.package.overlay`): every text of a package is read
   through it. `with_overlay` gives the workspace another one and keeps all texts and parsed
@@ -6,7 +6,7 @@
 - `session` has the open files and, for each of their packages, the last check. A change makes a
   new package, a new `Subject` and a new run of the static rules: nothing can be stale, and it
   takes a tenth of a second, since texts, meshes and expansions are known.
-- What reads packages works in one thread; the event loop goes on. What weighs and drives runs
+- What reads packages works in one thread; the event loop continues. What weighs and drives runs
   in a process of its own (`full_check`), which the user can stop; its findings stay with their
   elements while the text changes (`measured`).
 - Garbage is collected while the editor is idle: otherwise it takes half the time of a check.

@@ -26,13 +26,13 @@ _SHOWN = 40
 def code_actions(
     server: Server, document: Document, state: State, context: lsp.CodeActionContext
 ) -> list[lsp.CodeAction]:
-    """Return what a client asks for.
+    """Return the actions that a client requests.
 
     Args:
         server: Of the editor.
         document: The file.
-        state: Of its package.
-        context: What the user points at, and which kinds of actions are asked for.
+        state: The state of its package.
+        context: The user's selection, and the requested kinds of actions.
     """
     if state.checked is None:
         return []

@@ -36,7 +36,7 @@ _KINDS = {
     CompletionKind.FILE: lsp.CompletionItemKind.File,
 }
 LIMIT = 500
-"""Items of a list; one that is longer is asked for again while the user types on."""
+"""Items of a list; a longer list is requested again while the user types."""
 
 
 def hover(
@@ -47,9 +47,9 @@ def hover(
     Args:
         session: With the packages.
         document: The file.
-        state: Of its package.
-        position: Where the user points.
-        columns: How the client counts.
+        state: The state of its package.
+        position: The user's position.
+        columns: The client's unit of columns.
     """
     checked = state.checked
     path = path_in(checked.package, document.path) if checked is not None else ""
@@ -97,8 +97,8 @@ def completions(
         session: With the packages.
         document: The file as it is now.
         checked: What is known of its package.
-        position: Of the caret.
-        columns: How the client counts.
+        position: The position of the caret.
+        columns: The client's unit of columns.
         snippets: Whether the client can fill in places of a text.
     """
     path = path_in(checked.package, document.path)

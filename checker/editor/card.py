@@ -1,4 +1,4 @@
-"""The Markdown of a hover: a title, and what is told in lines below it."""
+"""The Markdown of a hover: a title, and lines below it."""
 
 from __future__ import annotations
 

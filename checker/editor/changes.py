@@ -25,7 +25,7 @@ class Changes:
 
         Args:
             documents: Those that are open; an edit of one says which version it is for.
-            columns: How the client counts.
+            columns: The client's unit of columns.
         """
         self._versions = {each.path: (each.uri, each.version) for each in documents}
         self._columns = columns

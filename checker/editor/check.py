@@ -29,9 +29,9 @@ class Checked:
     """What is known of a package in one state of its texts.
 
     Attributes:
-        package: In this state.
-        subject: Its parts, each read when it is first asked for.
-        settings: By which it was judged.
+        package: The package in this state.
+        subject: Its parts, each read on the first request.
+        settings: The settings of the check.
         outcome: What the rules said.
     """
 
@@ -41,10 +41,10 @@ class Checked:
         """Check it.
 
         Args:
-            package: With the texts of the editor.
+            package: The package with the texts of the editor.
             settings: The user's.
-            cache: Where results are kept.
-            processes: That expand xacro files and read meshes; they go on.
+            cache: The cache of results.
+            processes: The processes that expand xacro files and read meshes; they keep running.
 
         Raises:
             InvalidSettings: The settings name a rule or option that does not exist.

@@ -1,4 +1,4 @@
-"""What the user asks for by name: a check with weights and trial, the robot in 3D, a drive."""
+"""The commands of the user: a check with weights and trial, the robot in 3D, a drive."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def register(server: Server) -> None:
 
 
 async def measure(server: Server, uri: str, *, display: bool = False) -> PackageReport | None:
-    """Check the package of a file with weights and trial, and tell the editor what is found.
+    """Check the package of a file with weights and trial, and send the findings to the editor.
 
-    The user sees that it goes on, and may cancel it.
+    The user sees the progress, and may cancel it.
 
     Args:
         server: Of the editor.
@@ -71,7 +71,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         display: Whether the report is to hold the robot in 3D.
 
     Returns:
-        The report; None where there is none, of which the user is told.
+        The report; None where there is none, with a message to the user.
     """
     known = await server.state_of(uri)
     state = known[1] if known is not None else None
@@ -86,7 +86,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
     key, checked = state.unit.key, state.checked
     wishes = {"trial": True, "display": True if display else None}
     check = FullCheck(checked.package, checked.settings.overridden(**wishes))
-    # Of the text before, nobody wants to know any more.
+    # Results of the earlier text are no longer needed.
     if (earlier := server.measuring.get(key)) is not None:
         earlier.stop()
     server.measuring[key] = check
@@ -108,7 +108,7 @@ def _note(session: Session, key: Key, package: Package, report: PackageReport) -
 
 
 async def _watched(server: Server, check: FullCheck, name: str) -> PackageReport | WorkerFailed:
-    """Wait for a check; the editor shows that it goes on, and may cancel it."""
+    """Wait for a check; the editor shows the progress, and may cancel it."""
     window = server.client_capabilities.window
     if window is None or not window.work_done_progress:
         return await asyncio.to_thread(check.result)

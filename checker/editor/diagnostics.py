@@ -42,7 +42,7 @@ def diagnostics_of(
         document: The file.
         own: What is known of the package that it belongs to.
         others: Packages whose rules may find something in it as well.
-        columns: How the client counts.
+        columns: The client's unit of columns.
     """
     found: dict[tuple[Any, ...], lsp.Diagnostic] = {}
     for state in (own, *others):

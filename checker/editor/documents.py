@@ -21,8 +21,8 @@ class Document(Record, eq=False, dict=True):
 
     Attributes:
         uri: As the client spells it.
-        path: Where it lies, links resolved; it may not exist yet.
-        version: Of the text, as the client counts.
+        path: Its path, links resolved; it may not exist yet.
+        version: The client's version of the text.
         text: What the editor shows.
         encoding: Of the file on disk.
     """

@@ -1,4 +1,4 @@
-"""What the language server answers: each feature of the protocol, and who works it out."""
+"""What the language server answers: each feature of the protocol, and its function."""
 
 from __future__ import annotations
 

@@ -16,14 +16,14 @@ from checker.settings import Settings
 
 
 class FullCheck:
-    """A check that goes on in a process of its own."""
+    """A check that runs in a process of its own."""
 
     def __init__(self, package: Package, settings: Settings) -> None:
         """Start it.
 
         Args:
-            package: With the texts of the editor.
-            settings: By which rules, and how strictly.
+            package: The package with the texts of the editor.
+            settings: The selected rules and their severities.
         """
         # Not forked: the server has threads.
         context = multiprocessing.get_context("spawn")
@@ -45,7 +45,7 @@ class FullCheck:
         return report
 
     def stop(self) -> None:
-        """End it; `result` then tells that it was stopped."""
+        """End it; `result` then reports that it was stopped."""
         with suppress(OSError, ValueError):
             self._process.terminate()
 

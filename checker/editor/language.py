@@ -37,7 +37,7 @@ def place_of(tags: Sequence[str], *, refers: bool = True) -> Place:
     Tags of xacro's own are looked through: what is in a macro stands where that is called.
 
     Args:
-        tags: From the root of the file down to the element.
+        tags: The tags from the root of the file down to the element.
         refers: Whether the `<gazebo>` tag around it, if any, refers to a link or joint.
     """
     own = tuple(tag for tag in tags if not tag.startswith(PREFIX))

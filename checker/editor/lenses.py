@@ -21,8 +21,8 @@ def lenses_of(document: Document, state: State, columns: Columns) -> list[lsp.Co
 
     Args:
         document: The file.
-        state: Of its package.
-        columns: How the client counts.
+        state: The state of its package.
+        columns: The client's unit of columns.
     """
     checked = state.checked
     if checked is None:

@@ -48,7 +48,7 @@ def words_of_sdf(tags: Sequence[str], attribute: str, kind: str, target: Context
         tags: Of the elements around it and of its own.
         attribute: Its name; empty for a text.
         kind: Its type in the schema.
-        target: Whose sensors count.
+        target: The target whose sensors count.
     """
     if kind == "bool":
         return list(_BOOLEANS)

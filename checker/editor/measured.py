@@ -1,4 +1,4 @@
-"""What weights, views of sensors and the trial told, while the text goes on to change."""
+"""Results of weights, views of sensors and the trial, kept while the text changes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results of texts that nobody has saved: kept in memory, and never on disk."""
+"""Results of unsaved texts: kept in memory, and never on disk."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from msgspec import field
 from checker.base.cache import Cache
 
 _ENTRIES = 300
-"""The newest, and what was asked for last."""
+"""Greatest number of results; the least recently used are removed."""
 _OF_TEXTS = frozenset({"xacro"})
 """Kinds of results that depend on texts; others, such as those of meshes, last."""
 

@@ -39,7 +39,7 @@ _KINDS = {
 
 
 class Navigator:
-    """The names of a package, as a file of it asks for them."""
+    """The names of a package, for requests from one of its files."""
 
     def __init__(self, index: NameIndex, document: Document, columns: Columns) -> None:
         """Take the names.
@@ -47,7 +47,7 @@ class Navigator:
         Args:
             index: Of the package.
             document: The file.
-            columns: How the client counts.
+            columns: The client's unit of columns.
         """
         self._index, self._columns = index, columns
         self._package = index.package

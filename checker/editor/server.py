@@ -1,4 +1,4 @@
-"""The language server: when it checks, and what it tells the editor by itself.
+"""The language server: when it checks, and what it sends without a request.
 
 Whatever reads packages works in one thread, one thing after the other; the event loop talks to the
 editor meanwhile. A check begins as soon as a text changes. Changes that come while it runs are
@@ -41,9 +41,9 @@ class Server(LanguageServer):
 
     Attributes:
         session: What is known of the packages.
-        columns: How the client counts.
+        columns: The client's unit of columns.
         measures_on_save: Whether weights are taken and the trial is run when a file is saved.
-        measuring: Checks with weights and trial that go on, by what they check.
+        measuring: Running checks with weights and trial, by what they check.
     """
 
     def __init__(self) -> None:
@@ -128,7 +128,7 @@ class Server(LanguageServer):
         self.window_log_message(lsp.LogMessageParams(lsp.MessageType.Error, message))
 
     def _collect_later(self) -> None:
-        """Collect what checks have left when nobody types: in between, it takes half their time."""
+        """Collect garbage when the user does not type: during checks, it takes half their time."""
         if self._collecting is not None:
             self._collecting.cancel()
         self._checks += 1
@@ -150,7 +150,7 @@ class Server(LanguageServer):
             return [(document, self._diagnostics(document)) for document in list(every)]
 
         for document, diagnostics in await self.read(told):
-            # Of a text that has changed meanwhile, the next check tells.
+            # The next check reports on a text that has changed meanwhile.
             if diagnostics is not None and self.session.documents.get(document.uri) is document:
                 told_of = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
                 self.text_document_publish_diagnostics(told_of)

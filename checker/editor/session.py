@@ -33,7 +33,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
 Key = tuple[Path, str]
-"""What tells a unit from others: its folder, and its file where that is checked alone."""
+"""The key of a unit: its folder, and its file where that is checked alone."""
 _SERVER_BYTES = 50_000_000
 """That a process may have been given before another one takes its place."""
 
@@ -67,7 +67,7 @@ class State(Record, eq=False, dict=True):
 
     @cached_property
     def findings(self) -> tuple[ReportedFinding, ...]:
-        """What was found, with what the last check told that measured."""
+        """The findings, with those of the last check that measured."""
         if self.checked is None:
             return ()
         measured = self.measured.findings_in(self.checked.package) if self.measured else ()

@@ -85,7 +85,7 @@ def rule_switched_off(
         state: Of the package.
         rule: Id of the rule.
         documents: All open files, by URI.
-        columns: How the client counts.
+        columns: The client's unit of columns.
     """
     settings = state.checked.settings if state.checked is not None else None
     source_file = settings.source if settings is not None else None

@@ -28,7 +28,7 @@ class Unit(Record, eq=False):
 
     @property
     def key(self) -> tuple[Path, str]:
-        """What tells it from others."""
+        """The key of the unit."""
         return self.package.root, self.package.only
 
 

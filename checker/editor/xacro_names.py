@@ -93,9 +93,9 @@ def xacro_names(package: Package, path: str) -> XacroNames:
     """Return what a file can use.
 
     Args:
-        package: That it is in.
-        path: Of the file. What it includes counts, and all other xacro files of the package: one
-            that includes this file may define what it uses.
+        package: The package of the file.
+        path: The path of the file. What it includes counts, and all other xacro files of the
+            package: one that includes this file may define what it uses.
     """
     gathered = Gathered(package)
     gathered.follow([path_of(package, path)])

@@ -23,7 +23,7 @@ class Parted(Record):
     """What a rule found.
 
     Attributes:
-        told: What it reports.
+        told: The findings that it reports.
         covered: What a more precise rule reports, each with what that rule says.
     """
 
@@ -33,10 +33,10 @@ class Parted(Record):
 
 
 def split_covered(said: Sequence[Said]) -> list[Parted]:
-    """Part findings from those that a rule of `covered_by` tells as gravely or more.
+    """Separate the findings that a rule of `covered_by` reports at no lower severity.
 
-    It tells the same if it reports the same place; or all related places, which are what a finding
-    suspects, or something in them.
+    A rule reports the same fault if it reports the same place; or all related places, which are
+    what a finding suspects, or something in them.
 
     Args:
         said: What all rules found that ran.

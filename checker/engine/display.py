@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from checker.physics.trial.trial import Trial
 
 
-# The robot and its trial for those who look: one animated GLB.
+# The robot and its trial for display: one animated GLB.
 
 
 BYTES = 4_500_000
@@ -51,8 +51,8 @@ def display_of(
     """Return the robot in 3D; None where nothing of it can be shown.
 
     Args:
-        robot: It.
-        trial: How it moved; None without a trial.
+        robot: The robot.
+        trial: Its motion; None without a trial.
         surfaces: What its mesh files look like.
         drawing: Makes pictures of it, while the rest is put together; None for none.
     """
@@ -86,8 +86,8 @@ class RobotDisplay(Record, eq=False, dict=True):
 
     Attributes:
         robots: At least one.
-        cache: Where results are kept.
-        stages: Told of what takes long.
+        cache: The cache of results.
+        stages: Called with a message when a long step starts.
         processes: Processes that wait; the caller ends them.
     """
 
@@ -105,7 +105,7 @@ class RobotDisplay(Record, eq=False, dict=True):
                 self._surfaces.begin()
 
     def stop(self) -> None:
-        """End what nobody has waited for."""
+        """Stop the processes that still run."""
         self._drawing.stop()
         surfaces = self.__dict__.get("_surfaces")
         if isinstance(surfaces, MeshFiles):
@@ -115,7 +115,7 @@ class RobotDisplay(Record, eq=False, dict=True):
         """Return the robot in 3D; None where there is nothing to see.
 
         Args:
-            trial: How it moved; None without a trial.
+            trial: Its motion; None without a trial.
         """
         with self.stages.stage("display", "drawing the robot"):
             display = display_of(self.robots[0], trial, self._surfaces, self._drawing)

@@ -26,7 +26,7 @@ _OF_URDF = frozenset(map(type_name, (UrdfDescription, UrdfFiles)))
 
 
 def begin(subject: Subject, kinds: Set[str]) -> None:
-    """Begin with what the rules ask for.
+    """Start to make the parts that the rules need.
 
     Args:
         subject: The package.
@@ -48,7 +48,7 @@ def begin(subject: Subject, kinds: Set[str]) -> None:
 
 
 def begin_meshes(subject: Subject) -> None:
-    """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
+    """Begin to read the robot's meshes; errors occur again when a rule requests them."""
     with suppress(Exception, Exceeded), subject.allowance.piece():
         if PHYSICS.is_installed:
             _begin_meshes(subject)

@@ -114,7 +114,7 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 def _verdicts(outcome: Outcome, known: Sequence[Rule]) -> _Verdicts:
     verdicts: _Verdicts = {}
     judging = {rule.id for rule in known if rule.judges}
-    # A figure is out of its limits also where that does not count, or where its cause is told.
+    # A figure is out of its limits also where that does not count, or where its cause is reported.
     aside = (item.finding for item in outcome.suppressed)
     for finding in (*outcome.findings, *aside, *outcome.covered):
         if finding.rule in judging:
@@ -184,21 +184,21 @@ def _series(trial: Trial) -> dict[str, list[float | None]]:
 
 
 def _rounded_value(value: float) -> float:
-    """Return a figure with as many digits as anybody can tell apart."""
+    """Return a figure with as many digits as can be distinguished."""
     return float(f"{value:.{_SERIES_DIGITS}g}")
 
 
 _DIGITS = 6
 ROBOTS_LIMIT = 100
-"""Robots of one file or package of which figures are told."""
+"""Robots of one file or package whose figures are reported."""
 _T = TypeVar("_T")
 
 
 def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     """Return what is known by now of each robot; nothing without any.
 
-    Masses in kg, lengths in m, angles in degrees, inertia in kg·m². What only meshes, Pinocchio
-    or the trial can tell is there when a rule has asked for it.
+    Masses in kg, lengths in m, angles in degrees, inertia in kg·m². Results of meshes, Pinocchio or
+    the trial are included when a rule has requested them.
     """
     robots = subject.all(Robot)
     if isinstance(robots, NotAvailable):
@@ -228,7 +228,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
 
 
 def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield the values that are taken for arguments which nobody gives, and others that count."""
+    """Yield the values that are taken for arguments that are not given, and others that count."""
     files = subject.one(UrdfFiles) if robot.document.root.tag == "robot" else None
     if not isinstance(files, UrdfFiles):
         return

@@ -44,11 +44,11 @@ class Judge(Record):
         return self._asked_for(rule) and (self.settings.trial or not needs_trial)
 
     def needed_parts(self, rules: Iterable[Rule]) -> set[str]:
-        """Return the names of the types of parts that the rules to be run ask for."""
+        """Return the names of the types of parts that the selected rules need."""
         return {kind for rule in filter(self.is_selected, rules) for kind in rule.needs.values()}
 
     def switched_off(self, rule: Rule) -> Iterator[NotChecked]:
-        """Yield why a rule that does not run was switched off; nothing if none asked for it."""
+        """Yield why a rule that does not run was switched off; nothing if it was never selected."""
         selected, included = self.settings.selects(rule), self.profile.includes(rule)
         if self._asked_for(rule):
             yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)

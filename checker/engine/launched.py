@@ -16,7 +16,7 @@ _COMMON = ("/tf", "/tf_static", "/clock", "/diagnostics", "/parameter_events", "
 
 
 def launched_files_of(subject: Subject) -> tuple[Launched, ...]:
-    """Return the graph of each launch file of ROS 2 that starts a node, if a rule asked for it."""
+    """Return the graph of each launch file of ROS 2 that starts a node, if a rule requested it."""
     return tuple(map(_launched, subject.cached_parts(Wiring)))
 
 

@@ -51,7 +51,7 @@ def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
 
 
 _NAMED = 10
-"""Rules that begin with what was asked for, which a message names."""
+"""Rules whose ids start with the requested text, for a message."""
 
 
 def no_such_rule(name: str, known: Iterable[str]) -> str:

@@ -69,7 +69,7 @@ def run_and_set_aside(
     """Run rules over a package and part what they find from what does not count.
 
     Args:
-        chosen: Of which those run that are wanted.
+        chosen: The rules to choose from; the selected ones run.
         every: All that there are, which suppressions may name.
         subject: The package.
         judge: Says which are wanted, and how severe their findings are.
@@ -97,7 +97,7 @@ def run_and_set_aside(
 
 
 def _looked(outcome: Outcome) -> set[str]:
-    """Return the rules that looked at all they ask for, so that their silence tells something."""
+    """Return the ids of rules that ran on complete data."""
     return set(outcome.looked) - {skipped.rule for skipped in outcome.not_checked}
 
 
@@ -122,9 +122,9 @@ def judge_package(
     Args:
         package: What to judge.
         shown: Its path as the user gave it.
-        settings: By which rules, and how strictly.
-        cache: Where results that take long are kept.
-        say: Told what takes long when it begins.
+        settings: The selected rules and their severities.
+        cache: The cache of results that take long.
+        say: Called with a message when a long step starts.
         processes: Processes that wait for something to do; they are stopped in the end.
 
     Raises:
@@ -136,7 +136,7 @@ def judge_package(
     subject = Subject(package, cache, stages, devices, processes, settings.xacro_args)
     try:
         if not settings.select:
-            # Whatever the rules are, some ask for the meshes: these are read while those load.
+            # Some rules always need the meshes: these are read while those load.
             begin_meshes(subject)
         known = rules(cache)
         check_against_rules(settings, known)
@@ -170,7 +170,7 @@ def _report_or_crash(
 ) -> PackageReport:
     try:
         return _report(subject, shown, settings, known)
-    except (Exception, Exceeded) as error:  # noqa: BLE001 - the other packages go on, the exit code says so
+    except (Exception, Exceeded) as error:  # noqa: BLE001 - the others continue, the exit code says so
         broken = (unfinished("check", error),)
         return PackageReport(subject.package.name, shown, "unknown", (), broken)
 
@@ -180,7 +180,7 @@ def _report(
 ) -> PackageReport:
     package, judge = subject.package, Judge.from_settings(settings)
     with subject.stages.stage("rules", "rules"):
-        # What needs too much is met again by the rules that ask for it.
+        # A part that exceeds its limits fails again when a rule requests it.
         with suppress(Exceeded), subject.allowance.piece():
             begin(subject, judge.needed_parts(known))
             if settings.display:

@@ -43,9 +43,9 @@ class Outcome(Record):
     """What the rules said, and which of them could not look.
 
     Attributes:
-        looked: Ids of the rules that had all they asked for, each with the options it used.
+        looked: Ids of the rules that ran on complete data, each with the options it used.
         suppressed: What they said and does not count.
-        covered: What they said and a more precise rule tells; its finding repeats it.
+        covered: Findings that repeat one of a more precise rule.
     """
 
     findings: tuple[ReportedFinding, ...]
@@ -67,9 +67,9 @@ def run_rules(
     """Run the rules that profile and settings want; one that crashes stops no other.
 
     Args:
-        rules: Of which those run that are wanted.
-        parts: What they ask for.
-        judge: Says which are wanted, and how severe their findings are.
+        rules: The rules to choose from; the selected ones run.
+        parts: The parts that they need.
+        judge: The selection of rules, and the severities of findings.
         matcher: Tells what does not count.
         unloaded: Files that nothing loads: what is found in them is information.
         allowance: What each rule may use; the usual when None.
@@ -130,7 +130,7 @@ def _reported(
 
 
 def _repeats(shares: Sequence[Parted]) -> dict[Cover, list[Repeat]]:
-    """Return what less precise rules say, by the finding that is told in their place."""
+    """Return the findings of less precise rules, by the finding reported in their place."""
     covers = {(each.rule.id, found): cover for each in shares for found, cover in each.covered}
     repeats: dict[Cover, list[Repeat]] = {}
     for each in shares:
@@ -201,7 +201,7 @@ def _run_isolated(
             return [said for argument in arguments for said in rule.check(**argument, **options)]
     except MissingExtra as missing:
         return NotChecked(rule.id, missing.extra.missing_message, Cause.SWITCHED_OFF)
-    except (Exceeded, Exception) as error:  # noqa: BLE001 - the other rules go on, the exit code says so
+    except (Exceeded, Exception) as error:  # noqa: BLE001 - the others continue, the exit code says so
         return unfinished(rule.id, error)
 
 
@@ -222,7 +222,7 @@ def unfinished(what: str, error: Exception | Exceeded) -> NotChecked:
 
 
 def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAvailable:
-    """Return one set of arguments for each combination of the parts that a rule asks for.
+    """Return one set of arguments for each combination of the parts that a rule needs.
 
     None represents a part that the package has not and the rule can do without; one that only
     cannot be had is missed anyway.
@@ -276,7 +276,7 @@ def _spot(rule: Rule, finding: GradedFinding) -> Spot:
 
 
 def _identity(finding: Finding) -> str:
-    """Return what tells a fault from others of its rule in the same element or file.
+    """Return what distinguishes a fault from others of its rule in the same element or file.
 
     An element's path stays when its value changes, the message does not; elsewhere the message
     has to do, without the numbers of lines in it.

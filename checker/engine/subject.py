@@ -1,4 +1,4 @@
-"""The parts of one package, as rules ask for them; each is made once, when first asked for."""
+"""The parts of one package that rules request; each is made once, on the first request."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ class Subject(Record, eq=False):
 
     Attributes:
         package: The package.
-        cache: Where results that take long are kept.
-        stages: Told of what takes long.
+        cache: The cache of results that take long.
+        stages: Called with a message when a long step starts.
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
         xacro_args: Arguments for xacro, before those that launch files give.
         allowance: What each part, and each rule, may use.
-        ends: What is to be stopped when the check ends.
+        ends: The processes to stop when the check ends.
     """
 
     package: Package
@@ -79,7 +79,7 @@ class Subject(Record, eq=False):
         """Return the part whose type has this name; a file may hold several robots.
 
         Raises:
-            LookupError: A rule asks for something that is no part of a package.
+            LookupError: A rule requests something that is not a part of a package.
         """
         if kind in self._made:
             return self._made[kind]
@@ -101,7 +101,7 @@ class Subject(Record, eq=False):
         return cast("tuple[T, ...] | NotAvailable", self._part(type_name(kind)))
 
     def cached_parts(self, kind: type[T]) -> tuple[T, ...]:
-        """Return a part that has been made; nothing when none asked for it or it is missing."""
+        """Return a part that has been made; nothing when it was not requested or is missing."""
         had = self._made.get(type_name(kind), ())
         return () if isinstance(had, NotAvailable) else cast("tuple[T, ...]", had)
 

@@ -41,7 +41,7 @@ class EditedText:
     """A text and the edits gathered for it.
 
     Attributes:
-        stretches: In the order of the text; none collides with another.
+        stretches: The stretches in the order of the text; none collides with another.
     """
 
     source: SourceText
@@ -121,8 +121,8 @@ class Fixed(Record):
         findings: What was fixed, in order.
         left: Findings whose fix was allowed and could not be made.
         elsewhere: Findings whose fix was allowed, in files that belong to other packages.
-        withheld: Findings whose fix changes behaviour and was not asked for.
-        rounds: How often edits were made.
+        withheld: Findings whose fix changes behaviour and was not requested.
+        rounds: The number of rounds of edits.
     """
 
     files: tuple[FixedFile, ...]

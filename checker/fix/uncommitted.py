@@ -1,7 +1,7 @@
 """Which files git could not bring back as they are: a fix would mix with their author's changes.
 
 A repository may be hostile: its configuration and attributes name programs that git starts (file
-system monitors, hooks, filters, commands that fetch missing objects). So git is only asked for the
+system monitors, hooks, filters, commands that fetch missing objects). So git is only used for the
 ids of committed files and for what is ignored, with monitor, hooks, transports and writing off.
 These commands apply no filter and no textconv, and enter no submodule. The files are compared here.
 """
@@ -42,7 +42,7 @@ def uncommitted(folder: Path, paths: Sequence[str]) -> list[str]:
         paths: Of files, relative to the folder.
 
     Raises:
-        GitFailed: git cannot tell.
+        GitFailed: git does not answer.
     """
     git = shutil.which("git")
     if not paths or git is None or not Path(git).is_absolute() or not _in_repository(folder):

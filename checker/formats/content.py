@@ -17,7 +17,7 @@ class Content(Record, eq=False):
 
     Attributes:
         robots: Those that are not part of another one, in the order of the file.
-        worlds: In the order of the file.
+        worlds: The worlds in the order of the file.
         missing: Why a robot is not among these although the file names it, as a sentence without
             its full stop; else empty.
     """

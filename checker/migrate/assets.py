@@ -31,7 +31,7 @@ class Assets:
     """Gives the new URIs of meshes and pictures, and remembers which files that takes.
 
     Attributes:
-        source: Whose files they are.
+        source: The package of the files.
         notes: What could not be taken along, as sentences.
     """
 

@@ -76,7 +76,7 @@ class Drive(Record, eq=False):
 
     @property
     def turning_radius(self) -> float:
-        """Of the middle of the rear axle, metres; 0 for one that turns on the spot."""
+        """Turning radius of the rear axle's middle, metres; 0 for one that turns on the spot."""
         return self.wheel_base / math.tan(self.steering_limit) if self.steering else 0.0
 
 

@@ -29,7 +29,7 @@ class Facts(Record):
         size: Length, width and height in metres; empty where a part's extent is not known.
         spawn_height: Added to z when the robot is spawned, metres.
         standing_height: z of a robot that stands on the ground, metres.
-        sensors: How many there are of each kind: `3D lidar`, modeled by `gpu_lidar`.
+        sensors: The number of each kind: `3D lidar`, modeled by `gpu_lidar`.
     """
 
     mass: str

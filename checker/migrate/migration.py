@@ -84,7 +84,7 @@ class Migrated(Record):
         folder: Of the package.
         notes: What was decided, as sentences.
         open_points: What only the author can decide.
-        to_do: Places that say TODO, each with what is to be filled in.
+        to_do: Places that say TODO, each with what must be filled in.
     """
 
     folder: Path
@@ -105,7 +105,7 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
     Args:
         path: The description: a package folder, an archive, or a URDF file.
         destination: Folder that the package goes into: empty, or not there yet.
-        wishes: What the author asks for.
+        wishes: The author's options.
 
     Raises:
         NotMigrated: It cannot be done; no package was made.

@@ -134,7 +134,7 @@ class Names(Record):
 
 
 def names_for(wishes: MigrationOptions, source: Source) -> Names:
-    """Return the names that were asked for; else those that the source suggests.
+    """Return the requested names; else those that the source suggests.
 
     Raises:
         NotMigrated: A name has no letter or digit, or the number is below 1.

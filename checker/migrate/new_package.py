@@ -56,8 +56,8 @@ class Known(Record, eq=False):
     """What the files are written from.
 
     Attributes:
-        names: Of the package and robot.
-        papers: Who made it.
+        names: The names of the package and robot.
+        papers: The authors and the licence.
         facts: What was measured.
         drive: None for a robot without wheels.
         servos: Joints that are held at a position.
@@ -149,8 +149,8 @@ class Staging(Record):
     """A package that is being written.
 
     Attributes:
-        folder: Of the package, for now within a hidden folder.
-        final: Where it goes in the end.
+        folder: The folder of the package, for now within a hidden folder.
+        final: Its final folder.
     """
 
     folder: Path

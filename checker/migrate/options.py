@@ -15,7 +15,7 @@ class NotMigrated(CheckerError):
 
 
 class MigrationOptions(Record):
-    """What the author asks for; what is empty is found out.
+    """The author's options; empty ones are detected.
 
     Attributes:
         organization: In front of the package's name.

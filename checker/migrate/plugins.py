@@ -39,7 +39,7 @@ class Servo(Record):
     """A JointPositionController.
 
     Attributes:
-        joint: That it holds.
+        joint: The joint that it holds.
         topic: Below the robot's name.
         p: N·m/rad (or N/m).
         i: N·m/(rad·s).

@@ -98,7 +98,7 @@ def _rewritten(sensor: etree._Element) -> Iterator[str]:
 
 
 def _type_by_plugin(sensor: etree._Element) -> str:
-    """Return the type that the first known plugin of a sensor asks for; empty without one."""
+    """Return the type that the first known plugin of a sensor names; empty without one."""
     for plugin in sensor.iterfind("plugin"):
         known = classic_plugin(plugin.get("filename", "")) or {}
         if kind := str((known.get("replacement") or {}).get("sensor_type") or ""):

@@ -46,7 +46,7 @@ class Source(Record, eq=False):
 
 @contextmanager
 def opened_source(path: Path, urdf: str, args: Mapping[str, str]) -> Iterator[Source]:
-    """Open the description that is to be migrated.
+    """Open the description to migrate.
 
     Args:
         path: A package folder, a folder of packages, an archive or a URDF file.
@@ -168,7 +168,7 @@ NO_NAME, NO_EMAIL, NO_LICENSE = "TODO", "todo@example.org", "TODO"
 
 
 class Papers(Record):
-    """Who made the robot, and under which terms.
+    """The authors of the robot and its licence.
 
     Attributes:
         name: Of the maintainer.

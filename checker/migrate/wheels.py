@@ -32,7 +32,7 @@ class Wheels(Record, eq=False):
     Attributes:
         left: From front to rear.
         right: Likewise.
-        reason: How they were found, as the end of a sentence.
+        reason: The way they were found, as the end of a sentence.
         steering: Joints that steer a wheel, driven or not: left, right; empty without.
     """
 
@@ -55,7 +55,7 @@ def find_drive_wheels(
     Args:
         robot: The converted robot, with its meshes.
         wishes: What the author names.
-        plugins: That drove it in Gazebo 9.
+        plugins: The plugins that drove it in Gazebo 9.
         driven: Joints with a transmission.
 
     Raises:

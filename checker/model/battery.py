@@ -43,7 +43,7 @@ class Battery(Record, eq=False):
 
     Attributes:
         power_load: What drains it, watts; None if not stated.
-        minutes: How long a full charge lasts in Gazebo Dome; None if its figures do not say.
+        minutes: The time that a full charge lasts in Gazebo Dome; None if its figures do not say.
         starts_on_motion: Whether `start_on_motion` is true.
         draining_topics: Topics whose first message makes it drain.
     """

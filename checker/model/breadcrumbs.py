@@ -20,10 +20,10 @@ class Breadcrumbs(Record, eq=False):
     """A Breadcrumbs plugin.
 
     Attributes:
-        max_deployments: How many it drops; None if not stated (then there is no limit).
+        max_deployments: The number that it drops; None if not stated (then there is no limit).
         topic: What makes it drop one; None if not stated.
         disable_physics_time: Seconds until a dropped one is held in place; None if not stated.
-        drop: Where it appears, in the robot's frame, metres; None if that cannot be read.
+        drop: Its position when dropped, in the robot's frame, metres; None if that cannot be read.
     """
 
     plugin: Plugin

@@ -32,7 +32,7 @@ class Part(Record, eq=False):
 
     Attributes:
         name: As written.
-        element: Where it is described; it leads to whatever the model does not spell out.
+        element: The element that describes it, for what the model does not contain.
     """
 
     name: Located[str]
@@ -253,7 +253,7 @@ class Axis(Record, eq=False):
         velocity: Metres or radians a second; inf without limit.
         damping: N·s/m or N·m·s/rad.
         friction: N or N·m.
-        stiffness: Of a spring in the joint, N/m or N·m/rad.
+        stiffness: The stiffness of a spring in the joint, N/m or N·m/rad.
         initial_position: Metres or radians; 0 where the file states none.
     """
 

@@ -47,7 +47,7 @@ class Controller(Record, eq=False):
 
     @property
     def path(self) -> str:
-        """What tells it from other controllers of the robot."""
+        """A key that distinguishes it from other controllers of the robot."""
         return self.name
 
     def texts(self, *names: str) -> tuple[Located[str], ...]:

@@ -8,7 +8,7 @@ from checker.base.record import Record
 
 
 class Conventions(Record):
-    """How a robot of one format is to be understood.
+    """The conventions of one format of robots.
 
     Attributes:
         joint_types: The format whose types of joints it has, in the table `joint_types.json`.

@@ -1,4 +1,4 @@
-"""Faults that a reader met and went on: rules turn them into findings."""
+"""Faults after which a reader continues: rules turn them into findings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One graph of frames: who is posed relative to whom, and where that puts everything."""
+"""The graph of frames: what each is posed relative to, and the resulting positions."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ class Mesh(Record, dict=True):
     Attributes:
         path: Of the file, relative to the package.
         format: `dae`, `stl` or `obj`.
-        triangles: How many; polygons count as the triangles they are cut into.
+        triangles: The number of triangles; polygons count as the triangles they are cut into.
         low: Least x, y, z of its box, metres.
         high: Greatest.
         metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
@@ -109,7 +109,7 @@ class Mesh(Record, dict=True):
 
 
 class Meshes(Protocol):
-    """Gives the meshes of a robot; all files are read when the first one is asked for."""
+    """Gives the meshes of a robot; all files are read on the first request."""
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds."""

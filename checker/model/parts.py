@@ -37,7 +37,7 @@ def sensor_devices(
     package: Package,
     devices: KnownDevices,
 ) -> SensorDevices:
-    """Return the devices that sensors represent; without the sheet, as far as the model tells."""
+    """Return the devices that sensors represent, as far as sheet or model identify them."""
     sheet = None if isinstance(specification, NotAvailable) else specification
     path = package.model_path
     numbers = {configuration_number(package)}

@@ -47,7 +47,7 @@ def engine_of(world: World | None, told: str = "") -> PhysicsEngine | None:
 
     Args:
         world: The world; None for one of Gazebo's own.
-        told: What the command line says behind `--physics-engine`; empty for nothing.
+        told: The command line's value of `--physics-engine`; empty for none.
     """
     named = engine_name(world) if world is not None else None
     name = told or (named.value if named is not None else "")

@@ -28,7 +28,7 @@ class PluginLibrary(Record):
     Attributes:
         filename: As plugins usually name it: `libignition-gazebo-diff-drive-system.so`.
         classes: Full names of its classes; none in Gazebo Classic, where `name` is any name.
-        parameters: Tags that its source asks for; None where the source is not known.
+        parameters: Tags that its source reads; None where the source is not known.
         computed: Pattern of further tags, whose names its source computes; empty where it does not.
         rewrites: Words that the release replaces in a class before it looks for it.
     """
@@ -45,7 +45,7 @@ class PluginLibrary(Record):
         return name in self.classes or _rewritten(name, self.rewrites) in self.classes
 
     def reads(self, tag: str) -> bool:
-        """Say whether its source asks for a tag; True where the source is not known."""
+        """Say whether its source reads a tag; True where the source is not known."""
         known = self.parameters is None or tag in self.parameters
         return known or bool(self.computed and re.fullmatch(self.computed, tag))
 

@@ -56,7 +56,7 @@ class Robot(Part, dict=True):
         conventions: What this format states, and what it leaves to others.
         version: SDF version as written.
         plugins: Of the model file and, in a package, of what the spawner emits.
-        frame_graph: Where everything is.
+        frame_graph: The poses of all frames.
         faults: What could not be read as it stands.
         unresolved_includes: URIs of includes whose model is not available.
         merges_unknown: Whether such a model would have given its parts to the one around it.
@@ -337,7 +337,7 @@ class Robot(Part, dict=True):
 
     @cached_property
     def _shape_boxes(self) -> dict[Collision | Visual, Box | None]:
-        """Boxes that were asked for: many rules ask for the same."""
+        """Boxes computed so far: many rules need the same ones."""
         return {}
 
     def own_box_of(self, link: Link) -> Box | None:

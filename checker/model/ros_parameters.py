@@ -32,7 +32,7 @@ class Parameter(Record, eq=False):
     Attributes:
         name: With dots between its levels: `linear.x.max_velocity`.
         node: Its value.
-        key: Where its name stands.
+        key: The place of its name.
     """
 
     name: str
@@ -46,7 +46,7 @@ class Parameter(Record, eq=False):
 
     @property
     def type(self) -> str:
-        """Type that ROS gives it: `int`, `double_array`, …; empty where that cannot be told."""
+        """Type that ROS gives it: `int`, `double_array`, …; empty where unknown."""
         if self.node.kind == "scalar":
             return _type_of(self.node)
         types = {_type_of(item) for item in self.node.items}

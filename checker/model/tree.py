@@ -50,9 +50,9 @@ class LinkTree(Record, eq=False, dict=True):
     Nothing here recurses, and all of it takes time linear in links and joints.
 
     Attributes:
-        links: By scoped name, in the order of the file.
-        ties: In the order of the joints.
-        broken: Joints of which an end is unknown.
+        links: The links by scoped name, in the order of the file.
+        ties: The ties in the order of the joints.
+        broken: Joints with an unknown end.
     """
 
     links: dict[str, Link]

@@ -39,7 +39,7 @@ class LooseParts(Record):
 
     Attributes:
         main: The link that the rest of the robot hangs on; empty without any.
-        groups: In the order of the file.
+        groups: The groups in the order of the file.
     """
 
     main: str = ""

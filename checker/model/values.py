@@ -35,7 +35,7 @@ def stated_number(parent: Element, tag: str) -> Located[float] | None:
 class ValueReader:
     """Reads values and collects what does not read as its type.
 
-    A value that cannot be read counts as its default, so that the reading goes on.
+    A value that cannot be read counts as its default, so that reading continues.
     """
 
     def __init__(self) -> None:

@@ -59,7 +59,7 @@ class World(Record, eq=False, dict=True):
 
     @property
     def takes_server_plugins(self) -> bool:
-        """Whether it asks for the server's own plugins beside its own; from Ionic on."""
+        """Whether it loads the server's own plugins beside its own; from Ionic on."""
         policies = (self.element.child(name) for name in _POLICIES)
         said = (it.child("include_server_config_plugins") for it in policies if it is not None)
         return any(it is not None and it.text.value.lower() in ("1", "true") for it in said)

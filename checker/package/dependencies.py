@@ -184,7 +184,7 @@ def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
     It was renamed, and still uses its own files by the name that it had.
 
     Args:
-        package: That uses them.
+        package: The package that uses them.
         uses: What it uses.
     """
     own: dict[str, bool] = {}

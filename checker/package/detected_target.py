@@ -1,4 +1,4 @@
-"""What the content of a ROS 2 package tells: the distribution and the Gazebo it is made for."""
+"""The distribution and the Gazebo that a ROS 2 package is made for, detected from its content."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class DetectedTarget(Record):
 
     Attributes:
         of_classic: Whether that is Gazebo Classic.
-        distro: ROS 2 distribution; empty where nothing tells.
+        distro: ROS 2 distribution; empty where unknown.
         reason: What decided, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
     """
 
@@ -68,12 +68,12 @@ class DetectedTarget(Record):
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """Read what a package is made for.
 
-    Gazebo Classic is told by a launch file, a plugin or a dependency that only Classic has, where
-    nothing is of later ones: a package for both is judged for the later one.
+    Gazebo Classic is detected by a launch file, a plugin or a dependency that only Classic has,
+    where nothing is of later ones: a package for both is judged for the later one.
 
     Args:
         package: A package of ROS 2.
-        distro: That the user names; it counts instead of what the content names.
+        distro: The distribution that the user names; it overrides the content.
     """
     named = None if distro else package.distribution_sign
     distro = distro or (named.distro if named else "")

@@ -25,7 +25,7 @@ class FuelUri(Record):
 
     Attributes:
         model: Name of the model or world.
-        path: Of a file in it; empty for the model as a whole.
+        path: The path of a file in it; empty for the model as a whole.
     """
 
     model: str

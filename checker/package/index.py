@@ -39,11 +39,12 @@ class FileEntry(Record):
     Attributes:
         path: Relative to the package folder, with `/`.
         kind: What stands at the path.
-        size: Of the file, in bytes; of the target when a link is followed; 0 for folders.
-        location: Where the content is on disk, links resolved.
+        size: The size of the file, in bytes; that of the target when a link is followed; 0 for
+            folders.
+        location: The place of the content on disk, links resolved.
         content: `FILE` or `FOLDER` when there is content to read, a followed link's target
             included; otherwise the kind.
-        target_state: Where a link leads; None for other entries.
+        target_state: The kind of a link's target; None for other entries.
         target: The link's text.
     """
 

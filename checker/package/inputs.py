@@ -43,8 +43,8 @@ class Opened(Record):
     """What the user gave, ready to be checked.
 
     Attributes:
-        workspace: Where siblings are looked up.
-        packages: The packages asked for, by name.
+        workspace: The workspace in which siblings are looked up.
+        packages: The requested packages, by name.
         skipped: Subfolders beside them that are no packages, or links.
     """
 

@@ -40,8 +40,8 @@ def source_of(package: Package, path: str) -> str | None:
     Without a build file, the only file whose path ends so is taken for it.
 
     Args:
-        package: That installs it.
-        path: Below the installed package's folder, such as `urdf/arm.urdf`.
+        package: The package that installs it.
+        path: The path below the installed package's folder, such as `urdf/arm.urdf`.
     """
     if path.startswith(".."):
         return None
@@ -54,7 +54,7 @@ def source_of(package: Package, path: str) -> str | None:
 
 
 def _only_one(package: Package, path: str) -> str | None:
-    """Return the one file whose path ends so, where nothing tells how files are installed."""
+    """Return the one file whose path ends so, where it is unknown how files are installed."""
     found = package.index.ending(path)
     return found[0] if len(found) == 1 else None
 
@@ -63,7 +63,7 @@ class LeftOut(Record):
     """A file of the source that its package does not install.
 
     Attributes:
-        instead: Where it is, as the end of a sentence.
+        instead: Its actual place, as the end of a sentence.
         around: What is left out with it: a folder, or the file alone.
     """
 
@@ -78,9 +78,9 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
     installed: it is reported as such, whichever file names it.
 
     Args:
-        package: That is checked.
-        holder: That ought to install it.
-        path: Below the folder of the installed package.
+        package: The package being checked.
+        holder: The package that should install it.
+        path: The path below the folder of the installed package.
     """
     if path == MANIFEST or not holder.exists(path) or source_of(holder, path) is not None:
         return None

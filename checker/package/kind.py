@@ -121,7 +121,7 @@ def _carries_library(package: Package) -> bool:
     return isinstance(build, SourceText) and _ADD_LIBRARY.search(build.text) is not None
 
 
-# The packages that changed files belong to: hooks are told files, and packages are checked.
+# The packages that changed files belong to: hooks get files, and packages are checked.
 
 
 def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
@@ -133,7 +133,7 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
 
     Args:
         files: Relative to `here`, or absolute.
-        here: Where the command runs, links resolved.
+        here: The folder in which the command runs, links resolved.
 
     Returns:
         Folders, relative to `here` where they are below it.
@@ -153,7 +153,7 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
 
 
 def _refuse_folder(file: Path, here: Path) -> None:
-    """Refuse what asks for a check of packages by their folders; other links count as files."""
+    """Refuse links that would check packages by their folders; other links count as files."""
     place = here / file
     try:
         is_folder = place.is_dir() and (not place.is_symlink() or looks_like_package(place))

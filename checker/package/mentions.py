@@ -21,7 +21,7 @@ FILE_LIMIT = 50_000_000
 """Bytes; a larger file is not searched."""
 
 MENTIONS_LIMIT = 100_000
-"""Of one file; the rest is not looked at."""
+"""Greatest number in one file; the rest is ignored."""
 
 _NAME_LIMIT = 255
 _NAMING_NOTHING = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".gif", ".stl", ".so")

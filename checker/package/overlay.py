@@ -39,7 +39,7 @@ class Overlay(Record, eq=False):
         """Return a file's text.
 
         Args:
-            location: Where it is on disk, links resolved.
+            location: The place on disk, links resolved.
             path: What to call it.
             limit: In bytes, of a file that is read from disk.
         """
@@ -55,8 +55,8 @@ class Overlay(Record, eq=False):
         """Return an index with the sizes of these texts, and with files that are not on disk yet.
 
         Args:
-            index: Of what is on disk.
-            root: Of the folder, links resolved.
+            index: The index of the folder on disk.
+            root: The path of the folder, links resolved.
         """
         if not self.texts:
             return index

@@ -79,7 +79,7 @@ class Package(Record, eq=False, dict=True):
 
     Attributes:
         root: Its folder, links resolved.
-        workspace: Where its siblings are looked up.
+        workspace: The folder in which its siblings are looked up.
         only: For a single file, its name; then the index holds nothing else, and neighbours
             are looked for when a path names them.
     """
@@ -184,7 +184,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def build_type(self) -> str | None:
-        """What package.xml says of who builds it; None where it says nothing."""
+        """The build type that package.xml states; None where it states none."""
         manifest = self.xml("package.xml")
         export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
         build_type = export.child("build_type") if export is not None else None
@@ -303,7 +303,7 @@ class Package(Record, eq=False, dict=True):
 
     @property
     def too_large(self) -> tuple[TooLarge, ...]:
-        """The XML files that were asked for, and are too large to be checked."""
+        """The requested XML files that are too large to be checked."""
         return tuple(each for each in self._documents.values() if isinstance(each, TooLarge))
 
     @cached_property

@@ -74,9 +74,9 @@ class Reference(Record):
 
     Attributes:
         package_name: The package that is named.
-        kind: How.
-        place: Where.
-        file: The launch file that roslaunch is to start, such as `description.launch`.
+        kind: The kind of the reference.
+        place: The place of the reference.
+        file: The launch file that roslaunch starts, such as `description.launch`.
         by_sibling: Whether it is in another package's Ruby file, which the spawner loads.
     """
 

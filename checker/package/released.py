@@ -24,7 +24,7 @@ def is_of_system(name: str) -> bool:
 _SHORTEST = 8
 """Characters; shorter names are near to many others."""
 _PREFIX = 3
-"""Characters that are the same: the beginning of a name often tells whose package it is."""
+"""Characters that are the same: the beginning of a name often identifies the owner of a package."""
 
 
 class ReleasedNames:

@@ -18,7 +18,7 @@ TEXTS = (
 )
 """Files whose text can name a package and is changed."""
 _LIMIT = 50_000_000
-"""Bytes; with a larger file nobody knows what it mentions."""
+"""Greatest size of a file, bytes; the mentions of a larger one are unknown."""
 # What is in front of a name that can mean nothing but a package.
 _OF_PACKAGE = re.compile(
     r"(?:\$\(\s*(?:find|find-pkg-share|find-pkg-prefix|dirname)\s+|(?:package|model)://"

@@ -58,7 +58,7 @@ def units_below(folder: Path) -> Units:
 
     Args:
         folder: Links resolved; itself a unit if it is a package or model. It is looked into also
-            where the build tools would ignore it: who names it wants it.
+            where the build tools would ignore it: an explicit path overrides that.
     """
     search = _Search()
     found = tuple(search.at(folder, inside=False, depth=0))
@@ -70,7 +70,7 @@ def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
 
     Args:
         units: Loose files are no siblings of anything.
-        near: Where siblings are looked up: of two with one name, the nearer one counts.
+        near: The folders in which siblings are looked up; the nearest one of a name counts.
     """
     homes = dict.fromkeys(unit.home for unit in units if not unit.only)
     return tuple(sorted(homes, key=lambda home: -len(_common(home, near).parts)))

@@ -135,7 +135,7 @@ def _share_folders(attribute: Located[str], name: str) -> Iterator[SearchedFolde
 def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
     """Yield where the texts of a package name the path, but for its hooks.
 
-    Launch files set it; documents, scripts and container files tell who launches to do so.
+    Launch files set it; documents, scripts and container files tell users to do so.
     """
     known = frozenset(hooks(package))
     for file in package.index.with_suffix(*_TEXTS):

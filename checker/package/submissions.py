@@ -81,7 +81,7 @@ _WORD = re.compile(r"[_-]")
 def is_slip_for(written: str, meant: str) -> bool:
     """Say whether a package's name is another one's with one word misspelt or left out.
 
-    Words with digits and short ones tell robots apart, and so does a first word that only one of
+    Words with digits and short ones distinguish robots, and so does a first word that only one of
     them has: none of these is a slip.
     """
     short, long = sorted((_WORD.split(written.casefold()), _WORD.split(meant.casefold())), key=len)

@@ -1,4 +1,4 @@
-"""What a package is made for, as far as it tells: the profile that suits it."""
+"""The profile that suits a package, detected from its content."""
 
 from __future__ import annotations
 

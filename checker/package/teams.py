@@ -30,7 +30,7 @@ class Team(Record):
     """A team, as `teams.json` describes it.
 
     Attributes:
-        prefix: How names of its packages begin.
+        prefix: The prefix of the names of its packages.
         name: Its name in running text.
         owners: Prefixes of packages in whose texts its name is right: its own and its partners'.
     """

@@ -21,11 +21,11 @@ _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
 class Unknown(Record):
-    """What a URI leads to cannot be told; the reason continues a sentence about it.
+    """The target of a URI is unknown; the reason continues a sentence about it.
 
     Attributes:
-        reason: Such as `is in arm_description, which is not available`.
-        package: That package; empty where none is named.
+        reason: The reason, such as `is in arm_description, which is not available`.
+        package: The package; empty where none is named.
     """
 
     reason: str
@@ -38,8 +38,8 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     A path below an installed package is that of the file in the source which is installed there.
 
     Args:
-        package: Whose file states it.
-        folder: Of that file, relative to the package.
+        package: The package whose file states it.
+        folder: The folder of that file, relative to the package.
         uri: As written.
     """
     if named := _SCHEME.match(uri):

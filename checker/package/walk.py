@@ -32,8 +32,8 @@ def entry_at(location: Path, path: str, root: Path, inside: Inside) -> FileEntry
     """Return the file or folder at a place on disk that no index lists, or None.
 
     Args:
-        location: Where it may lie; links on the way are resolved.
-        path: What the entry is to be called.
+        location: Its expected place; links on the way are resolved.
+        path: The name for the entry.
         root: The package folder.
         inside: Says whether a target outside the folder belongs to a sibling package.
     """

@@ -18,7 +18,7 @@ def concise_text(
     """Return the lines of a package: its findings, and the verdict.
 
     Args:
-        package: What to tell.
+        package: The package to report.
         owner_of: See `share_of`.
         settings: What to show.
     """

@@ -40,7 +40,7 @@ class Row(Record):
         verdict: The gravest; `ok` only if that goes for all parts.
         limits: Of the rule that judges them, in words.
         rule: Its id; empty for figures that only inform.
-        parts: How many parts it was measured for.
+        parts: The number of parts it was measured for.
         matters: Whether it is shown when there is little room.
     """
 
@@ -149,7 +149,7 @@ def _number(value: float, unit: str) -> str:
 
 
 _SAID_ELSEWHERE = ("not_driven",)
-"""Facts that reports tell with the trial."""
+"""Facts that reports show with the trial."""
 UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
 """Units by the ends of the names of facts: `mass_kg`."""
 

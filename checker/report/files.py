@@ -74,5 +74,5 @@ _MAKERS: tuple[Callable[[Report, RenderSettings], Iterator[Artefact]], ...] = (
 
 
 def artefacts(report: Report, manner: RenderSettings) -> Iterator[Artefact]:
-    """Yield the files one after the other; each is made when it is asked for."""
+    """Yield the files one after the other; each is made when it is requested."""
     return chain.from_iterable(maker(report, manner) for maker in _MAKERS)

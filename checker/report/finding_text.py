@@ -24,7 +24,7 @@ def finding_text(
 
     Args:
         finding: What was found.
-        package: Where it was found; its path is in front of each file.
+        package: The package of the finding; its path is in front of each file.
         palette: Colours.
         explained: Whether why and how were said before, for another finding of the rule.
     """

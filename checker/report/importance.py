@@ -11,7 +11,7 @@ What a trial shows comes last: it follows from faults of the model."""
 
 
 def importance(finding: ReportedFinding) -> tuple[int, int, int]:
-    """Return what is less for a finding that is to be mended sooner."""
+    """Return a sort key; findings to correct first have the smallest."""
     group = finding.rule.rstrip("0123456789")
     rank = _SOONEST.index(group) if group in _SOONEST else len(_SOONEST)
     return finding.severity.rank, list(Concern).index(finding.concern), rank

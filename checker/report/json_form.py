@@ -140,7 +140,7 @@ class MeasurementJson(TypedDict):
 
 
 class RepairJson(TypedDict):
-    """What was changed so that the trial could go on."""
+    """What was changed so that the trial could run."""
 
     part: str
     what: str

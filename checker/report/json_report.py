@@ -134,7 +134,7 @@ def _edit_json(edit: Edit) -> EditJson:
 
 
 def report_from_json(text: str) -> Report:
-    """Return the report that a JSON text tells of; members of later versions are passed over.
+    """Return the report that a JSON text contains; members of later versions are ignored.
 
     Raises:
         NoReport: It is no report, or of another version of the schema.

@@ -25,7 +25,7 @@ class LaunchedTopic(Record):
 
 
 class LaunchedTransform(Record):
-    """A transform and who publishes it."""
+    """A transform and its publisher."""
 
     parent: str
     child: str

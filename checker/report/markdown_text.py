@@ -55,7 +55,7 @@ def fitting(items: Sequence[T], line: Callable[[T], str], room: int) -> tuple[li
 
     Args:
         items: What to write.
-        line: Writes one item, without the line's end; not asked for what has no room.
+        line: Writes one item, without the line's end; not called for items without room.
         room: Bytes in UTF-8.
     """
     kept: list[str] = []

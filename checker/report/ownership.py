@@ -1,4 +1,4 @@
-"""Whose a finding is: several packages may report the same place of a file that they share."""
+"""The owners of a finding: several packages may report the same place of a file that they share."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def share_of(package: PackageReport, owner_of: Mapping[Identity, str]) -> Share:
     """Set apart the findings in another package's files that its own report holds too.
 
     Args:
-        package: Whose findings to part.
-        owner_of: As `owners` returns it.
+        package: The package whose findings to separate.
+        owner_of: The result of `owners`.
     """
     own: list[ReportedFinding] = []
     elsewhere: dict[str, int] = {}

@@ -51,8 +51,8 @@ def choose_palette(wish: str, stream: TextIO | None, environment: Mapping[str, s
     """Decide on colours: `always`, `never`, or `auto` by NO_COLOR, FORCE_COLOR and terminal.
 
     Args:
-        wish: What the user asked for.
-        stream: Where the text goes; None for a file.
+        wish: The user's options.
+        stream: The output stream; None for a file.
         environment: The process's variables.
     """
     if wish != "auto" or stream is None:
@@ -70,11 +70,11 @@ def palette_for(wish: str, stream: TextIO | None) -> Palette:
 
 
 class RenderSettings(Record):
-    """How a report is to be rendered.
+    """The settings for rendering a report.
 
     Attributes:
         palette: Colours for a terminal.
-        folder: Where the command was run, absolute; paths of the report start there.
+        folder: The folder in which the command was run, absolute; paths of the report start there.
         command: What was run, as a shell takes it; empty where there was no command.
         infos: Whether the report for a terminal shows infos, and what does not apply.
         quiet: Whether it shows findings alone.

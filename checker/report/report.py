@@ -39,7 +39,7 @@ class VerdictKind(enum.StrEnum):
 
     @property
     def lead(self) -> str:
-        """How a sentence begins that tells it."""
+        """The beginning of a sentence that states it."""
         return _LEADS[self]
 
 
@@ -68,7 +68,7 @@ class NotChecked(Record):
     """A rule that did not look, and why.
 
     Attributes:
-        severity: Of what it may have missed; None where that is not known.
+        severity: The severity of what it may have missed; None where that is not known.
         concern: What it may have missed is about; None where that is not known.
         momentary: Whether it may look the next time: the disk or the system failed.
     """
@@ -87,7 +87,7 @@ class NotChecked(Record):
 
 
 class Repeat(Record):
-    """What another rule says of a fault that a finding tells more precisely."""
+    """The finding of another rule about a fault that a finding describes more precisely."""
 
     rule: str
     name: str
@@ -104,11 +104,11 @@ class ReportedFinding(Record):
         name: Name of the rule: what is wrong.
         fingerprint: The same as long as the fault is the same, wherever the lines move.
         why: First words of the rule's page.
-        how: How to mend it, from the rule's page.
+        how: The way to correct it, from the rule's page.
         key: What its places have in common, where the rule says so.
-        title: Of the rule's page: what is wrong in general.
-        source: Where the rule comes from.
-        fixes: Where it joins faults in several places, the fix of each that has one.
+        title: The title of the rule's page: what is wrong in general.
+        source: The source of the rule.
+        fixes: The fixes of its faults where it joins several places.
         repeats: What less precise rules say of the same fault.
     """
 
@@ -156,7 +156,7 @@ class SuppressedBy(enum.StrEnum):
 
 
 IN_BASELINE = "in the baseline"
-"""The reason for what the baseline sets aside and nobody gave one for."""
+"""The default reason for what the baseline sets aside."""
 
 
 class Suppressed(Record):
@@ -164,8 +164,8 @@ class Suppressed(Record):
 
     Attributes:
         finding: As it would have been reported.
-        reason: In the user's words; for the baseline, in ours.
-        place: Of the comment; None for what stands elsewhere.
+        reason: The user's reason; for the baseline, a default one.
+        place: The place of the comment; None for one elsewhere.
     """
 
     finding: ReportedFinding
@@ -191,7 +191,7 @@ class Picture(Record):
 
 
 class Display(Record):
-    """The robot in 3D, for those who look.
+    """The robot in 3D, for display.
 
     Attributes:
         glb: A binary glTF file: the robot in layers, its trial as an animation.
@@ -218,15 +218,15 @@ class PackageReport(Record):
             Of several robots, that of the first that was driven.
         timings: Seconds by stage.
         suppressed: What was found and does not count.
-        display: None where nobody asked to see the robot, or where there is nothing to see.
-        patch: What the safe fixes change, where somebody asked to see the robot.
-        looked: Ids of the rules that had all they asked for.
+        display: The robot in 3D; None where it was not requested, or where there is nothing to see.
+        patch: What the safe fixes change, where the display was requested.
+        looked: Ids of the rules that ran on complete data.
         other_robots: Facts of the further robots of the package.
         other_trials: The trials of further robots that were driven.
         disturbed: Why something was not checked that may be the next time, such as a process that
             was killed from outside: the first of these reasons; empty without any.
-        target_reason: The simulator or ROS 2 distribution that the content of the package tells,
-            and by what; empty where the user or a default chose it.
+        target_reason: The simulator or ROS 2 distribution detected from the content of the package,
+            and the evidence; empty where the user or a default chose it.
         launched: The graphs of its launch files of ROS 2.
     """
 
@@ -296,7 +296,7 @@ class NotOpened(Record):
     Attributes:
         path: As the user gave it.
         reason: The end of a sentence that starts with the path.
-        failed: Whether the user asked for it by name, so that the run has failed.
+        failed: Whether the user named it, so that the run has failed.
         disturbed: What failed of the disk or the system, if that is why; else empty.
     """
 

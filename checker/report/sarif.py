@@ -62,7 +62,7 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
         item: What was found.
         index: Of its rule among the run's.
         marks: What it carries besides.
-        folder: Where the command was run.
+        folder: The folder in which the command was run.
     """
     package, finding = item.package, item.finding
     first, *others = finding.places
@@ -127,7 +127,8 @@ def to_sarif(report: Report, folder: str) -> str:
 
     Args:
         report: What was found.
-        folder: Where the command was run, absolute; paths below it are written relative to it.
+        folder: The folder in which the command was run, absolute; paths below it are written
+            relative to it.
     """
     log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [_run(report, folder)]}
     return json.dumps(log, indent=1) + "\n"

@@ -24,8 +24,8 @@ def artifact(path: str, folder: str) -> Json:
     """Return where a file is: relative to a folder if it is in it, else with its whole path.
 
     Args:
-        path: From the folder where the command was run.
-        folder: That folder, absolute; represents `BASE`.
+        path: The path from the folder in which the command was run.
+        folder: The folder, absolute; represents `BASE`.
     """
     whole = posixpath.normpath(posixpath.join(folder, path))
     above = folder.rstrip("/") + "/"

@@ -35,7 +35,7 @@ class Sentence(Record):
     """A verdict in words.
 
     Attributes:
-        lead: That of the verdict, such as `Not ready`.
+        lead: The verdict, such as `Not ready`.
         rest: Why; empty or what follows the lead behind a colon.
         aside: What was left out, for the end in brackets; may be empty.
     """

@@ -127,7 +127,7 @@ _RULES_NAMED = 5
 
 
 class TextReport:
-    """The report as it grows: each package is told as soon as all that it refers to is known."""
+    """The report as it grows: each package is printed as soon as all its references are known."""
 
     def __init__(self, settings: RenderSettings, awaited: Iterable[str] = ()) -> None:
         """Begin the report.
@@ -144,10 +144,10 @@ class TextReport:
         self._is_first = True
 
     def add(self, packages: Iterable[PackageReport], done: str = "") -> Iterator[str]:
-        """Yield what can be told now that some packages are checked.
+        """Yield the text that can be printed now that some packages are checked.
 
         Args:
-            packages: That were checked.
+            packages: The checked packages.
             done: The path that is no longer awaited.
         """
         self._awaited.discard(posixpath.normpath(done))
@@ -184,7 +184,7 @@ def to_text(report: Report, settings: RenderSettings) -> str:
 
 
 def closing_text(report: Report, settings: RenderSettings) -> str:
-    """Return what stands below all packages: a table of several, and what helps to go on."""
+    """Return the text below all packages: a table of several, and the next steps."""
     if settings.quiet:
         return ""
     blocks = [summary_text(report.packages, settings.palette)] * (len(report.packages) > 1)

@@ -47,7 +47,7 @@ class Candidate(Record):
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
-        """Return the values that are taken for arguments which nobody gives.
+        """Return the values that are taken for arguments that are not given.
 
         Args:
             number: Of the choice, the first one being 0; of fewer choices the last one.
@@ -89,7 +89,7 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
     for started in loads:
         load, missing = started.load, started.missing
         path = local_path(package, load.path)
-        # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
+        # A missing file is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
             allowed = started.choices, started.offered
             candidate = Candidate(path, load.args, True, load.by_xacro, missing, *allowed)
@@ -140,7 +140,7 @@ def _outermost(package: Package) -> Iterator[str]:
 
 
 def _is_empty(package: Package, path: str) -> bool:
-    """Say whether a file holds nothing; one that nobody loads is only a leftover."""
+    """Say whether a file holds nothing; one that is never loaded is only a leftover."""
     source = package.read(path)
     return isinstance(source, SourceText) and not source.text.strip()
 

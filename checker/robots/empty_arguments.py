@@ -20,7 +20,7 @@ def empty_arguments(package: Package, candidate: Candidate, given: Collection[st
     A launch file that loads the file and does not name an argument leaves it empty permanently.
 
     Args:
-        package: That holds the file.
+        package: The package that contains the file.
         candidate: The file.
         given: Names of the arguments that the user gives.
     """

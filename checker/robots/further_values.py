@@ -39,8 +39,8 @@ def further_values(
     """Return names of arguments with values that they do not have, in the order of the files.
 
     Args:
-        package: That is checked.
-        documents: What is expanded, the robot's own file and all that it may include.
+        package: The package being checked.
+        documents: The documents to expand, the robot's own file and all that it may include.
         chosen: Values that are given, by name.
         allowed: Values that a launch file allows, by name.
     """

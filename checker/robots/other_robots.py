@@ -44,7 +44,7 @@ def other_robots(
     """Yield the robots that another value of one argument makes, and the faults that it meets.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         expander: Expands the files.
         made: The robots that are judged.
         given: Names of the arguments that the user gives: these have one value.

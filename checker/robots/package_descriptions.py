@@ -43,7 +43,7 @@ _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
 
 
 class PackageDescriptions:
-    """The reading of a package's descriptions: begun at once, had when asked for."""
+    """The reading of a package's descriptions: started at once, finished on request."""
 
     def __init__(
         self,
@@ -57,7 +57,7 @@ class PackageDescriptions:
         """Choose the files and begin to expand those that need it.
 
         Args:
-            package: Whose files they are.
+            package: The package of the files.
             expander: Expands the files that are xacro.
             only: The one file to read, whatever launch files load; empty to choose.
             args: Arguments for xacro, before those that launch files give.
@@ -82,7 +82,7 @@ class PackageDescriptions:
         self._with_others = not only and not self._for_rviz
 
     def _wish(self, candidate: Candidate, choice: int = 0) -> Wanted:
-        """Return what to expand, with one of the choices for arguments that nobody gives."""
+        """Return what to expand, with one of the choices for arguments that are not given."""
         assumed = candidate.assumed_values(choice, self._args)
         args = {**SAMPLE_ARGUMENTS, **candidate.args, **assumed, **self._args}
         return Wanted(candidate.path, args)
@@ -153,7 +153,7 @@ class PackageDescriptions:
         yield from other_robots(self._package, self._expander, made, self._args)
 
     def _called(self, holding: set[str]) -> Iterator[UrdfDescription]:
-        """Yield the robots of macros that nobody calls: each is called with what it must have."""
+        """Yield the robots of macros that are never called, each with its required arguments."""
         empty = {it.path for it in self._candidates if it.path not in holding and not it.loaded}
         paths = [*unused_parts(self._package, self._seen - empty)][:_CALLS_LIMIT]
         found = ((path, minimal_call(self._package, path)) for path in paths)
@@ -280,7 +280,7 @@ class PackageDescriptions:
         return tuple(taken)
 
     def stop(self) -> None:
-        """End what nobody has waited for."""
+        """Stop the expansions that still run."""
         if self._expansions is not None:
             self._expansions.stop()
 

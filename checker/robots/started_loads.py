@@ -31,7 +31,7 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
     Last come the files that other choices of arguments lead to.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         ros2: What its own launch files of ROS 2 start, if it has any.
     """
     graphs = ros2.entries if ros2 is not None else ()

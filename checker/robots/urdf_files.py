@@ -20,8 +20,8 @@ class UrdfFiles(Record, eq=False):
         unread: Why files could not be looked at, each the end of a sentence.
         set_aside: The same of files beside an SDF model that no launch file loads.
         old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
-        assumed: Arguments that nobody gives, with the choice that is taken, by file.
-        others: Of the files that make another robot with another value of an argument.
+        assumed: Arguments that are not given, with the choice that is taken, by file.
+        others: The files that make another robot with another value of an argument.
     """
 
     descriptions: tuple[UrdfDescription, ...] = ()

@@ -37,8 +37,8 @@ class DescriptionScript(Record, eq=False):
         files: Descriptions of the package that it names.
         takes_arguments: Whether it does something with its arguments.
         learns_more: Whether it may know values from elsewhere: other files, parameters.
-        arguments: What it gives to xacro itself, as `name:=value`; None for a value that only a
-            run tells.
+        arguments: What it gives to xacro itself, as `name:=value`; None for a value known only
+            at run time.
     """
 
     path: str
@@ -49,11 +49,11 @@ class DescriptionScript(Record, eq=False):
 
 
 def read_description_script(package: Package, path: str) -> DescriptionScript | None:
-    """Read a script; None when it is none, or does not run xacro as far as its text tells.
+    """Read a script; None when it is none, or does not run xacro according to its text.
 
     Args:
-        package: That holds it.
-        path: Within the package.
+        package: The package that contains it.
+        path: The path within the package.
     """
     source = package.read(path)
     if not isinstance(source, SourceText):

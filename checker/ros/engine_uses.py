@@ -18,7 +18,7 @@ class EngineUse(Record, eq=False):
     Attributes:
         engine: The engine.
         models: Robots that are spawned, and the models of the world.
-        places: Where Gazebo and the world are named, each with what a message calls it.
+        places: The places that name Gazebo and the world, each with its name in messages.
     """
 
     engine: PhysicsEngine

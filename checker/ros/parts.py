@@ -28,7 +28,7 @@ from checker.ros.wiring.wiring import Wiring
 from checker.ros.wiring.wiring import wirings as read_wirings
 
 _YAML = (".yaml", ".yml")
-"""Of files that may tell a bridge what to do."""
+"""Suffixes of files that may configure a bridge."""
 
 
 @part

@@ -54,7 +54,7 @@ def resource_path(package: Package, graph: LaunchGraph, *, classic: bool = False
     """Read what is on the path.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         graph: Of the launch file that starts Gazebo.
         classic: Whether that is Gazebo Classic.
     """
@@ -105,9 +105,9 @@ def _others_name_it(
     holder: Package,
     mentioned: list[Span],
 ) -> bool:
-    """Whether something else in a package names the path: who launches may set it.
+    """Whether something else in a package names the path: users may set it.
 
-    Launch files do, as far as their actions tell. Other launch files of the checked package do not
+    Launch files do, as far as their actions show. Other launch files of the checked package do not
     count, since none of them includes this one; those of another package may.
     """
     own = holder is package

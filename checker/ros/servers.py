@@ -44,9 +44,9 @@ class GazeboServer(Record, eq=False):
     """A start of Gazebo.
 
     Attributes:
-        span: Where its world is named, else where it is started.
+        span: The place where its world is named, else where it is started.
         starts: Whether it counts with the defaults of all arguments; None when not known.
-        worlds: That it loads.
+        worlds: The worlds that it loads.
         own_world: The file of Gazebo's own that it loads; else empty.
         unknown: Why its world is not known; else empty.
         engine: The physics engine that its command line names; else empty.
@@ -64,7 +64,7 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
     """Yield the servers that a launch file starts; those that a condition leaves out are none.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         graph: Of the launch file.
     """
     for include in graph.includes:

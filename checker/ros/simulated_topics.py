@@ -84,7 +84,7 @@ def is_silent(plugin: Plugin) -> bool:
 
 def _kind(sensor: Sensor) -> str:
     if sensor.kind is not SensorType.OTHER:
-        # One of the CPU is never simulated; who reports that need not say that nothing comes.
+        # One of the CPU is never simulated; the rule that reports that covers the missing messages.
         return "gpu_lidar" if sensor.kind is SensorType.CPU_LIDAR else sensor.kind.value
     written = sensor.type.value
     return str(table("simulated_topics")["spellings"].get(written, written))

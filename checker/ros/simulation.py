@@ -35,10 +35,10 @@ class Simulation(Record, eq=False, dict=True):
     Attributes:
         graph: Of the launch file; None for files of bridges that no launch file names.
         bridges: What is passed.
-        robots: That it spawns.
-        unknown_robots: Why some that it spawns are not among them.
+        robots: The robots that it spawns.
+        unknown_robots: The reasons why some that it spawns are not among them.
         servers: Gazebo, as often as it starts it.
-        classic_robots: That it spawns into Gazebo Classic, if it starts that.
+        classic_robots: The robots that it spawns into Gazebo Classic, if it starts that.
     """
 
     graph: LaunchGraph | None
@@ -70,7 +70,7 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def reads_exports(self) -> bool:
-        """Whether Gazebo is told of `<gazebo_ros>` in package.xml: its own launch files do."""
+        """Whether Gazebo gets `<gazebo_ros>` of package.xml: its own launch files pass it."""
         if self.graph is None:
             return False
         own = (include for include in self.graph.includes if is_gazebo_include(include))
@@ -160,7 +160,7 @@ def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedRead
     """Read what the launch files of a package simulate, those that start Gazebo or a bridge.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         launch: Its launch files.
         reader: Of the robots that they spawn.
     """

@@ -44,8 +44,8 @@ class SpawnedRobot(Record, eq=False):
     Attributes:
         robot: The robot.
         control: Its ros2_control, if it has any.
-        name: In Gazebo; empty when it is not known.
-        node: That spawns it.
+        name: The name in Gazebo; empty when it is not known.
+        node: The node that spawns it.
         publisher: The node that publishes its transforms from the same description, if any.
     """
 
@@ -70,7 +70,7 @@ class SpawnedReader:
         """Begin with nothing read.
 
         Args:
-            package: That is checked.
+            package: The package being checked.
             expander: Expands the files that are xacro.
             control: Reads ros2_control of its robots.
         """

@@ -90,8 +90,8 @@ def channels(robot: Robot, release: str) -> tuple[Channel, ...]:
     """Return the channels of all sensors and plugins of which the table knows any.
 
     Args:
-        robot: Whose they are.
-        release: Of Gazebo, that simulates it.
+        robot: The robot of the topics.
+        release: The release of Gazebo that simulates it.
     """
     of_sensors = (
         channel for sensor in robot.sensors for channel in sensor_channels(sensor, release)

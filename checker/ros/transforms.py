@@ -1,4 +1,4 @@
-"""Who publishes the transforms of TF: which nodes and bridges of a launch graph."""
+"""The publishers of TF's transforms: nodes and bridges of a launch graph."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told of a rule's options: the section `Options:` in the docstring of its function."""
+"""The description of a rule's options: the section `Options:` in the docstring of its function."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Option(Record):
     Attributes:
         name: As in a settings file.
         default: As in a settings file.
-        words: What it does, with its unit; empty where the rule does not tell.
+        words: Its effect, with its unit; empty where the rule does not describe it.
     """
 
     name: str
@@ -38,7 +38,7 @@ def options_of(rule: Rule) -> tuple[Option, ...]:
 
 
 def option_texts(rule: Rule) -> Mapping[str, str]:
-    """Return what a rule tells of options, by their names."""
+    """Return a rule's descriptions of options, by their names."""
     _, section = _parts(rule)
     return {name: " ".join(words.split()) for name, words in _ENTRY.findall(section)}
 

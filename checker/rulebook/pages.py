@@ -23,7 +23,7 @@ class Page(Record):
         title: What is wrong, one line.
         why: What goes wrong because of it, and notes.
         fix: What to do.
-        source: Where the rule comes from.
+        source: The source of the rule.
     """
 
     title: str

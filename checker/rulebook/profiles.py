@@ -19,7 +19,7 @@ class Profile(Record):
     Attributes:
         rules: Groups (`SDF`) or ids (`SEN001`) that belong to it.
         without: Ids, or groups, left out of them.
-        severity: Where it differs from the rule's own.
+        severity: The severities that differ from the rule's own.
     """
 
     name: str

@@ -1,7 +1,7 @@
 """What is known of all rules without loading them, kept by the hash of their code.
 
 To load three hundred rules takes longer than to run those of a small package. A rule of the index
-loads its module when it is first run; most packages lack the parts that many rules ask for.
+loads its module when it is first run; most packages lack the parts that many rules need.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class IndexedRule(Record):
     """A rule, and where it is defined.
 
     Attributes:
-        id: As in `Rule`; `name`, `severity`, `concern` and `page` likewise.
-        module: That holds it.
-        needs: Names of the types of the parts that it asks for, by parameter.
+        id: The id as in `Rule`; `name`, `severity`, `concern` and `page` likewise.
+        module: The module that contains it.
+        needs: Names of the types of the parts that it needs, by parameter.
         spares: Parameters for parts that it can do without.
         options: Their defaults; lists represent tuples.
         judges: Figures of the trial that it judges.
@@ -52,7 +52,7 @@ def rules(cache: Cache) -> tuple[Rule, ...]:
     """Return all rules, sorted by id; those from the index have no examples.
 
     Args:
-        cache: Where the index is kept; without one all rules are loaded.
+        cache: The cache of the index; without one all rules are loaded.
 
     Raises:
         CheckerError: Rules of another distribution cannot be loaded, or two rules have one id.

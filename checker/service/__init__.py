@@ -5,8 +5,8 @@
     browser, submit -> web -> store (uploads, results) <- worker -> child that checks
                         +---> jobs (database) <-----------+
 
-- The web process writes an upload to a file, has its index read by a process in the sandbox
-  (`web.uploads.archive_indexes`), puts it into the store and orders the check.
+- The web process writes an upload to a file, reads its index in a sandboxed process
+(`web.uploads.archive_indexes`), puts it into the store and orders the check.
 - DBOS holds the queues: each try of a stage is a workflow, and the state of a check follows
   from the rows of its workflows alone (`jobs.durable.tasks`). Workers take tasks
   (`jobs.durable.worker`); what fails for a reason outside of the check is tried again, also by

@@ -1,4 +1,4 @@
-"""Who can reach the service: the address that it listens at, and what that asks for.
+"""Access to the service: the address that it listens on, and what that requires.
 
 What others upload is read in a sandbox (`checker.base.sandbox`), unless somebody takes the risk.
 """
@@ -19,7 +19,7 @@ from checker.service.web.config import config_from
 _ENDING_SECONDS, _PAUSE_SECONDS = 3.0, 0.1
 """A killed service holds its address until its processes end; the next one starts at once."""
 
-# Whether a host is the machine itself: nobody stands on the way to it.
+# Whether a host is the machine itself: no third party is on the way to it.
 
 
 def is_loopback(host: str) -> bool:
@@ -79,10 +79,10 @@ def address_of(bound: socket.socket) -> str:
 
 
 def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
-    """Return what to say aloud about who may upload; empty where there is nothing to say.
+    """Return the warning about the permission to upload; empty without one.
 
     Raises:
-        CheckerError: Others could upload, and nobody said that they may.
+        CheckerError: Others could upload without explicit permission.
     """
     config = config_from(environment)
     if config.tokens:
@@ -103,11 +103,11 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
     """Return what to say aloud where uploads of others are read without a sandbox; else nothing.
 
     Args:
-        environment: Says who may upload, and whether the risk is taken.
-        layers: Says which layers hold; asked only if it matters.
+        environment: The variables with the permission to upload and to take the risk.
+        layers: Returns the active layers; called only if it matters.
 
     Raises:
-        CheckerError: No layer hides files, and nobody said that it goes without.
+        CheckerError: No layer hides files, and this was not explicitly permitted.
     """
     config = config_from(environment)
     if config.only_here:

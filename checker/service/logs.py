@@ -1,6 +1,6 @@
 """Logs of the web process and of workers: JSON lines on stderr, without tokens and ids.
 
-An id opens a report; the key of a check, which tells it apart as well, opens none.
+An id opens a report; the key of a check, which identifies it as well, opens none.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LOGGER = "subt-check.web"
 FIELDS = "fields"
 """Name of the extra of a record that holds what goes into the line beside its message."""
 REPEAT_SECONDS = 60.0
-"""After which it is told how often a fault has repeated."""
+"""Seconds after which the number of repetitions of a fault is logged."""
 FAULTS = 200
 """Known at once; further ones are written each time."""
 _OURS = ("subt-check", "checker")
@@ -47,7 +47,7 @@ class JsonLines(logging.Formatter):
 
 
 class Fault(Record):
-    """What makes two records tell of the same fault.
+    """The key that two records of the same fault have in common.
 
     Attributes:
         where: Logger and level.
@@ -64,7 +64,7 @@ class Fault(Record):
 
 @dataclass
 class Repeats:
-    """A fault that goes on.
+    """A fault that continues.
 
     Attributes:
         record: The first of it, without its trace.
@@ -88,7 +88,7 @@ class Lines(logging.StreamHandler[TextIO]):
         self._known: dict[Fault, Repeats] = {}
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write a record, unless it repeats one; and what is due to be told of others."""
+        """Write a record unless it repeats one, and the due counts of others."""
         self._tell_repeats(record.created)
         if record.levelno < logging.WARNING:
             super().emit(record)
@@ -102,8 +102,8 @@ class Lines(logging.StreamHandler[TextIO]):
         super().emit(record)
 
     def close(self) -> None:
-        """Tell of repeats that are not told yet."""
-        with suppress(ValueError):  # who reads may have gone before
+        """Log the repetitions that are not logged yet."""
+        with suppress(ValueError):  # the reader may have ended before
             self._tell_repeats(float("inf"))
         super().close()
 
@@ -134,7 +134,7 @@ def _fault(record: logging.LogRecord) -> Fault:
 
 
 def _without_trace(record: logging.LogRecord) -> logging.LogRecord:
-    """Return a copy that holds on to nothing of what was going on."""
+    """Return a copy without references to the program's state."""
     said = {"msg": record.getMessage(), "args": (), "exc_info": None, "exc_text": None}
     return logging.makeLogRecord({**vars(record), **said})
 

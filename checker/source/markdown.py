@@ -42,7 +42,7 @@ class Passage(Record, eq=False):
         kind: Heading, paragraph, or item of a list.
         level: Of a heading: 1 to 6; of an item: how many lists stand around it; else 0.
         text: Visible text, as long as the stretch of the file it was read from.
-        span: That stretch.
+        span: The stretch.
     """
 
     kind: PassageKind

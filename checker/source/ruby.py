@@ -42,7 +42,7 @@ class RubyNode:
         named: False for bare tokens such as keywords and brackets.
         start: Offset of the first character.
         end: Offset behind the last character.
-        missing: The parser made it up to go on.
+        missing: The parser inserted it to continue.
         broken: A direct child is made up or could not be parsed.
         children: All children in order, without comments.
         fields: Children by their field's name.
@@ -138,7 +138,7 @@ def _tree(text: bytes, end: float) -> tree_sitter.Tree:
     parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_ruby.language()))
     try:
         return parser.parse(
-            # It asks how it goes on only of a text that it reads in parts.
+            # It only asks for the rest of a text that it reads in parts.
             lambda at, _position: text[at : at + _CHUNK],
             progress_callback=lambda *_progress: time.thread_time() > end,
         )

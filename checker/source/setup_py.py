@@ -29,7 +29,7 @@ _GLOBS = ("glob", "glob.glob")
 
 
 class Pattern(Record):
-    """What `glob` is asked for; `**` reaches into folders only if it is recursive."""
+    """The pattern of `glob`; `**` reaches into folders only if it is recursive."""
 
     text: str
     recursive: bool = False

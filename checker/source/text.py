@@ -51,7 +51,7 @@ class SourceText(Record, eq=False, dict=True):
         file: Path relative to the package folder (see `Place.file`).
         text: The text, line endings as in the file.
         encoding: Of the file on disk.
-        wrapper: Tag of an element around the text that nobody wrote; empty for none.
+        wrapper: Tag of an element that the checker put around the text; empty for none.
     """
 
     wrapper: ClassVar[str] = ""
@@ -139,7 +139,7 @@ class Span(Record, eq=False):
 
     @property
     def span(self) -> Span:
-        """Return itself, so that a span can stand wherever something with a span is asked for."""
+        """Return itself, so that a span can stand wherever something with a span is expected."""
         return self
 
     @property
@@ -199,7 +199,7 @@ def text_excerpt(span: Span) -> Excerpt:
     """Return the text of an XML element, the indentation of its first line included.
 
     Args:
-        span: From the first to the last character of the text.
+        span: The span of the whole text.
     """
     source, start = span.source, span.start
     text = source.text

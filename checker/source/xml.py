@@ -1,6 +1,6 @@
 """XML with places: lxml's tree, and expat's positions of everything in it.
 
-lxml tells the line where a start tag ends and no column; expat tells the byte where each tag
+lxml gives the line where a start tag ends and no column; expat gives the byte where each tag
 begins and ends, but builds no tree. Both read the same text and are joined by document order.
 Entities, document types and network access are off in both.
 """
@@ -22,7 +22,7 @@ from checker.source.xml_tags import AttributeSpans, locate_tags, namespace_fault
 
 MAX_DEPTH = 250
 ELEMENTS_LIMIT = 50_000
-"""Of one document; the largest of 5 000 real ones has 3 705. Each takes up to 9 kB as a robot."""
+"""Greatest number per document; real ones have up to 3 705. Each takes up to 9 kB as a robot."""
 ELEMENTS_VARIABLE = "SUBT_CHECK_ELEMENTS"
 """Environment variable that states another limit of elements, for machines with more memory."""
 ATTRIBUTES_FOR_ONE = 2

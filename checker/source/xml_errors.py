@@ -243,7 +243,7 @@ _CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
         (r"/\Z", r"[\s/]", "an empty element ends with />"),
     )
 )
-"""What is before and behind the character that is refused, and what it tells."""
+"""What is before and behind the character that is refused, and what it means."""
 
 
 def _invalid(source: SourceText, at: int) -> XmlFault:

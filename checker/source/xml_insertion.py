@@ -72,7 +72,7 @@ def _written(parent: Element, lines: Sequence[str]) -> tuple[str, str]:
 
 
 def _behind_comments(source: SourceText, offset: int) -> int:
-    """Return where a line ends that goes on with nothing but comments, else the offset itself."""
+    """Return the end of a line that contains only comments from here, else the offset itself."""
     text, at = source.text, offset
     while True:
         while text[at : at + 1] in _BLANKS:

@@ -187,7 +187,7 @@ class _TagReader:
         self._refuse("a document type (<!DOCTYPE>) is not allowed", hint)
 
     def _refuse(self, message: str, hint: str) -> None:
-        # expat is already inside a document type when it tells of it.
+        # expat is already inside a document type when it reports it.
         at = self.text.rfind("<", 0, self.to_chars(self.parser.CurrentByteIndex) + 1)
         end = self.text.find(">", at) + 1 or at
         raise _Refused(XmlFault(Span(self.source, at, end), message, hint))

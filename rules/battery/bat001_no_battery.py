@@ -5,7 +5,7 @@ stops, and its package is not accepted. A battery inside a comment does not coun
 
 Fix: add the LinearBatteryPlugin to what the spawner emits, as the last of the plugins that make
 the robot move.
-Source: SubT maintainers ask for it in their reviews; all accepted packages have one.
+Source: SubT maintainers require it in their reviews; all accepted packages have one.
 """
 
 from checker.launch.spawner.emitted_xml import SpawnedXml

@@ -5,7 +5,7 @@ plugins looks for joint commands before there are any, and may never start to dr
 for the battery last.
 
 Fix: move the LinearBatteryPlugin after the last drive, track or rotor plugin.
-Source: SubT maintainers ask for "the battery plugin last" in their reviews.
+Source: SubT maintainers require "the battery plugin last" in their reviews.
 """
 
 from checker.model.battery import BATTERY_CLASS, MOVING_CLASSES

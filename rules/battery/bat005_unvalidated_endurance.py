@@ -1,6 +1,6 @@
 """A battery that lasts long, without a measurement that proves it.
 
-Above one hour on the ground and ten minutes in the air, the organisers ask for proof from the real
+Above one hour on the ground and ten minutes in the air, the organisers require proof from the real
 robot: a video or a log of an endurance test, linked in specifications.md. Without proof they ask
 for the standard endurance. A section on validation that refers to that of another configuration
 counts as proof.

@@ -6,7 +6,7 @@ collisions. For a mesh it uses the convex hull, which may reach beyond the mesh,
 hull's outer layer passes.
 
 Fix: choose a `<pose>` just behind the robot.
-Source: SubT reviews of breadcrumbs, which ask for a place outside the robot and at most 0.3 m
+Source: SubT reviews of breadcrumbs, which require a place outside the robot and at most 0.3 m
 behind it (`subt_standards.json`).
 """
 

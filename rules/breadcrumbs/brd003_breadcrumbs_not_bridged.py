@@ -67,7 +67,7 @@ def _missing_bridges(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Findi
 
 
 def _missing_counts(bridges: Iterable[Bridge], *, carried: bool) -> Iterator[Finding]:
-    """Report launch files that drop breadcrumbs and do not tell how many remain.
+    """Report launch files that drop breadcrumbs without a bridge for the number that remains.
 
     Where the robot carries none, only another configuration can miss the number.
     """

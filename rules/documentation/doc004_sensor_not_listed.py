@@ -6,8 +6,8 @@ entry. Most IMUs contain a magnetometer; a missing one is information.
 
 Fix: list the sensor in the section "Sensors" with its device and the type that models it, or remove
 it from the model.
-Source: SubT maintainers compare model and specifications.md sensor by sensor; a review asked for
-the thermal camera to be listed.
+Source: SubT maintainers compare model and specifications.md sensor by sensor; a review required the
+    thermal camera to be listed.
 """
 
 from collections import defaultdict

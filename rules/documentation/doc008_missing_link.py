@@ -6,7 +6,7 @@ grants no rights.
 
 Fix: correct the path or add the file; add a link to the datasheet next to the sensor or in the
 section "Validation and Specification Links".
-Source: the SubT template asks for links to the specifications of all instruments.
+Source: the SubT template requires links to the specifications of all instruments.
 """
 
 import posixpath

@@ -1,6 +1,6 @@
 """A fast robot whose specifications.md links no measurement.
 
-Above 1 m/s on the ground and 4 m/s in the air, the organisers ask for proof from the real robot: a
+Above 1 m/s on the ground and 4 m/s in the air, the organisers require proof from the real robot: a
 video or a recording, with a link in specifications.md. Datasheets of sensors prove nothing
 about speed, and neither do placeholders such as `https://youtu.be/xxxx`. Of the accepted packages
 that we checked, two show this: one links only datasheets, the other placeholders.

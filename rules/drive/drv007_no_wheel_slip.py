@@ -7,7 +7,7 @@ that we checked shows this.
 
 Fix: add WheelSlip to what the spawner emits, with a `<wheel>` for each wheel:
 `slip_compliance_lateral` above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.
-Source: SubT maintainers ask for it in their reviews of skid-steer robots.
+Source: SubT maintainers require it in their reviews of skid-steer robots.
 """
 
 from collections.abc import Sequence

@@ -1,7 +1,7 @@
 """An angle close to a multiple of π/2 that is not written with 16 digits.
 
 A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. The robot
-drives anyway, so this is not an error. But the SubT checklist asks for exact wheels, since a solver
+drives anyway, so this is not an error. But the SubT checklist requires exact wheels, since a solver
 may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model, and for
 other targets, it is information; for Gazebo from Fortress on, less than a microradian is not
 reported. Where the angle of a part that is not a wheel changes by more than the rounding of four
@@ -27,7 +27,7 @@ EXACT_HALF_PI = Decimal("1.57079632679489661923")
 _ROUNDED = 2e-5
 """Radians that readers with six digits do not see; 1.5708 and 3.1416 are closer."""
 _MOST_DIGITS = 17
-"""Of all behind the point that tell one float near π from the next."""
+"""Digits behind the point that distinguish one float near π from the next."""
 
 
 @rule("GEO001", "imprecise-angle", Severity.INFO, Concern.ROBOT)

@@ -58,7 +58,7 @@ def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity)
     joint = robot.pose_of_joint(wheel.joint)
     along = rolls.pose.rotate((0.0, 0.0, 1.0))
     own = joint.inverse.rotate(along) if joint is not None else along
-    # Of the two directions of a line the positive one is usual.
+    # The positive direction of a line is usual.
     sign = math.copysign(1.0, max(own, key=abs))
     needed = " ".join(f"{round(sign * number, 4) + 0.0:g}" for number in own)
     return finding(

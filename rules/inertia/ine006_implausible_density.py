@@ -48,7 +48,7 @@ def check(
             because no metal is so dense, but for the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
-        contrast: How many times denser than the rest of the robot such a link is.
+        contrast: Factor by which such a link is denser than the rest of the robot.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its volume exceeds `volume_share`.
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more

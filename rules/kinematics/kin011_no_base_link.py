@@ -24,7 +24,7 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     # A model that stands still is placed as a whole: no link of it needs to exist.
     if not robot.is_static:
         yield from _canonical(robot)
-    # Of a file for no simulator, nobody knows that it is a robot; a barrel is none.
+    # A file for no simulator may not be a robot, but a barrel.
     is_prop = robot.is_prop and not context.of_submissions
     if not context.release or not robot.links or base in robot.links_by_name or is_prop:
         return

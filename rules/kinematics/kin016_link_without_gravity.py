@@ -21,7 +21,7 @@ from checker.rule import Concern, Context, Findings, Severity, finding, rule
 def check(robot: Robot, context: Context) -> Findings:
     """Report links without gravity, and kinematic links.
 
-    Of a link that is neither of the base nor a wheel, nor between them, it is information.
+    For a link that is neither of the base nor a wheel, nor between them, it is information.
     """
     carrying = _carrying_links(robot)
     for link in robot.links:

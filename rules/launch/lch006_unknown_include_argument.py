@@ -16,7 +16,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 @rule("LCH006", "unknown-include-argument", Severity.INFO, Concern.INTERFACE)
 def check(launch: Ros2Launch) -> Findings:
-    """Report arguments of includes that nothing asks for."""
+    """Report arguments of includes that the included file does not use."""
     for graph in launch.entries:
         for include in graph.includes:
             if include.accepts is None:

@@ -3,7 +3,7 @@
 Gazebo looks for the library of a plugin in its own folder and in those of
 `GZ_SIM_SYSTEM_PLUGIN_PATH`; `gz_sim.launch.py` adds the folders of `LD_LIBRARY_PATH`, among them
 `lib`. A library that is installed into `lib/<package>` is in none of them: Gazebo prints one line
-and goes on without the plugin.
+and continues without the plugin.
 
 It is reported of a robot that a launch file spawns, which starts Gazebo itself, when no hook,
 package.xml, launch file, document or script of the available packages names that path.

@@ -36,7 +36,7 @@ def check(launch: Ros2Launch) -> Findings:
 
 
 def _state(process: Process) -> Located[str] | None:
-    """Return the state that a command of `ros2 control` asks for."""
+    """Return the state that a command of `ros2 control` requests."""
     words = process.words
     said = [word.value for word in words]
     if said[:2] != ["ros2", "control"] or len(said) < 4:

@@ -97,7 +97,7 @@ def check(
                 yield _at_hand(package, manifest, use)
         elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
-    # What the target calls otherwise is to be renamed first: ROS011.
+    # Packages with another name on the target must be renamed first: ROS011.
     renamed = table("renamed_packages")["releases"].get(context.release, {})
     lacking = [name for name in sorted(others) if name not in renamed]
     fix = _declaration_fix(package, manifest, *lacking) if lacking else None

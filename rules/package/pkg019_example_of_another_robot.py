@@ -51,7 +51,7 @@ def check(package: Package) -> Findings:
             yield from _others(package, source, text, others)
         named = any(name in text.casefold() for name in own)
         shown = shown or named or bool(others) or _SPAWNS.search(text) is not None
-    # The world alone tells nothing: it is example.ign that puts most robots into it.
+    # The world alone proves nothing: example.ign puts most robots into it.
     if not shown and package.exists(FILES[0]):
         files = " and ".join(source.file for source in sources)
         yield finding(sources[0].whole(), f"{package.name} is missing from {files}")

@@ -126,7 +126,7 @@ def _below(sensor: Sensor, topic: str) -> str:
 def _own_libraries(package: Package, release: str) -> _Own:
     """Return what says whether a plugin is one that the package, or a dependency, holds itself.
 
-    What nobody holds publishes nothing: PLG002 reports it.
+    A plugin that neither contains publishes nothing: PLG002 reports it.
     """
     lenders, known = available_packages(package), plugin_libraries(release)
     held, anywhere = lenders.libraries(), bool(lenders.unknown)

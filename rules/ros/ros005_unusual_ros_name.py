@@ -64,7 +64,7 @@ def check(robot: Robot, launch: LaunchGraph, devices: KnownDevices, context: Con
     only = _only_3d_lidar(robot)
     of_depth: dict[Sensor, list[Bridge]] = {}
     for bridge in launch.bridges:
-        # The args of a template say where a name starts, not how it goes on.
+        # The args of a template give the start of a name, not the rest.
         if bridge.node.assumed_from or "$(" in bridge.ros_topic:
             continue
         channel = known.get(comparable(bridge.ign_topic))

@@ -5,7 +5,7 @@ waits for a topic that is not published, or publishes one camera's image under t
 
 Fix: remap `input/image` and `input/camera_info` to the topics of one camera's bridges, and
 `output/image` and `output/camera_info` to new names; with `args="depth"` only the images.
-Source: a SubT review that asked for corrected remaps in four copied publishers; the remaps of 99
+Source: a SubT review that required corrected remaps in four copied publishers; the remaps of 99
 packages.
 """
 

@@ -8,7 +8,7 @@ launch file; if it cannot be expanded, from the unexpanded file.
 
 Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` if the description has
 fixed frames that the model lacks.
-Source: a review that asked for `robot_state_publisher`; parameters of PosePublisher (gz-sim): with
+Source: a review that required `robot_state_publisher`; parameters of PosePublisher (gz-sim): with
 `<static_publisher>` static poses have their own topic.
 """
 

@@ -7,7 +7,7 @@ map is lost; without `name` it relays no robot's topics.
 Fix: inside the group of the robot's name, `<include file="$(find
 subt_ros)/launch/models_common/mapping_server_relays.launch"><arg name="name" value="$(arg name)"/>
 </include>`.
-Source: two reviews asked for it; all accepted packages that we checked include it, whatever their
+Source: two reviews required it; all accepted packages that we checked include it, whatever their
 drive. The content of the file is general knowledge: subt_ros is not available.
 """
 

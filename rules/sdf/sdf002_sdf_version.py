@@ -2,7 +2,7 @@
 
 The version defines what each element means: the frame of a pose, the joint types and the sensors. A
 parser reads a file by its stated version, converts older ones to its own, and refuses newer ones:
-Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT asks for
+Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT requires
 1.6; another version that Dome reads is a warning. If `model.config` states another version than the
 model file, tools that choose by it choose the wrong file.
 

@@ -34,7 +34,7 @@ def check(sdf: SdfDocument, package: Package, context: Context) -> Findings:
 
 def _second_models(sdf: SdfDocument, context: Context) -> Iterator[Finding]:
     models = sdf.root.all("model")
-    # Before 1.8 a file could hold several; whoever spawns it takes the first.
+    # Before 1.8 a file could hold several; spawning takes the first.
     forbidden = context.release or sdf_version(sdf.document) >= (1, 8)
     for model in models[1:]:
         yield finding(

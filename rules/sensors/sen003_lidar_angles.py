@@ -66,7 +66,7 @@ def _one_way(
             f"{phrase}: expected -π to π",
             severity=None if context.of_submissions else Severity.INFO,
             key="from 0",
-            # It would turn ray 0 to the back, which only SubT asks for.
+            # It would turn ray 0 to the back, which only SubT requires.
             fix=_angles_fix(scan, *_AROUND) if context.profile == "subt" else None,
         )
     elif scan.angle <= 0 and scan.samples.value > 1:

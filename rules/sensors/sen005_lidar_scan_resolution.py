@@ -5,7 +5,7 @@ measures, and with 0.03 a row of 920 samples becomes one of 28. Despite its name
 or a distance; the resolution of distances is in `<range>`.
 
 Fix: write `<resolution>1</resolution>`, and as many samples as the device has.
-Source: reviews of SubT models, which asked for 1 instead of 0.1 and 0.03; sdformat, lidar.sdf.
+Source: reviews of SubT models, which required 1 instead of 0.1 and 0.03; sdformat, lidar.sdf.
 """
 
 from checker.model.robot import Robot

@@ -5,7 +5,7 @@ of 0.01 m, unless the device's own figures are known. A lidar without noise is m
 real one.
 
 Fix: write `<range><resolution>0.01</resolution>` and a Gaussian `<noise>` with the `<stddev>` 0.01.
-Source: reviews of SubT models, which asked for 0.01 instead of 0.003 and 0.03 for Ouster lidars
+Source: reviews of SubT models, which required 0.01 instead of 0.003 and 0.03 for Ouster lidars
 (`subt_standards.json`, `devices.json`). The published model of the Ouster OS-1 has 0.008.
 """
 

@@ -6,7 +6,7 @@ any other image, points that are projected into or out of it are wrong.
 
 Fix: add `<lens><intrinsics>` with fx = fy = width / (2·tan(horizontal_fov / 2)),
 cx = (width - 1) / 2 and cy = (height - 1) / 2.
-Source: SubT maintainers ask for the intrinsics of cameras in their reviews; SDFormat specification,
+Source: SubT maintainers require the intrinsics of cameras in their reviews; SDFormat specification,
 camera/lens/intrinsics. From memory of gz-sensors, later releases compute them.
 """
 

@@ -66,7 +66,7 @@ def check(
             are never reported.
         view_tolerance: Share by which `<horizontal_fov>` may differ from the device's, in both
             directions.
-        code_tolerance: Share by which the number of pixels may differ from what a type code tells;
+        code_tolerance: Share by which the number of pixels may differ from that of a type code;
             half of it for a width.
     """
     for sensor in robot.sensors:
@@ -121,7 +121,7 @@ def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
 
 
 def _code_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap]:
-    """Yield the size if it is far from what the device's type code tells of it."""
+    """Yield the size if it is far from that of the device's type code."""
     values = device.values
     stated = (camera.width.value, camera.height.value)
     megapixels, width = values.get("megapixels"), values.get("width")

@@ -5,7 +5,7 @@ robot drives through gas and reports nothing.
 
 Fix: add the plugin `subt::GasDetector` of `libGasEmitterDetectorPlugin.so` to what the spawner
 emits, with topic `/model/<name>/gas_detected`, update_rate 10 and type gas; bridge that topic.
-Source: SubT maintainers ask for it on every robot (`subt_standards.json`, gas_sensor).
+Source: SubT maintainers require it on every robot (`subt_standards.json`, gas_sensor).
 """
 
 from checker.base.resources import table

@@ -29,7 +29,7 @@ def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
         yield unchecked(robot.missing_parts)
         return
     sensors = list(mounted_sensors(robot))
-    # Meshes take long; who is near the other shapes is near the whole robot as well.
+    # Meshes take long; a sensor near the other shapes is near the whole robot as well.
     box = _box_around(robot, meshes_too=False)
     if box is not None and not _far(sensors, box, sizes):
         return
@@ -86,7 +86,7 @@ def _robot(pose: str, visual: str = "<box><size>0.6 0.4 0.2</size></box>") -> st
 _MARK = "</pose>  <!-- ^ SEN018 -->"
 GOOD = [
     _robot("0.3 0 0.082 0 0 0</pose>"),
-    # On a mast that nobody drew.
+    # On a mast that is not modelled.
     _robot("0 0 0.3 0 0 0</pose>"),
     '<sensor name="imu" type="imu"><pose>5 0 0 0 0 0</pose></sensor>',
 ]

@@ -33,7 +33,7 @@ class _Start(Record, eq=False):
     Attributes:
         package_name: The package that it names; empty when it names the file by its path.
         file: Name of the launch file, without folders.
-        path: Where that file ought to lie, from the package whose spawner it is.
+        path: The expected path of the file, from the package of the spawner.
         where: The command.
     """
 

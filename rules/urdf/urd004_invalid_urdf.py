@@ -38,7 +38,7 @@ def check(description: UrdfDescription) -> Findings:
         yield from _type_and_limit(joint, optional=optional)
     for part in (robot.links, robot.joints):
         yield from _repeated_names(part)
-    # The robot that other rules see is the SDF model here, so nobody else looks at these.
+    # The robot that other rules see is the SDF model here, so no other rule reads these.
     if description.for_rviz:
         yield from _ends(robot)
         yield from _tree(robot)

@@ -19,7 +19,7 @@ _DEFINING = ("color", "texture")
 def check(description: UrdfDescription) -> Findings:
     """Report names of materials without a colour or texture in the file."""
     if description.call is not None:
-        return  # Whoever includes the macro may define them.
+        return  # A file that includes the macro may define them.
     root = description.document.root
     used = [
         material

@@ -91,7 +91,7 @@ _MARK = "  # ^ WIR006"
 def _example(
     program: str, yaml: str, bridge: object = _ODOMETRY, more: str = "", launch: str = _HEAD
 ) -> dict[str, object]:
-    """Return a rover with a node that a parameter file tells what to read."""
+    """Return a rover with a node whose input topic a parameter file sets."""
     node = _NODE.format(*program.split("/"), more).replace(_HEAD, launch)
     return {"@bridge": bridge, "@launch": {_HEAD: node}, "config/a.yaml": yaml}
 

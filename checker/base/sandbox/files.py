@@ -1,6 +1,6 @@
 """A message with files, in one file without a name that is handed from process to process.
 
-Who asks opens files and copies them; who answers opens none, and sees nothing else of the disk. An
+The caller opens and copies files; the child opens none, and sees nothing else of the disk. An
 answer is read likewise: nothing in it is a path that is followed, and its sizes are checked.
 
 First come the contents of the files, then the message, then a table of the files as JSON, and last
@@ -40,8 +40,9 @@ class Files:
 
         Args:
             table: By name, where a file begins and how long it is, or why it could not be read.
-            descriptor: Of what holds them; it stays open as long as this object is used.
-            start: From where in it the table counts.
+            descriptor: The descriptor of the file with them; it stays open as long as this object
+                is used.
+            start: The offset from which the table counts.
         """
         self._table, self._descriptor, self._start = table, descriptor, start
 
@@ -120,10 +121,10 @@ def read(
     """Return the message and the files that somebody has written.
 
     Args:
-        descriptor: Of what they were written to; the writer may be hostile.
+        descriptor: The descriptor of the file they are in; the writer may be hostile.
         limit: Bytes of the message.
-        start: Where they begin.
-        end: Where they end; where the file does when None.
+        start: The offset at which they begin.
+        end: The offset at which they end; None for the end of the file.
 
     Raises:
         Damaged: It is something else, or too long.

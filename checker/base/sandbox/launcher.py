@@ -1,6 +1,6 @@
 """Starts processes that read strangers' files: all by one clean process in the sandbox.
 
-That one is started again, with none of the descriptors, variables and memory of who starts it, and
+That one is started again, with none of the descriptors, variables and memory of its parent, and
 enters its sandbox before it does anything else. A new process is a fork of it: two milliseconds,
 against fifty for a new interpreter.
 """
@@ -47,7 +47,7 @@ class Order(Record):
         module: Its full name; see `checker.base.sandbox.task`.
         seconds: Of processor time.
         memory: Bytes of address space.
-        works: Whether it writes into the working folder, and asks for processes itself.
+        works: Whether it writes into the working folder, and requests processes itself.
         draws: Whether it may use graphics cards.
         serves: Whether its request is a socket, by which it answers many (`serve` of its module).
         lasts: Whether it answers one request after the other (see `checker.base.child_server`).
@@ -93,7 +93,7 @@ class Launcher:
             more: The descriptor by which it says that an answer is there, if it lasts.
 
         Raises:
-            OSError: There is nobody to start it.
+            OSError: No launcher runs.
         """
         input, ours = os.pipe()
         code, theirs = os.pipe()
@@ -126,7 +126,7 @@ class OwnLauncher(Launcher):
         niceness: int = 0,
         loaded: str = "",
     ) -> None:
-        """Start the process; it enters its sandbox while the caller goes on.
+        """Start the process; it enters its sandbox while the caller continues.
 
         Args:
             work: Folder that a process may write in; where this process is root's, it becomes that
@@ -256,6 +256,6 @@ def _environment(work: str) -> dict[str, str]:
         for name, value in os.environ.items()
         if name in _PASSED_ON or name.startswith(_FAMILIES)
     }
-    # Who draws says how; for all others MuJoCo would look for windows when it is loaded.
+    # Processes that draw set this; for all others MuJoCo would look for windows when it is loaded.
     own = {"HOME": work or "/", "PYTHONPATH": module_path(), "MUJOCO_GL": "disable"}
     return known | own | dict.fromkeys(_OWN_THREADS, "1")

@@ -1,12 +1,12 @@
 """The process that others are forked from: `python -m checker.base.sandbox.launcher_process`.
 
 It is started with nothing of its parent's but a socket, enters its sandbox, and reads
-nobody's files. Each process that it starts runs one function of one module in the sandbox.
+no files of users. Each process that it starts runs one function of one module in the sandbox.
 
 On the socket comes one JSON object a message (`Order` in `checker.base.sandbox.launcher`), with the
 descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
-for its exit code; and where it lasts, one more to say that an answer is there. Who lets go of the
-other end of the input has the process killed. When the socket closes, all of them end.
+for its exit code; and where it lasts, one more to say that an answer is there. Closing the
+other end of the input kills the process. When the socket closes, all of them end.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from checker.base.sandbox.task import FAILED, load_prepared, run
 
 # Processes whose parents have ended: they become children of the launcher, which ends them.
 #
-# Without this, a process that leaves its session would go on after the check that it belongs to.
+# Without this, a process that leaves its session would continue after the check that it belongs to.
 
 
 _PR_SET_CHILD_SUBREAPER = 36
@@ -42,7 +42,7 @@ _LIMIT = 100_000
 
 
 class Orphans:
-    """Ends orphans, where the system tells of them (Linux with CONFIG_PROC_CHILDREN)."""
+    """Ends orphans, where the system lists them (Linux with CONFIG_PROC_CHILDREN)."""
 
     def __init__(self) -> None:
         """Have orphans become children of this process; called before files are out of reach."""
@@ -53,10 +53,10 @@ class Orphans:
                 self._list = os.open(f"/proc/{id}/task/{id}/children", os.O_RDONLY | os.O_CLOEXEC)
 
     def end(self, kept: Container[int]) -> None:
-        """End all children but some, and those whom they leave behind.
+        """End all children but some, and those that they leave behind.
 
         Args:
-            kept: Ids of those that go on.
+            kept: Ids of those that continue.
         """
         deadline = monotonic() + _SECONDS
         while monotonic() < deadline:
@@ -96,11 +96,11 @@ class _Process:
 
 
 class LauncherProcess:
-    """Starts processes until nobody asks for any more."""
+    """Starts processes until the socket closes."""
 
     def __init__(self, control: socket.socket, sandbox: Sandbox) -> None:
         """Enter the sandbox, and say which layers hold."""
-        # A process in the sandbox asks for others by a socket of its own.
+        # A process in the sandbox requests others by a socket of its own.
         self._inner_client, inner = socket.socketpair()
         self._controls = {control.fileno(): control, inner.fileno(): inner}
         self._outer = control.fileno()
@@ -122,7 +122,7 @@ class LauncherProcess:
             self._poll.register(descriptor, select.POLLIN)
 
     def serve(self) -> None:
-        """Start and end processes as told, until the socket closes."""
+        """Start and end processes as requested, until the socket closes."""
         while True:
             for descriptor, event in self._poll.poll():
                 if descriptor == self._woken:
@@ -135,7 +135,7 @@ class LauncherProcess:
                     self._kill(descriptor)
 
     def _heed(self, control: socket.socket) -> bool:
-        """Do what a message asks for; False if there will be none any more."""
+        """Execute one message; False if there are no more."""
         try:
             message, descriptors, _, _ = socket.recv_fds(control, MESSAGE_LIMIT, DESCRIPTORS + 1)
         except ConnectionError:  # closed before all that was said to it was read
@@ -153,12 +153,12 @@ class LauncherProcess:
         return bool(message)
 
     def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
-        """Start a process; where this fails, nobody has taken the descriptors."""
+        """Start a process; where this fails, no process has taken the descriptors."""
         input, request, answer, code, *more = descriptors
         id = os.fork()
         if id == 0:
             ended = FAILED
-            # Whatever an order lacks, a new process never goes on as a second launcher.
+            # Even with an incomplete order, a new process never continues as a second launcher.
             try:
                 ended = self._be(order, input, request, answer, *more)
             finally:
@@ -200,7 +200,7 @@ class LauncherProcess:
         os.close(process.code)
 
     def _kill(self, input: int) -> None:
-        """End the process on whose input nobody is any more."""
+        """End the process whose input was closed."""
         with suppress(KeyError):  # it has ended by itself at the same moment
             self._poll.unregister(input)
         for process in self._processes.values():
@@ -209,7 +209,7 @@ class LauncherProcess:
 
 
 def _end(process: int) -> None:
-    """End a child, and all in its group at once: none of them can start one that goes on."""
+    """End a child, and all in its group at once: none of them can start one that survives."""
     for end in (os.killpg, os.kill):
         with suppress(OSError):
             end(process, signal.SIGKILL)
@@ -234,7 +234,7 @@ def _code_of(id: int) -> int | None:
     if hasattr(os, "waitid"):  # not on macOS before Python 3.13
         if os.waitid(os.P_PID, id, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
             return None
-        # Until it is waited for, nobody else can get the number of its group.
+        # Until it is waited for, no other process can get the number of its group.
         with suppress(OSError):
             os.killpg(id, signal.SIGKILL)
     ended, status = os.waitpid(id, os.WNOHANG)
@@ -272,5 +272,5 @@ def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
 
 if __name__ == "__main__":
     main(int(sys.argv[1]), sys.argv[2], int(sys.argv[3]), sys.argv[4])
-    # What is still there ends with this process; nothing is to be tidied up.
+    # What is still there ends with this process; no cleanup is needed.
     os._exit(0)

@@ -1,6 +1,6 @@
 """The sandbox of a process: its layers, and which of them hold on this machine.
 
-Each holds by itself, as far as it goes; docs/security.md tells what each keeps from what.
+Each holds by itself, as far as it goes; docs/security.md describes what each protects.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ class Layer(Record):
 
     Attributes:
         name: One of `ALL`.
-        held: Whether it stands.
-        words: How, or why not; the end of a sentence.
+        held: Whether it is active.
+        words: How it holds, or why not; the end of a sentence.
         hides: Whether it keeps files of others out of reach.
     """
 
@@ -66,7 +66,7 @@ def _entered(name: str, sandbox: Sandbox) -> Layer:
 
 
 def hides_files(layers: Iterable[Layer]) -> bool:
-    """Say whether a process that was taken over would not reach the files of who started it."""
+    """Say whether a compromised process cannot reach the files of the user."""
     return any(layer.held and layer.hides for layer in layers)
 
 

@@ -49,7 +49,7 @@ def sandboxed_command(command: Sequence[str], read: Iterable[str], work: str = "
 _BWRAP = (
     *("bwrap", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"),
     # As the first process of its view, it takes all others with it when it ends: bubblewrap's own
-    # first process would wait for them, however long they go on.
+    # first process would wait for them, however long they run.
     *("--unshare-cgroup-try", "--new-session", "--as-pid-1"),
 )
 _OWN = (
@@ -117,7 +117,7 @@ def leave_network() -> None:
     if libc.unshare(flags) != 0:
         raise NotHeld(f"the system does not allow namespaces ({os.strerror(ctypes.get_errno())})")
     if flags & _USER:
-        # In its own view it would be nobody.
+        # In its own namespace it would be the user `nobody`.
         with suppress(OSError):
             _be_known_as(user, group)
         # In its own view it would have all rights.

@@ -32,7 +32,7 @@ def lower_priority(processes: Sequence[int], by: int) -> None:
 def _stand_back_as_group(group: Path, by: int) -> None:
     """Lower the priority of a session: where each is a group, niceness counts within it alone.
 
-    Of those who are not root, the system hears one in a tenth of a second on the whole machine.
+    Without root, the system grants one request in a tenth of a second on the whole machine.
 
     Raises:
         OSError: The system has no such groups, or does not let us.

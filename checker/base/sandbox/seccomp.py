@@ -2,7 +2,7 @@
 
 Forbidden are the calls that reach other processes, other machines and other programs, and those
 by which holes in the kernel are usually reached; all others are left. A forbidden call fails with
-EPERM, so that a library which merely tries goes on. See seccomp(2).
+EPERM, so that a library that merely tries continues. See seccomp(2).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Architecture(Record):
     """How one kind of processor calls the kernel.
 
     Attributes:
-        audit: Its AUDIT_ARCH number, which a filter of system calls is told.
+        audit: Its AUDIT_ARCH number, which a filter of system calls receives.
         foreign: Least number of calls by another convention (x32); 0 where there is none.
         calls: Number of each call by its name; None where it has no such call.
     """
@@ -49,7 +49,7 @@ FORBIDDEN = (
     *("ptrace", "process_vm_readv", "process_vm_writev", "kcmp", "pidfd_getfd"),
     *("process_madvise", "process_mrelease", "pidfd_send_signal", "rt_sigqueueinfo"),
     *("rt_tgsigqueueinfo", "setpriority", "ioprio_set", "mq_open", "mq_unlink"),
-    # By number as well: who guesses it needs no name.
+    # By number as well: a guessed number needs no name.
     *("msgctl", "msgget", "msgrcv", "msgsnd", "semctl", "semget", "semop", "semtimedop"),
     *("shmat", "shmctl", "shmget"),
     # Other programs, and files by other names.
@@ -96,7 +96,7 @@ _IOCTLS = (0x5412, 0x541C, 0x8901, 0x8902)
 """Requests of ioctl(2) that type into a terminal (TIOCSTI, TIOCLINUX), or have another process
 sent signals (FIOSETOWN, SIOCSPGRP)."""
 _FCNTLS = (8, 15, 1024, 1026)
-"""Commands of fcntl(2) that have another process sent signals, keep others from a file, or watch a
+"""Commands of fcntl(2) that send signals to another process, lock a file, or watch a
 folder: F_SETOWN, F_SETOWN_EX, F_SETLEASE, F_NOTIFY."""
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06

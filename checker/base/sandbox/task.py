@@ -30,12 +30,12 @@ PLACE = Struct("<QQ")
 """Where one of several requests or answers begins and ends in the file of all."""
 _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
-"""Bytes of what is told of a fault."""
+"""Greatest length of a fault's message, bytes."""
 _FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
 INPUT = 0
 """Descriptor of the input: a byte comes when the request is there."""
 DEBUG = "SUBT_CHECK_DEBUG"
-"""Name of the variable that has faults of ours told with their traces."""
+"""Name of the variable that adds tracebacks to internal errors."""
 
 
 def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -> int:
@@ -43,11 +43,11 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
 
     Args:
         order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
-            into the working folder and asks for processes), `draws` and `serves` (whether its
+            into the working folder and requests processes), `draws` and `serves` (whether its
             request is a socket, by which it answers many), and `lasts`.
-        sandbox: That of this process.
+        sandbox: The sandbox of this process.
         descriptors: The input, on which a byte comes when the request is there; the files of
-            request and answer; the socket by which to ask for processes, or -1; the pipe by which
+            request and answer; the socket by which to request processes, or -1; the pipe by which
             to say that an answer is there, or -1.
     """
     input, request, answer, inner, done = descriptors
@@ -70,7 +70,7 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
             message, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
                 _write(file, module.answer(message, files))
-    except BaseException as error:  # noqa: BLE001 - who waits is told that there is no answer
+    except BaseException as error:  # noqa: BLE001 - the caller learns that there is no answer
         code = code_of(error)
         if code != OUT_OF_MEMORY:
             _tell_fault(answer)

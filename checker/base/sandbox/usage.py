@@ -1,6 +1,6 @@
 """What all processes that a launcher has started use together.
 
-Limits of the system (setrlimit(2)) hold each process alone. Who looks from outside the sandbox sees
+Limits of the system (setrlimit(2)) hold each process alone. A process outside the sandbox sees
 all of them in /proc: one whose parent has ended becomes a child of the launcher.
 """
 
@@ -26,8 +26,8 @@ class Usage(Record):
         memory: Bytes; what several of them share counts once.
         disk: Bytes of the files in their folder and of those that they have open: a removed one
             takes room until it is closed.
-        files: How many these are.
-        processes: How many there are.
+        files: The number of these.
+        processes: The number of processes.
     """
 
     memory: int = 0
@@ -51,7 +51,7 @@ def usage_below(ancestor: int, folder: Path, most: Usage) -> Usage:
 
     Args:
         ancestor: Its id; itself, it does not count.
-        folder: Where they work.
+        folder: Their working folder.
         most: What they may use.
     """
     processes = descendant_ids(ancestor)
@@ -89,7 +89,7 @@ def _memory(process: int) -> int:
         for line in Path(f"/proc/{process}/smaps_rollup").read_bytes().splitlines():
             if line.startswith(b"Pss:"):
                 return int(line.split()[1]) * _KILOBYTE
-    with suppress(OSError):  # the system may tell others no more than this
+    with suppress(OSError):  # the system may hide the rest from other users
         pages = int(Path(f"/proc/{process}/statm").read_bytes().split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE")
     return 0

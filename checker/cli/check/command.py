@@ -1,4 +1,4 @@
-"""`subt-check check`: checks packages and tells the report."""
+"""`subt-check check`: checks packages and prints the report."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _to_renew(options: argparse.Namespace) -> Baseline:
         return baseline_to_renew(Path(options.baseline))
     named: set[Path | None] = set()
     for path in map(Path, options.paths):
-        with suppress(UnreadableInput):  # said when it is to be checked
+        with suppress(UnreadableInput):  # reported when it is checked
             named |= {settings.baseline.path for settings in settings_of(path)}
     only = named.pop() if len(named) == 1 else None
     return baseline_to_renew(_relative(current_folder(), only) if only else Path(DEFAULT_FILE))

@@ -171,7 +171,7 @@ def fix_paths(
 
 
 def _refuse_uncommitted(found: Sequence[tuple[Package, FixedPackage]]) -> None:
-    """Raise where a fix would mix with changes that nobody could tell from it afterwards."""
+    """Raise where a fix would mix with changes that are not committed."""
     names = [
         posixpath.join(fixed.shown, path) if not package.only else fixed.shown
         for package, fixed in found

@@ -1,4 +1,4 @@
-"""What `subt-check check` prints while it goes on, and the files that it writes in the end."""
+"""What `subt-check check` prints while it runs, and the files that it writes at the end."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def check_and_print(
     progress.total = len(tasks)
     jobs = min(options.jobs or processors(), len(tasks))
     if jobs > 1:
-        # None of several processes can tell what the others do.
+        # None of several processes knows what the others do.
         tasks = [replace(task, say=say_nothing) for task in tasks]
     is_printed = options.format in _LINES and not (options.output or options.write_baseline)
     settings = _render_settings(options)
@@ -91,7 +91,7 @@ def _render_settings(options: argparse.Namespace) -> RenderSettings:
 
 
 def write_results(report: Report, options: argparse.Namespace) -> None:
-    """Write the report in all the ways that are asked for, other than text on standard output."""
+    """Write the report in all requested forms other than text on standard output."""
     settings = _render_settings(options)
     if options.output:
         write(Path(options.output), FORMATS[options.format](report, settings))

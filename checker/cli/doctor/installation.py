@@ -86,7 +86,7 @@ def sandbox() -> Iterator[Result]:
 
 
 def result(layer: Layer) -> Result:
-    """Return what is to be said of one of them."""
+    """Return the message about one of them."""
     words = plain(shortened(layer.words, 200))
     if layer.held and (layer.hides or layer.name == SECCOMP):
         return Result(State.OK, f"sandbox: {layer.name} ({words})")
@@ -194,7 +194,7 @@ def _libraries(extras: Collection[str]) -> Iterator[Result]:
     """Yield what is wrong with libraries, then those that are well.
 
     Args:
-        extras: Whose libraries are looked at; empty represents those that everybody needs.
+        extras: The extras to examine; empty for the required ones.
     """
     try:
         needed = [_NEEDED.fullmatch(requirement) for requirement in requires("subt-check") or ()]

@@ -98,7 +98,7 @@ def _frame_ids(request: Request) -> Iterator[Completion]:
 
 
 def _part_of_sensor(request: Request) -> str:
-    """Return the element that the type of the sensor around the caret asks for."""
+    """Return the element that the type of the sensor around the caret needs."""
     innermost = request.xml.innermost
     if innermost is None or innermost.tag != "sensor":
         return ""

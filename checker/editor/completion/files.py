@@ -32,7 +32,7 @@ class _Wanted(Record):
 
 
 def files(request: Request) -> Iterator[Completion]:
-    """Yield packages, folders and files that may go on at the caret."""
+    """Yield packages, folders and files that may continue the path at the caret."""
     wanted = _wanted_kind(request)
     if wanted is None:
         return

@@ -66,7 +66,7 @@ class Completion(Record):
 
 
 class Request(Record, eq=False, dict=True):
-    """What is asked for.
+    """A request for completion.
 
     Attributes:
         subject: The package, with the last text of the file that could be read.
@@ -106,7 +106,7 @@ class Request(Record, eq=False, dict=True):
             documentation: Markdown.
             rank: 0 comes first, 9 last.
             is_snippet: Whether `insert` has places to fill in.
-            start: Where the text that goes begins, if not at the start of the word.
+            start: The start of the replaced text, if not at the start of the word.
         """
         begin = self.xml.start if start is None else start
         text = escape(label, quote=False) if insert is None else insert

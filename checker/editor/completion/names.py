@@ -1,4 +1,4 @@
-"""Names of links, joints, frames and sensors, where XML asks for one."""
+"""Names of links, joints, frames and sensors, where XML needs one."""
 
 from __future__ import annotations
 

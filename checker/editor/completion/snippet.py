@@ -12,7 +12,7 @@ _NO_VALUE = "__"
 
 
 class Snippet:
-    """Writes a snippet of LSP: its places are numbered in the order in which they are asked for."""
+    """Writes a snippet of LSP: its places are numbered in the order of the calls."""
 
     def __init__(self) -> None:
         self._places = 0

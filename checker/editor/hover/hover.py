@@ -75,7 +75,7 @@ def hover_at(
 
 
 class _Search:
-    """What is known of one thing, the most telling first."""
+    """What is known of one thing, the most important first."""
 
     def __init__(self, subject: Subject, path: str, pointed: Pointed, target: Context) -> None:
         self.subject, self.path, self.pointed, self.target = subject, path, pointed, target

@@ -13,7 +13,7 @@ from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 
 _NEGLIGIBLE = 1e-12
-"""Of a product of inertia beside the moments."""
+"""Share of the moments below which products of inertia are neglected."""
 
 
 def link_card(robot: Robot, link: Link, note: str = "") -> str:

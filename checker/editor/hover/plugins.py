@@ -108,8 +108,8 @@ def parameter_card(plugin: Element, path: str, value: str, target: Context) -> s
     Args:
         plugin: The `<plugin>` around it.
         path: Below it: `a/b`, with `@x` for an attribute.
-        value: That the file states.
-        target: What the package is written for.
+        value: The value that the file states.
+        target: The target of the package.
     """
     facts = plugin_facts(plugin.get("filename") or "", plugin.get("name") or "", target)
     if facts is None or not facts.parameters:

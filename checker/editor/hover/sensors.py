@@ -49,7 +49,7 @@ def _device(subject: Subject, sensor: Sensor) -> Iterator[tuple[str, str]]:
 
 
 def _figures(device: Device) -> Iterator[str]:
-    """Yield the figures of a datasheet that are most asked for."""
+    """Yield the figures of a datasheet that matter most."""
     values = device.values
     if rates := values.get("rates"):
         yield f"{', '.join(map(number, rates))} Hz"

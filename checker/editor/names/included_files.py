@@ -23,7 +23,7 @@ def included_path(package: Package, path: str, included: Included) -> str | None
     """Return the path of an included file; None when it is not known or not available.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         path: Of the file that includes.
         included: What it includes.
     """
@@ -91,7 +91,7 @@ def scopes_of(
     """Return what the things of each file belong to.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         files: By path.
         links: By path, the paths of the files that it includes.
     """

@@ -28,7 +28,7 @@ class NameIndex(Record, eq=False, dict=True):
     """The names of a package.
 
     Attributes:
-        package: That was read.
+        package: The package that was read.
         files: Names of each file, those of siblings that the package includes among them.
         links: By path, the paths of the files that it includes; None where one is not known.
         scopes: What the things of each file belong to.
@@ -82,7 +82,7 @@ class NameIndex(Record, eq=False, dict=True):
     def mentions_of_same(self, mention: Mention) -> tuple[Mention, ...]:
         """Return all mentions of one thing.
 
-        Robots that have a part of one name are told apart, unless a text names it that tells of no
+        Robots that have a part of one name are distinguished, unless a text names it without a
         robot, such as the joint of a controller: then it is one thing for all of them.
         """
         keys = {key_of(mention): None}

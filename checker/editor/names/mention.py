@@ -23,13 +23,13 @@ class NameKind(StrEnum):
 
 
 PARTS = (NameKind.LINK, NameKind.FRAME, NameKind.MODEL, NameKind.JOINT)
-"""What may stand where SDFormat asks for a frame."""
+"""What may be used where SDFormat expects a frame."""
 FRAMES = (NameKind.LINK, NameKind.FRAME)
 """What transforms of ROS connect."""
 MODEL_ONLY, LINK_ONLY, JOINT_ONLY = (NameKind.MODEL,), (NameKind.LINK,), (NameKind.JOINT,)
 SENSOR_ONLY, TOPIC_ONLY = (NameKind.SENSOR,), (NameKind.TOPIC,)
 ANY_PART = (NameKind.JOINT, NameKind.LINK, NameKind.FRAME)
-"""What a text may name that tells nothing of itself."""
+"""What a text may name that has no description."""
 
 
 class Mention(Record):
@@ -77,7 +77,7 @@ class WrittenName(Record):
         name: The full name within the file; expressions as they are written.
         start: Offset of the name's first character.
         end: Offset behind its last one.
-        role: How sure that is.
+        role: The certainty of the mention.
         files: Of an argument that is passed on, names of files that it may be passed to.
     """
 

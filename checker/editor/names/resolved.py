@@ -178,7 +178,7 @@ class Lookup:
                 yield target, name.removeprefix(prefix), model
 
     def _anywhere(self, name: WrittenName) -> Iterator[Key]:
-        """Yield what a name means that tells of no robot: a thing of any of the package."""
+        """Yield what a name without a robot means: a thing of any robot of the package."""
         parts = name.name.split("::")
         for start in range(min(len(parts), _DEPTH)):
             full = "::".join(parts[start:])

@@ -31,8 +31,8 @@ def symbols_of(package: Package, path: str) -> tuple[Symbol, ...]:
     """Return the outline of a file; nothing for a file that cannot be read or has none.
 
     Args:
-        package: That holds the file.
-        path: Of the file, relative to the package.
+        package: The package that contains the file.
+        path: The path of the file, relative to the package.
     """
     source = package.read(path)
     if not isinstance(source, SourceText):

@@ -197,7 +197,7 @@ class SdfDocument(Record, eq=False, dict=True):
 
     @cached_property
     def _typed(self) -> dict[str, list[tuple[Element, ElementType | None]]]:
-        """What `typed_as` has given: most rules on syntax ask for the same."""
+        """Results of `typed_as`: most rules on syntax need the same ones."""
         return {}
 
     def elements(self) -> Iterator[Element]:

@@ -16,7 +16,7 @@ from checker.source.xml import Element, XmlDocument
 IncludeReader = Callable[[Located[str]], "XmlDocument | str"]
 """Gives the model file behind the URI of an `<include>`, or says why it cannot be read.
 
-The URI's place tells the file that includes, where relative URIs start.
+The URI's place gives the including file, to which relative URIs refer.
 """
 
 

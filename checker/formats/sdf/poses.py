@@ -1,4 +1,4 @@
-"""What the six numbers of a `<pose>` mean, for all who read them: the model, fixes, migration."""
+"""The meaning of the six numbers of a `<pose>`, for the model, fixes and migration."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class ElementType(Record, dict=True):
 
     @cached_property
     def value_type(self) -> str:
-        """Type of the text inside (`double`, `pose`, …); empty when there is to be none."""
+        """Type of the text inside (`double`, `pose`, …); empty when there must be none."""
         return str(self.description.get("type", ""))
 
     @property
@@ -61,7 +61,7 @@ class ElementType(Record, dict=True):
     def bounds(self) -> tuple[float, float]:
         """Smallest and largest number that may stand inside."""
         least, most = self.description.get("min"), self.description.get("max")
-        # Of a plane's size the table bounds both numbers by one and the same.
+        # The table has one limit for both numbers of a plane's size.
         low = float(least.split()[0]) if least is not None else -math.inf
         return low, float(most.split()[0]) if most is not None else math.inf
 

@@ -14,7 +14,7 @@ UNREAD = frozenset(
         *("cfm_damping", "implicit_spring_damper", "fudge_factor", "suspension"),
     }
 )
-"""Elements that libsdformat has no value for and no system of Gazebo from Dome on asks for.
+"""Elements that libsdformat has no value for and no system of Gazebo (Dome or later) reads.
 
 Source: libsdformat 10, Sensor.cc, Link.cc, Collision.cc, Joint.cc and Surface.cc, which of the
 contact parameters reads `<collide_bitmask>` alone.

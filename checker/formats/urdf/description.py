@@ -63,8 +63,8 @@ class UrdfDescription(Record, eq=False, dict=True):
         transmissions: In order.
         gazebo: In order.
         for_rviz: Whether it accompanies an SDF model, only to be looked at.
-        call: Of the macro that makes the robot, where the file itself makes none.
-        values: Of arguments, where they are others than the file is read with: `model:=waffle`.
+        call: The call of the macro that makes the robot, where the file itself makes none.
+        values: Values of arguments that differ from those the file is read with: `model:=waffle`.
     """
 
     file: str

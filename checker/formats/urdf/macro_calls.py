@@ -71,8 +71,8 @@ def minimal_call(package: Package, path: str) -> MacroCall | None:
     """Return how to call the one macro of a file that makes links; None where that is not clear.
 
     Args:
-        package: That is checked.
-        path: Of the file, as the package lists it.
+        package: The package being checked.
+        path: The path of the file, as the package lists it.
     """
     document = package.xml(path)
     if not isinstance(document, XmlDocument) or document.root.tag != "robot":

@@ -26,7 +26,7 @@ class AttributeSpec(Record):
     """What an attribute holds.
 
     Attributes:
-        numbers: How many numbers; 0 for a text.
+        numbers: The count of numbers; 0 for a text.
         required: Whether urdfdom needs it.
         since: The version of URDF that brought it.
     """
@@ -67,8 +67,8 @@ class MisspeltPart(Record):
         name: As written.
         parent: The tag around it.
         meant: What it resembles, which is not there.
-        span: Where it stands.
-        path: Of the tag around it.
+        span: Its place.
+        path: The path of the tag around it.
     """
 
     name: str
@@ -93,7 +93,7 @@ def version_of(document: XmlDocument) -> Located[str]:
 
 
 def has_version(document: XmlDocument, least: str) -> bool:
-    """Say whether a file has what a version brought; not so one whose version nobody knows."""
+    """Say whether a file has what a version brought; False for an unknown version."""
     versions = list(table("urdf_spec")["versions"])
     stated = version_of(document).value
     return stated in versions and versions.index(stated) >= versions.index(least)

@@ -20,8 +20,8 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
     """What xacro made of a file: offsets and lines count in it, places are in what was written.
 
     Attributes:
-        plain: The text as a document, of which nobody knows where it came from.
-        answer: Of the child: for each element the one that it is a copy of.
+        plain: The text as a document without places.
+        answer: The child's answer: for each element the one that it is a copy of.
         gathered: The texts that were given to the child.
         written: The file that was expanded.
     """
@@ -38,7 +38,7 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
 
     @cached_property
     def _emitted(self) -> EmittedText:
-        """The text in pieces; most robots are without fault, and nobody asks for a place."""
+        """The text in pieces; most robots have no fault, so that no place is needed."""
         pieces = tuple(_pieces(self.plain, self.origins, self.written))
         return EmittedText(self.file, self.text, origin=self.written.whole(), pieces=pieces)
 
@@ -73,7 +73,7 @@ def expanded_document(
     Args:
         answer: Of the child: the text, and for each element the one it is a copy of.
         gathered: The texts that were given to the child.
-        file: That was expanded, as xacro saw it.
+        file: The expanded file, as xacro saw it.
     """
     # A mesh below `file://$(find p)/` is one of package p, wherever that is installed.
     text = str(answer["xml"]).replace(f"file://{ROOT}/", "package://")

@@ -48,7 +48,7 @@ def _is_place(data: Any) -> bool:
 
 
 def _is_told(at: Any, through: Any) -> bool:
-    """Say whether a fault tells of its place and macros as such, if at all."""
+    """Say whether a fault reports its place and macros, if it has any."""
     match at:
         case None | [str(), int()]:
             macros = [] if through is None else through
@@ -61,7 +61,7 @@ MEMORY = 500_000_000
 _LIMITS = Limits(SECONDS_FOR_ALL, MEMORY)
 _WORKER = f"{__package__}.worker"
 _ROUNDS = 6
-"""How often the child may ask for a file whose name is computed."""
+"""How often the child may request a file whose name is computed."""
 
 
 class Wanted(Record):
@@ -100,8 +100,8 @@ class Expander(Record, eq=False):
     """Expands files, one request after the other.
 
     Attributes:
-        cache: Where results are kept.
-        server: The process that does it; it is started when a file is not in the cache.
+        cache: The cache of results.
+        server: The process that expands; it is started when a file is not in the cache.
     """
 
     cache: Cache
@@ -151,7 +151,7 @@ class Expansions:
         return frozenset(source.file for source in self._gathered.sources.values())
 
     def stop(self) -> None:
-        """End the expansion, if nobody has waited for it."""
+        """Stop the expansion if it still runs."""
         self._begun.stop()
 
     def _begin(self) -> Background[dict[str, Any]]:

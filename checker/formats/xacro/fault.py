@@ -12,9 +12,8 @@ class XacroFaultKind(enum.StrEnum):
     """Why there is no robot to be had from a file.
 
     `EMPTY`: it holds nothing. `MALFORMED`: it is no well-formed XML. `EXPANSION`: xacro refuses it.
-    `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that nobody
-    gives. `RECURSION`: a macro or a file uses itself. `LIMIT`: expanding it takes more than is
-    allowed here.
+    `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that is not
+    given. `RECURSION`: a macro or a file uses itself. `LIMIT`: expanding it takes more than is
     """
 
     EMPTY = "empty"
@@ -32,9 +31,9 @@ class XacroFault(Record, eq=False):
     Attributes:
         kind: What sort of fault it is.
         file: The file to expand; the fault may be in one that it includes.
-        span: Where it stands.
+        span: Its place.
         message: The end of a sentence.
-        hint: How to mend it; may be empty.
+        hint: The way to correct it; may be empty.
         loaded: Whether a launch file of the package loads the file.
     """
 

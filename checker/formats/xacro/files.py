@@ -27,7 +27,7 @@ def path_of(package: Package, path: str) -> str:
     """Return how xacro sees a file of a package.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         path: As it lists the file; `../other/…` is a sibling's.
     """
     return posixpath.normpath(f"{ROOT}/{package.root.name}/{path}")
@@ -85,7 +85,7 @@ class Gathered:
     """Texts by the paths under which xacro sees them; it grows while they are followed.
 
     Attributes:
-        package: That is checked.
+        package: The package being checked.
         sources: The texts.
         documents: Those that are XML.
         faults: Those that are no well-formed XML.
@@ -103,7 +103,7 @@ class Gathered:
 
     @property
     def request(self) -> dict[str, Any]:
-        """What the child is told of the files."""
+        """What the child receives about the files."""
         texts = {
             path: source.text for path, source in self.sources.items() if path not in self.faults
         }

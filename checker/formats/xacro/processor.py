@@ -376,7 +376,7 @@ def _folder_of_package(name: str) -> str:
 
 
 class _NeedsEnvironment(Exception):
-    """An environment variable is asked for; none is known here."""
+    """Report that an environment variable is needed; none is known here."""
 
 
 def _refuse_environment(name: str) -> str:

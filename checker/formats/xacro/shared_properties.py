@@ -147,7 +147,7 @@ def shared_properties(package: Package, file: str) -> Iterator[SharedProperty]:
     """Yield the properties of included files that other included files change, each once.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         file: The file that makes the robot, as the package lists it.
     """
     met: set[tuple[str, str]] = set()

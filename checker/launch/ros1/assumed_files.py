@@ -42,7 +42,7 @@ def assumed_nodes(
 
 
 def unknown_nodes(include: UnresolvedInclude) -> Hashable:
-    """Return what tells apart the nodes of a template that starts some whose names are not known.
+    """Return what distinguishes the nodes of a template that starts some with unknown names.
 
     Two includes with the same answer start nodes of the same names; None where they are known.
     """

@@ -40,10 +40,10 @@ def resolve_name(name: str, namespace: str, node: str = "") -> str:
 def apply_remaps(
     name: str, remaps: Iterable[tuple[str, str]], namespace: str, node: str = ""
 ) -> str:
-    """Return the absolute name that a node gets when it asks for one: the first remap of it counts.
+    """Return the absolute name that a node gets for a name: the first remap of it counts.
 
     Args:
-        name: As the node asks for it.
+        name: The name as the node uses it.
         remaps: Source and target of each, in the forms that `resolve_name` takes.
         namespace: Absolute namespace of the node.
         node: Its name, for private names.
@@ -89,7 +89,7 @@ class Remap(Record, eq=False):
     """A `<remap>` that is in force for a node.
 
     Attributes:
-        source: The name that the node asks for (`from`).
+        source: The name that the node uses (`from`).
         target: The name that it gets (`to`).
         span: The start tag.
         inherited: Whether it is outside the node, in a group or in the file.
@@ -140,7 +140,7 @@ class Node(Record, eq=False):
         return resolve_name(self.name, self.namespace)
 
     def resolve(self, name: str) -> str:
-        """Return the absolute name that the node gets when it asks for `name`."""
+        """Return the absolute name that the node gets for `name`."""
         remaps = ((remap.source, remap.target) for remap in self.remaps)
         return apply_remaps(name, remaps, self.namespace, self.name)
 
@@ -153,7 +153,7 @@ class Param(Record, eq=False):
         value: The value, the command, the file name or the YAML text.
         kind: `value`, `command`, `textfile`, `binfile`, `yaml` or `load`.
         span: The start tag.
-        text: Where the text of a `<rosparam>` stands; None for other parameters.
+        text: The place of the text of a `<rosparam>`; None for other parameters.
     """
 
     name: str
@@ -186,7 +186,7 @@ class UnresolvedInclude(Record, eq=False):
         package: Package of `$(find …)`; empty when the file is named otherwise.
         file: Path within the package, or what the attribute says.
         arguments: What is handed over, by name.
-        namespace: Where the nodes of the file would stand.
+        namespace: The namespace that the nodes of the file would have.
         reason: Why it is not available.
         span: The start tag.
     """
@@ -203,7 +203,7 @@ class LaunchGraph(Record, eq=False, dict=True):
     """All that a launch file starts, files that it includes among it.
 
     Attributes:
-        nodes: In the order of the files.
+        nodes: The nodes in the order of the files.
         bridges: Topics that the nodes pass between ROS and Gazebo.
         dormant_bridges: Those of nodes that a condition leaves out.
         dormant_nodes: Nodes that a condition leaves out.

@@ -24,10 +24,10 @@ class LaunchFile(Record, eq=False):
     Attributes:
         document: Its XML.
         given: Args that the command line or the including file hands over.
-        included_at: The `<include>` that asks for it; None for the entry file.
+        included_at: The `<include>` that names it; None for the entry file.
         overrides_constants: Whether the args came by `pass_all_args`.
         chain: The files around it with what they were given, itself last.
-        shown_at: The `<include>` that asks for it, or for a file around it, where the file is the
+        shown_at: The `<include>` that names it, or for a file around it, where the file is the
             challenge's own: what it starts is that include's doing. None for other files.
         declared: Names declared anywhere in it so far, each with value and place.
     """
@@ -65,7 +65,7 @@ class Scope:
         args: Values of args by name; a group sees those outside it and hides its own.
         namespace: Absolute.
         remaps: In order of the file.
-        depth: How many groups and files stand around.
+        depth: The number of groups and files around it.
     """
 
     file: LaunchFile

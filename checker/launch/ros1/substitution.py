@@ -21,7 +21,7 @@ _BUILTINS = ("list", "dict", "map", "str", "float", "int")
 
 
 class Unknown(Record):
-    """The expression asks for something that this reader does not evaluate."""
+    """The expression needs something that this reader does not evaluate."""
 
 
 class ExpressionFault(Record):

@@ -54,7 +54,7 @@ class Context:
         state: What is in force.
         conditions: Around the action.
         after: Whether an event or a timer starts it.
-        used: Names of arguments that were asked for.
+        used: Names of arguments that were read.
         declared: Names of arguments that were declared.
         files: Paths of the launch files around, this one last.
     """

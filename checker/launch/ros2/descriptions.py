@@ -31,9 +31,9 @@ class LoadedDescription(Record, eq=False):
         unknown: Names of arguments whose values are only known at launch.
         choices: Of these, the values that the launch file allows; none where any text will do.
         offered: The same of arguments that have the default of one of its own, by name.
-        node: That is given it.
-        parameter: By which it is given; None where it stands among the arguments.
-        span: Where the file is named.
+        node: The node that gets it.
+        parameter: The parameter that contains it; None where it is among the arguments.
+        span: The place where the file is named.
     """
 
     load: Load
@@ -49,7 +49,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
     """Yield the robots that a launch file loads, those that start by default first.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         graph: Of its launch file.
     """
     allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}

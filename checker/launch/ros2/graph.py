@@ -94,7 +94,7 @@ class LaunchFault(Record, eq=False):
 
     Attributes:
         kind: What sort of fault it is.
-        span: Where it stands.
+        span: Its place.
         message: Present tense; the whole sentence.
         name: The argument, substitution, keyword or tag that it is about.
     """
@@ -106,11 +106,11 @@ class LaunchFault(Record, eq=False):
 
 
 class Unread(Record, eq=False):
-    """An action, or a part of one, that this reader cannot tell.
+    """An action, or a part of one, that this reader cannot evaluate.
 
     Attributes:
         reason: The end of a sentence.
-        span: Where it stands.
+        span: Its place.
     """
 
     reason: str
@@ -180,7 +180,7 @@ class ParameterFile(Record, eq=False):
     Attributes:
         path: Its path; see `share_path`.
         substitutes: Whether substitutions in the file are made (`allow_substs`).
-        span: Where the path is written.
+        span: The place of the path.
     """
 
     path: str
@@ -238,7 +238,7 @@ class Node(Started, eq=False, kw_only=True):
         kind: What sort of node it is.
         package: Package that holds the program.
         executable: The program; of a component, its class.
-        name: Of the node; None for the program's own.
+        name: The name of the node; None for the program's own.
         namespace: Absolute, `/` or `/r1`; it may hold `$(`.
         arguments: Words of the command line, `--ros-args` and what follows among them.
         parameters: Those in force: of scopes around it first, then its own.
@@ -289,7 +289,7 @@ class Include(Started, eq=False, kw_only=True):
         accepts: Names of arguments that the file, or one that it includes, declares or uses; None
             when that is not known, as of a file that could not be read in full.
         reason: Why the file is not read; empty when it is.
-        nodes: That the file starts, if it is not read but known.
+        nodes: The nodes that the file starts, if it is not read but known.
     """
 
     target: Located[str]
@@ -324,7 +324,7 @@ class FileUse(Record, eq=False):
 
     Attributes:
         text: The path; see `share_path`.
-        certain: Whether it is used in every launch, as far as one can tell.
+        certain: Whether it is used in every launch, as far as is known.
     """
 
     text: Located[str]
@@ -334,7 +334,7 @@ class FileUse(Record, eq=False):
 class LaunchGraph(Record, eq=False, dict=True):
     """All that a launch file starts with the defaults of its arguments, included files among it.
 
-    What a condition leaves out is here as well: `starts` of each item tells.
+    Items that a condition leaves out are included: see `starts` of each item.
 
     Attributes:
         file: The launch file.
@@ -344,9 +344,9 @@ class LaunchGraph(Record, eq=False, dict=True):
         includes: Files, whether they were read or not.
         environment: Variables set.
         files: Paths of share folders that are opened or read when the file is launched.
-        used: Names of arguments that it or an included file asks for.
+        used: Names of arguments that it or an included file reads.
         faults: What is wrong.
-        unread: What could not be told, by place.
+        unread: What could not be evaluated, by place.
     """
 
     file: str

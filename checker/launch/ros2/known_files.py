@@ -50,8 +50,8 @@ class KnownFile(Record):
     """A launch file of another package.
 
     Attributes:
-        arguments: That it reads in any distribution, each with its default.
-        nodes: That it starts itself.
+        arguments: The arguments that it reads in any distribution, with their defaults.
+        nodes: The nodes that it starts itself.
         includes: Other known files that it includes.
     """
 
@@ -75,8 +75,8 @@ def nodes_of(file: KnownFile, context: Context, span: Span) -> Iterator[Node]:
     """Yield the nodes that a known file starts; those that only some distributions have are unsure.
 
     Args:
-        file: That is included.
-        context: Of the include, its arguments among the configurations.
+        file: The included file.
+        context: The context of the include, its arguments among the configurations.
         span: Of the include.
     """
     given = {name: _value(name, file, context, span) for name in file.arguments}

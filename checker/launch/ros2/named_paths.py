@@ -35,7 +35,7 @@ class NamedPath(Record, eq=False):
 
     Attributes:
         path: The file.
-        span: Where it is named.
+        span: The place where it is named.
         needed: Whether what starts by default does not start, or not work, without it.
         include: Whether it is a launch file that is included.
     """
@@ -108,7 +108,7 @@ def is_missing(package: Package, path: SharePath) -> bool:
     """Whether a available package has no such file, and does not make it either.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         path: The file.
     """
     holder = holder_of(package, path.package)
@@ -124,7 +124,7 @@ def unavailable(package: Package, name: str) -> str:
     Packages of ROS whose nodes are known hold no part of the robot.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         name: Of the other package.
     """
     if name.startswith(_OF_ROS) or name in _known_packages() or holder_of(package, name):

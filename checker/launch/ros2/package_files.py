@@ -16,7 +16,7 @@ def holder_of(package: Package, name: str) -> Package | None:
     """Return the available package of a name, the checked one among them.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         name: As package.xml declares it, or that of its folder.
     """
     return package if name in own_names(package) else package.workspace.package(name)
@@ -53,7 +53,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
 
 
 def exists(package: Package, path: str) -> bool | None:
-    """Whether there is a file or folder at a path; None when that cannot be told."""
+    """Whether there is a file or folder at a path; None when unknown."""
     target = share_path(path)
     if target is None or not is_known(path) or holder_of(package, target.package) is None:
         return None
@@ -64,7 +64,7 @@ def installed_path(package: Package, file: str) -> str:
     """Return the path of a file where it is installed.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         file: As the package lists it.
     """
     holder, rest = package, file

@@ -29,8 +29,8 @@ def ros2_launch(
     """Read the launch files of a package that no other of its files includes.
 
     Args:
-        package: That is checked.
-        arguments: That are given on the command line.
+        package: The package being checked.
+        arguments: The arguments of the command line.
     """
     files = [*launch_files(package)]
     if not files:
@@ -62,7 +62,7 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
     """Yield the launch files of other available packages that name a package, each with its own.
 
     Args:
-        package: That ought to be named, as in `FindPackageShare("arm_description")`.
+        package: The package that should be named, as in `FindPackageShare("arm_description")`.
     """
     left = OTHERS_LIMIT
     others = package.other_packages if built_by_ament(package) and not package.only else ()

@@ -52,9 +52,9 @@ def read_launch(
     """Read a launch file.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         file: As the package lists it.
-        arguments: That are given on the command line.
+        arguments: The arguments of the command line.
     """
     return LaunchReader(package, file, arguments or {}).graph()
 
@@ -182,7 +182,7 @@ class LaunchReader:
         finally:
             self._context = before
 
-    # What Python asks for; see `World`.
+    # The queries of Python; see `World`.
 
     def read(self, path: str, span: Span) -> SourceText | str:
         """Return the text of a file below a share folder, or why it cannot be had."""
@@ -190,7 +190,7 @@ class LaunchReader:
         return package_files.read_file(self._package, path)
 
     def exists(self, path: str) -> bool | None:
-        """Whether there is a file or folder; None when that cannot be told."""
+        """Whether there is a file or folder; None when unknown."""
         return package_files.exists(self._package, path)
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:

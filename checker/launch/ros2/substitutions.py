@@ -39,7 +39,7 @@ def perform(  # noqa: PLR0911 - one per kind of value
 
     Args:
         value: A text, a substitution, or a list of them.
-        context: Where it is performed.
+        context: The context in which it is performed.
         span: The place of a value that has none.
     """
     context.allowance.spend()

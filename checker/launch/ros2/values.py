@@ -61,7 +61,7 @@ class Allowance:
         """Go one level down.
 
         Raises:
-            LaunchLimit: That is too deep.
+            LaunchLimit: The value is too deep.
         """
         if self._depth >= MAX_DEPTH:
             raise LaunchLimit(f"is nested more than {MAX_DEPTH} levels deep")
@@ -108,7 +108,7 @@ class FileText(PlacedText):
 
 
 class Unknown(Record, eq=False):
-    """A value that this reader cannot tell; the reason ends a sentence."""
+    """A value that this reader cannot evaluate; the reason ends a sentence."""
 
     reason: str
     span: Span
@@ -150,7 +150,7 @@ class Made:
         name: Of its class, such as `Node`.
         values: Arguments by name.
         span: The call, or the element.
-        keywords: Where each argument is written, if not in its value.
+        keywords: The place of each argument, if not that of its value.
         rest: Positional arguments that the class does not have.
     """
 

@@ -145,7 +145,7 @@ def _parsed(call: Call, source: SourceText, span: Span | None = None) -> Value:
     """Read a YAML text.
 
     Args:
-        call: The call that asks for it.
+        call: The call that reads it.
         source: The text.
         span: The origin of all strings, when `source` is no file.
     """

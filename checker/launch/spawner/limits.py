@@ -1,4 +1,4 @@
-"""How much a spawner may ask for: real ones use a few per cent of each limit."""
+"""Limits of what a spawner may use: real ones use a few per cent of each."""
 
 from __future__ import annotations
 

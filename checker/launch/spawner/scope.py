@@ -1,4 +1,4 @@
-"""Variables, functions, and who is calling whom."""
+"""Variables, functions and the stack of calls."""
 
 from __future__ import annotations
 

@@ -34,9 +34,9 @@ class Device(Record, eq=False):
         sdf_types: Types of `<sensor>` that may represent it.
         values: Figures of its datasheet; the table says what each key means.
         body: `mass_kg` and `size_mm`, where they are known.
-        source: Where its figures come from.
+        source: The source of its figures.
         field_sources: The same for single figures.
-        code: The type code that tells its figures; empty for a device of the table itself.
+        code: The type code that gives its figures; empty for a device of the table itself.
     """
 
     id: str
@@ -61,7 +61,7 @@ class Device(Record, eq=False):
         return self.field_sources.get(field, self.source)
 
     def is_from_memory(self, field: str) -> bool:
-        """Whether nobody compared a figure with a datasheet: it is for information only."""
+        """Whether no figure was compared with a datasheet: it is for information only."""
         return self.source_of(field).startswith("general knowledge")
 
 
@@ -89,7 +89,7 @@ class SensorDevice(Record, eq=False):
 
 
 class SensorDevices(Record, eq=False, dict=True):
-    """The devices that a robot's sensors represent, as far as sheet and names tell.
+    """The devices that a robot's sensors represent, as far as sheet and names identify them.
 
     Attributes:
         known: One for each sensor of which something is known.
@@ -104,7 +104,7 @@ class SensorDevices(Record, eq=False, dict=True):
         return {device.sensor: device for device in self.known}
 
     def device_of(self, sensor: Sensor) -> SensorDevice | None:
-        """Return the device that a sensor represents; None when nothing tells."""
+        """Return the device that a sensor represents; None when unknown."""
         return self._by_sensor.get(sensor)
 
     def are_diverted(self, device: Device, figure: str) -> bool:

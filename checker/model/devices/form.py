@@ -183,7 +183,7 @@ def problem_of_match(match: str) -> str:
 def expression(match: str) -> re.Pattern[str]:
     """Return the expression by which a device is found in a text.
 
-    Python warns of what some characters might mean one day; that is nothing for who runs a check.
+    Python warns of what some characters might mean in a later version; users cannot act on that.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FutureWarning)

@@ -63,7 +63,7 @@ class KnownDevices(Record, eq=False):
 
 @lru_cache(512)
 def _of_code(device: Device, model: str = "", code: str = "") -> Device:
-    """Return the device of a type code, with what the number in it tells; always the same one."""
+    """Return the device of a type code, with what its number encodes; always the same object."""
     if not model or not code:
         return device
     values = dict(device.values)

@@ -195,7 +195,7 @@ def _fits(item: _Item, group: Sequence[_Named]) -> bool:
 
 
 def _settings(sensor: Sensor) -> tuple[float, ...]:
-    """Return what tells devices of one type from each other."""
+    """Return what distinguishes devices of one type."""
     if sensor.lidar is not None:
         return (sensor.lidar.horizontal.samples.value, sensor.lidar.rows)
     if sensor.camera is not None:
@@ -256,7 +256,7 @@ def _may_stand_for(device: Device, named: _Named) -> bool:
 
 
 def _has_other(items: Sequence[_Item], named: _Named) -> bool:
-    """Whether the list names another device for a sensor, one that nobody knows among them."""
+    """Whether the list names another device for a sensor, also an unknown one."""
     return any(
         _may_be(item, named)
         and item.lidar_class in (None, named.lidar_class)

@@ -146,7 +146,7 @@ def overlap_depth(
         tried.append((along(direction), direction))
         if tried[-1][0] <= enough:
             return tried[-1][0]
-    # From here on supports are asked for by the hundred: those of meshes are faster with it.
+    # Hundreds of support points follow: those of meshes are faster with it.
     with suppress(ImportError):
         pass
     for direction in _SPHERE:

@@ -23,7 +23,7 @@ UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
 _METRIC = {unit: UNITS[unit] for unit in ("centimetres", "millimetres")}
 """What a mesh is scaled from twice; a small placeholder is often 40 times smaller than its link."""
 _PLACEHOLDER = 12
-"""Triangles of a box: a mesh of no more that nobody can see is put there to be none."""
+"""Triangles of a box: an invisible mesh of no more is a placeholder."""
 
 Shapes = Iterable[Collision | Visual]
 
@@ -57,8 +57,8 @@ class MisscaledMesh(Record, eq=False):
         use: The shape and its file.
         size: Its diagonal, metres.
         rest: The length that it does not fit, metres.
-        whose: What measures so much.
-        unit: That it seems to be in.
+        whose: The thing measured.
+        unit: The unit that it seems to be in.
     """
 
     use: MeshUse
@@ -82,7 +82,7 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
     small to see.
     """
     near, beyond = limits.near, limits.beyond
-    # Scenery may be one mesh of any size: nothing tells how large the rest of it is.
+    # Scenery may be one mesh of any size: the size of the rest of it is unknown.
     measured = robot.mesh_uses and not robot.is_static
     around = _size_without_meshes(robot) if measured else 0.0
     for extent, use, size in _meshes(robot):

@@ -60,7 +60,7 @@ class ClassicDrive(Record):
 def classic_drive(plugin: Plugin) -> ClassicDrive | None:
     """Return how a drive plugin of Gazebo Classic calls its parameters; None for all others.
 
-    The ports to ROS 1 and to ROS 2 are one library by name: the joints' tags tell which it is.
+    The ports to ROS 1 and to ROS 2 are one library by name: the joints' tags differ.
     """
     stem = library_stem(plugin.filename.value)
     ports = [drive for drive in _drives() if re.fullmatch(drive.match, stem)]

@@ -55,7 +55,7 @@ def without_idle(
     """Leave out the drives that nothing starts, if another one of the robot is started.
 
     Args:
-        controllers: That are configured.
+        controllers: The configured controllers.
         started: Names of controllers that launch files mention.
     """
     drives = [each for each in controllers if each.class_name in _DRIVES]

@@ -40,7 +40,7 @@ class CommandedWheels(Record, eq=False):
     """What is known of wheels that are turned one by one.
 
     Attributes:
-        drive: How they drive the robot; None where that is not certain.
+        drive: The drive that they form; None where that is not certain.
         doubt: Why not, as the end of a sentence; empty where it is, and without such wheels.
     """
 
@@ -148,8 +148,8 @@ def _drive(robot: Robot, plugin: Plugin, wheels: tuple[Wheel, ...]) -> WheelDriv
     return WheelDrive(
         plugin,
         wheels,
-        # One command steers all wheels, and one turns all of them: there is nothing that would
-        # tell the inner wheel from the outer one.
+        # One command steers all wheels, and one turns all of them: the inner wheel cannot be
+        # distinguished from the outer one.
         known(0.0 if steering else width),
         known(_middle([wheel.radius for wheel in wheels if wheel.radius is not None])),
         MotionLimits(plugin.span),

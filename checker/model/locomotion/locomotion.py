@@ -133,7 +133,7 @@ class WheelDrive(Record, eq=False):
 
     @property
     def path(self) -> str:
-        """What tells its plugin from others of the robot."""
+        """A key that distinguishes its plugin from others of the robot."""
         return self.plugin.path if isinstance(self.plugin, Controller) else self.plugin.element.path
 
     @property
@@ -190,8 +190,8 @@ class Rotor(Record, eq=False):
             where it says none.
         moment_constant: Torque about the axis = moment_constant · thrust, metres; likewise.
         max_velocity: Greatest rotor speed, rad/s; likewise.
-        centre: Of the rotor in the robot's frame, metres.
-        axis: Of its joint in the robot's frame, of length 1.
+        centre: The rotor's centre in the robot's frame, metres.
+        axis: The axis of its joint in the robot's frame, of length 1.
     """
 
     plugin: Plugin
@@ -255,7 +255,7 @@ class Locomotion(Record, eq=False):
         undriven: Of a robot that no plugin drives, the links that are called wheels and turn
             freely about an axis that lies. The side is the one that they stand on; casters are
             steered.
-        by_joint: How plugins together drive a robot of which each turns one wheel, as those of an
+        by_joint: The drive that plugins form together where each turns one wheel, as those of an
             autopilot's rover do; the first of them represents all.
         doubt: Why that is not certain, as the end of a sentence.
     """

@@ -34,7 +34,7 @@ class Foot(Record, eq=False):
     """The lowest point of a wheel or track.
 
     Attributes:
-        along: Where it is in the direction that the robot drives in, metres.
+        along: Its position in the robot's driving direction, metres.
         side: 1 and −1 for the two sides, 0 for the middle.
         height: Its z in the robot's frame, metres.
         off: Metres above (below, if negative) the level of the other wheels.
@@ -148,7 +148,7 @@ class CountedDistance(Record, eq=False):
     Attributes:
         tag: The parameter.
         stated: Metres; the plugin's default (`stated` false) where it says none.
-        true: Of the parts in the robot, metres.
+        true: The measure of the parts in the robot, metres.
         what: The parts, in words.
         steers: Whether steering angles come from it.
         slips: Whether wheels may slip sideways in a turn, so that it is raised on purpose.

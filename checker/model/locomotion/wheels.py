@@ -107,8 +107,8 @@ class WheelReader:
         """Return the wheel below a joint that no plugin names; None when no link is below.
 
         Args:
-            joint: Of the robot.
-            side: That it is on.
+            joint: The joint of the robot.
+            side: The side that it is on.
             knuckles: Steering joints by the link that each of them turns.
             name: What a controller calls it; the joint's own name when None.
         """

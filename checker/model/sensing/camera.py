@@ -70,8 +70,8 @@ class Camera(Record, eq=False):
         height: Pixels.
         horizontal_fov: Radians.
         format: Of the pixels, such as `R8G8B8`.
-        clip: Of the picture.
-        depth_clip: Of the distances; None where the file states none.
+        clip: The clip distances of the picture.
+        depth_clip: The clip distances of the depth image; None where the file states none.
         intrinsics: None where the file states none.
         distortion: Coefficients k1, k2, k3, p1, p2 that the file states.
         noise: Of the pixels, as a share of white.

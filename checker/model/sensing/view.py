@@ -12,8 +12,8 @@ class Hit(Record, eq=False):
     """A ray of a sensor that ends at a shape of its own robot.
 
     Attributes:
-        share: Of the view that the ray represents, 0 to 1.
-        metres: Along the ray.
+        share: The share of the view that the ray represents, 0 to 1.
+        metres: The distance along the ray.
         azimuth: Of the ray, to the left of the sensor's x axis, radians.
         by: The shape, and its link.
     """

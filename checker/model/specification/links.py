@@ -1,4 +1,4 @@
-"""Links of a sheet, and the sensors that no link tells more about."""
+"""Links of a sheet, and the sensors that no link describes."""
 
 from __future__ import annotations
 

@@ -126,8 +126,8 @@ class Price(Record, eq=False):
     """A price.
 
     Attributes:
-        amount: In the currency of the sheet.
-        span: Number and currency.
+        amount: The amount in the currency of the sheet.
+        span: The number and currency.
         is_sum: Whether its line says that it is the whole.
         is_part: Whether its line is an item: a price and what it is for.
         is_clear: Whether it is one number for one thing, no range and no price a piece.

@@ -11,7 +11,7 @@ from checker.source.text import SourceText, Span
 
 
 class Proven(enum.Enum):
-    """What a measurement proves; the words tell which sentences are about it."""
+    """What a measurement proves; the words identify the sentences about it."""
 
     ENDURANCE = r"endurance|batter(?:y|ies)|run(?:ning)?[ -]?times?|drain\w*"
     SPEED = r"speeds?|velocit(?:y|ies)|motion|linear"
@@ -47,7 +47,7 @@ _WORD = re.compile(r"[^\W\d_]{2}")
 
 _PRODUCT = re.compile(rf"{_DEVICE.pattern}|\bproducts?\b", re.IGNORECASE)
 
-# Sentences that say that a test was not made, or is to be made.
+# Sentences that say that a test was not made, or is still planned.
 _SENTENCE = re.compile(r"(?:[^.\n]|\.(?=\w)){1,1000}")
 _TEST = r"(?:tests?|testing|tested|validat\w*|measure\w*|videos?|proofs?|recordings?|data|logs?)"
 _DO = r"(?:perform|make|do|run|conduct|test|measure|validate|provide|verify|complete|record)"
@@ -73,11 +73,11 @@ _OTHER = re.compile(r"\b(?:mass|weight|acceleration\w*|flippers?)\b", re.IGNOREC
 
 
 def is_left_open(text: str, what: Proven, *, alone: bool) -> bool:
-    """Whether a text says that the test was not made or is to be made.
+    """Whether a text says that the test was not made or is still planned.
 
     Args:
-        text: Of a section.
-        what: Whose test; sentences about the test of something else do not count.
+        text: The text of a section.
+        what: The subject of the test; sentences about the test of something else do not count.
         alone: Whether the section is about that alone: then `the tests are not completed` is, too.
     """
     for match in _SENTENCE.finditer(text[:MAX_LENGTH]):
@@ -117,7 +117,7 @@ def links_in_list(source: SourceText, start: int, end: int) -> Iterator[Span]:
 
     Words in the line such as `speed test` say what a link is; one without any word counts, unless
     it stands below a line such as `Sensors:` or is that of a product. Lines about a device or about
-    a test that is to be made prove nothing, nor do placeholders such as `https://youtu.be/xxxx`.
+    a planned test prove nothing, nor do placeholders such as `https://youtu.be/xxxx`.
     """
     label = ""
     for offset, line in _lines(source, start, end):

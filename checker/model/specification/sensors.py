@@ -35,7 +35,7 @@ class ListedSensor(Record, eq=False):
 
     Attributes:
         kind: What it is.
-        count: How many; None when the item does not say so clearly.
+        count: The number; None when the item does not say so clearly.
         modeled: Whether the item says which plugin or sensor of the model represents it.
         configurations: Sensor configurations that the item or the words above its list name;
             empty when it is meant for all that the sheet describes.

@@ -156,7 +156,7 @@ class Specification(Record, eq=False, dict=True):
     def proves(self, what: Proven) -> bool:
         """Whether the sheet links to a measurement, in the section about it or on validation.
 
-        It does not where it says that the test was not made or is to be made.
+        It does not where it says that the test was not made or is still planned.
         """
         validation, about = self.section("validation"), self.section(_SECTIONS[what])
         if about is not None and is_left_open(about.text, what, alone=True):

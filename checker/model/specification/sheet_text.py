@@ -77,7 +77,7 @@ class Leftover(Record, eq=False):
 
     Attributes:
         words: As written.
-        span: Where.
+        span: Their place.
     """
 
     words: str

@@ -112,7 +112,7 @@ def unpack_archive(
         archive: The file.
         target: An empty folder of our own.
         name: The archive's name as the user knows it, when the file is stored under another;
-            its suffix tells the format.
+            its suffix determines the format.
         limits: What the archive may hold.
 
     Raises:
@@ -139,11 +139,11 @@ def check_archive(
         archive: The file.
         name: As for `unpack_archive`.
         limits: What the archive may hold.
-        descriptor: Of the file, for who cannot open it; it stays open.
+        descriptor: The descriptor of the file, where it cannot be opened by name; it stays open.
 
     Raises:
         RefusedArchive: An entry could do harm, or there is more than a package holds.
-        UnreadableInput: The archive is truncated, damaged or empty, as far as its index tells.
+        UnreadableInput: The archive is truncated, damaged or empty, according to its index.
     """
     with _checked_index(archive, name, limits, descriptor):
         pass

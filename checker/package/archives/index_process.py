@@ -36,7 +36,7 @@ def prepare() -> None:
 
 
 def serve(wire: socket.socket) -> None:
-    """Answer until the socket closes: who asks does so once."""
+    """Answer until the socket closes: the caller sends one request."""
     while True:
         message, descriptors, _, _ = socket.recv_fds(wire, MESSAGE_LIMIT, 1)
         if not message:

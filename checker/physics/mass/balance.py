@@ -50,7 +50,7 @@ def margin(polygon: Sequence[Point], point: Point) -> float:
 
     Args:
         polygon: Corners of a convex polygon, counter-clockwise, at least one.
-        point: In the units of the corners.
+        point: The point in the units of the corners.
     """
     if len(polygon) == 1:
         return -math.dist(polygon[0], point)

@@ -146,7 +146,7 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
     None without such shapes, and where one has no end.
 
     Args:
-        robot: Whose link it is.
+        robot: The robot of the link.
         link: Its collisions and visuals count.
         point: In the robot's frame, metres.
     """

@@ -57,7 +57,7 @@ class MassProperties(Record, eq=False):
     """A robot in the pose that it starts in.
 
     Attributes:
-        robot: Who was weighed.
+        robot: The weighed robot.
         mass: Kilograms.
         centre: Centre of mass in the robot's frame, metres; None where nothing is known of it.
         inertia: Rows of the 3×3 inertia about the centre of mass, robot's axes, kg·m²; likewise.
@@ -65,7 +65,7 @@ class MassProperties(Record, eq=False):
         support: Corners (x, y) of the convex polygon that it stands on, metres, counter-clockwise.
         support_height: z of the ground in the robot's frame, metres: its lowest collision point.
         standing: Scoped names of the links that touch the ground.
-        tip_angle: How far the ground can tilt before it tips, radians, negative when it tips at
+        tip_angle: The tilt of the ground at which it tips, radians, negative when it tips at
             once; None without support.
         gravity_torques: N·m or N that each movable joint's first axis holds, by joint; only of
             joints below which nothing stands on the ground.

@@ -99,9 +99,9 @@ class _Builder:
     """Adds the links of a robot to a model, parents first.
 
     Attributes:
-        carriers: Of each link, the joint of the model that carries it.
-        frames: Of each joint of the model, its frame in the robot's frame.
-        poses: Of each link in the robot's frame.
+        carriers: The joint of the model that carries each link.
+        frames: The frame of each joint of the model in the robot's frame.
+        poses: The pose of each link in the robot's frame.
     """
 
     def __init__(self, robot: Robot, spanning_tree: SpanningTree) -> None:

@@ -64,8 +64,8 @@ def gravity_torques(
     links, without the square matrices that its `Data` has for thousands of joints.
 
     Args:
-        robot: Who holds.
-        spanning_tree: Which link hangs on which.
+        robot: The robot.
+        spanning_tree: The tree of links.
         links: Their masses and centres.
         standing: Names of links on the ground: what hangs above them is carried from below.
     """
@@ -165,9 +165,9 @@ class Weights(Record):
     """What they say of some bodies.
 
     Attributes:
-        of_bodies: In the order of the bodies.
-        centre: Of the mass of all that weigh something and whose place is known, in the robot's
-            frame, metres; None where nothing is known of it.
+        of_bodies: The masses in the order of the bodies.
+        centre: The centre of the mass of all that weigh something and whose place is known, in the
+            robot's frame, metres; None where nothing is known of it.
         inertia: Rows of the 3×3 inertia about this centre, robot's axes, kg·m²; likewise.
     """
 
@@ -242,7 +242,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
 
     Args:
         robot: What is weighed.
-        cache: Where weights are kept.
+        cache: The cache of weights.
     """
     pieces = robot.tree.rigid_bodies.of_link
     bodies = [
@@ -276,7 +276,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
 
 
 _STABLE = math.radians(30.0)
-"""A tip angle from which on nobody asks whether the robot stands even better."""
+"""A tip angle at which the search for a better stance ends."""
 
 
 def _tip_angle(robot: Robot, stand: Stand, centre: Vector | None, cache: Cache) -> float | None:

@@ -41,7 +41,7 @@ _SIDE = 512
 """Pixels to which a picture is reduced: a colour for each corner shows no more of it."""
 _INWARDS = 0.15
 """Share of the way from a corner to the middle of its triangle: next to a seam of the picture
-stands what nobody sees."""
+are pixels that are not visible."""
 
 
 def picture(data: bytes) -> Array | None:

@@ -22,7 +22,7 @@ class Material(Record):
     """What a material does to its triangles.
 
     Attributes:
-        colour: Of what has no picture.
+        colour: The colour of what has no picture.
         picture: File as named inside; empty without one.
     """
 
@@ -36,8 +36,8 @@ class Piece(Record, eq=False):
     Attributes:
         corners: n triangles × 3 corners × (x, y, z), metres.
         material: What they look like.
-        places: Where each corner is in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
-            once across); None where the file does not say.
+        places: The place of each corner in the picture (n × 3 × 2; u to the right, v upwards, 0 to
+            1 once across); None where the file does not say.
         part: Name of the part of the file that they belong to; empty where that is not known.
     """
 

@@ -22,7 +22,7 @@ from checker.physics.mesh.dae_materials import DaeMaterials, local_name, places_
 NODES_LIMIT = 50_000
 """Each as often as it is shown; the largest real file has some hundred."""
 TRIANGLES_LIMIT = 2_000_000
-"""Likewise; as many as the largest STL file can have that is read."""
+"""Likewise; as many as in the largest STL file that is read."""
 
 
 def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:

@@ -41,10 +41,10 @@ class PackageMeshes(Record, eq=False, dict=True):
     """Gives the meshes of a robot: a `Meshes`. To read them is a stage of the check.
 
     Attributes:
-        package: Where they are looked for.
+        package: The package in which they are searched.
         uris: All that the robot names.
-        cache: Where results are kept.
-        stages: Told when the reading is waited for.
+        cache: The cache of results.
+        stages: Called with a message when the reading is waited for.
         server: Reads them; None starts a process for them alone.
         picks: Parts of them that the robot uses by themselves.
     """
@@ -58,7 +58,7 @@ class PackageMeshes(Record, eq=False, dict=True):
 
     @property
     def read(self) -> bool:
-        """Whether they have been asked for, so that asking again costs nothing."""
+        """Whether they have been requested, so that a second request costs nothing."""
         return "_by_address" in self.__dict__ or not self.uris
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
@@ -102,7 +102,7 @@ class PackageMeshes(Record, eq=False, dict=True):
             self._facts.begin()
 
     def stop(self) -> None:
-        """End the reading, if nobody has waited for it."""
+        """Stop the reading if it still runs."""
         if "_facts" in self.__dict__:
             self._facts.stop()
 

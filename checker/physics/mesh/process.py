@@ -57,7 +57,7 @@ def mesh_work(
         items: As of a `Work`; likewise the others.
         decode: Makes a result of an answer.
         lasts: Whether a result holds next time as well.
-        files: That go with an item.
+        files: The files of an item.
         here: Computes one item in this process.
     """
     request = {"wanted": wanted, "seconds": SECONDS_FOR_ONE, "seconds_for_all": SECONDS_FOR_ALL}

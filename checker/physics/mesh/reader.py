@@ -111,7 +111,7 @@ def read_mesh(data: bytes, path: str, picked: Sequence[str] = ()) -> Mesh | Mesh
     Args:
         data: Its content.
         path: Its name; the suffix decides on the format, as in Gazebo.
-        picked: Names of parts that are to be measured by themselves, where the file has them.
+        picked: Names of parts to measure separately, where the file has them.
     """
     suffix = path.rpartition(".")[2].lower()
     try:

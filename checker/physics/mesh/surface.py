@@ -118,8 +118,8 @@ def shares(counts: Sequence[int], budget: int, small: int = SMALL) -> list[int]:
     Each keeps up to `small` of its own, and the same share of the others.
 
     Args:
-        counts: How many each of them has.
-        budget: For all of them.
+        counts: The number of each of them.
+        budget: The number for all of them.
         small: At most.
     """
     if sum(counts) <= budget:

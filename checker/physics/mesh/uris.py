@@ -14,8 +14,8 @@ class MeshFile(Record):
     """A file within the workspace.
 
     Attributes:
-        path: Relative to the package, with `/`.
-        location: Where it is on disk, links resolved.
+        path: The path relative to the package, with `/`.
+        location: The place on disk, links resolved.
     """
 
     path: str
@@ -26,8 +26,8 @@ def file_behind(package: Package, folder: str, uri: str) -> MeshFile | MeshFault
     """Return the file that a URI leads to.
 
     Args:
-        package: Whose robot names it.
-        folder: Of the file that states it, relative to the package.
+        package: The package whose robot names it.
+        folder: The folder of the file that states it, relative to the package.
         uri: As written.
     """
     path = path_behind(package, folder, uri)

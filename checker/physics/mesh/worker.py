@@ -34,7 +34,7 @@ def answer(request: bytes, files: Files) -> bytes:
 
     Args:
         request: JSON: `wanted`, one of `facts`, `appearance` and `views`; `items`, of the form that
-            this asks for; `seconds` of processor time for a file, and `seconds_for_all`.
+            this needs; `seconds` of processor time for a file, and `seconds_for_all`.
         files: The files.
 
     Returns:

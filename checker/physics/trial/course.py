@@ -1,4 +1,4 @@
-"""The course: what a robot is told to do, second by second."""
+"""The course: the commands of a robot, second by second."""
 
 from __future__ import annotations
 
@@ -110,12 +110,12 @@ def _one_after_another(plan: Sequence[tuple[str, float, float, float]]) -> tuple
 
 
 def linear_command(legs: Sequence[Leg], limits: Limits) -> Knots:
-    """Return the forward speed that a plugin with these limits asks for, m/s."""
+    """Return the forward speed that a plugin with these limits commands, m/s."""
     return ramp_to(((leg.start, leg.end, leg.linear, _rate(leg)) for leg in legs), limits)
 
 
 def angular_command(legs: Sequence[Leg], limits: Limits) -> Knots:
-    """Return the turn rate that a plugin with these limits asks for, rad/s."""
+    """Return the turn rate that a plugin with these limits commands, rad/s."""
     return ramp_to(((leg.start, leg.end, leg.angular, _rate(leg)) for leg in legs), limits)
 
 

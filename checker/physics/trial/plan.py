@@ -50,7 +50,7 @@ class PlannedRotor(Record):
         up: Direction of its thrust in the robot's frame, of length 1.
         spin: 1 counter-clockwise, −1 clockwise, 0 unknown.
         most: Greatest thrust, N.
-        gain: Thrust that comes / thrust that the controller asks for.
+        gain: Actual thrust / thrust that the controller commands.
         moment: Torque / thrust, metres.
     """
 

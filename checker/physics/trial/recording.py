@@ -66,8 +66,8 @@ class Recording(Record):
 
     Attributes:
         timestep: Seconds.
-        servos: In the order of the scene's actuators.
-        states: By name: `settled`, and `hovering` for what flies.
+        servos: The servos in the order of the scene's actuators.
+        states: The states by name: `settled`, and `hovering` for what flies.
         commands: Of each servo, in the steps in which one of them changes; each lasts to the next.
         thrusts: Of each rotor likewise, N.
         belts: What moves as the surface of a belt.

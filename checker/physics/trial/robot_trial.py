@@ -92,7 +92,7 @@ def _against(ratio: float | None) -> bool:
 
 
 _CREEP = 0.05
-"""Share of the command below which no direction can be told."""
+"""Share of the command below which a direction is not certain."""
 
 
 class SettledTrial(RobotTrial):

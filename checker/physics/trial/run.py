@@ -1,4 +1,4 @@
-"""The trials of a package's robots: begun early, collected when a rule first asks for them."""
+"""The trials of a package's robots: started early, collected when a rule first requests them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
 
     Args:
         robot: What is driven.
-        cache: Where results are kept.
+        cache: The cache of results.
         thorough: At half the time step, to see whether that changes the verdict.
     """
     # Only a check that drives loads what builds scenes.
@@ -65,18 +65,18 @@ class RobotTrials(Record, eq=False, dict=True):
     stages: Stages
 
     def begin(self, *, twice: bool) -> None:
-        """Begin with the first robot; its trial goes on while the caller does something else.
+        """Start with the first robot; its trial runs while the caller does something else.
 
         Args:
             twice: Also at half the time step.
         """
-        # What goes wrong is said when a rule asks for the trial.
+        # Errors are reported when a rule requests the trial.
         with suppress(Exception):
             if _obstacle(self.robots[0]) is None and 0 not in self._left_out:
                 _ = self._first, twice and self._first_again
 
     def stop(self) -> None:
-        """End the trials that nobody has waited for."""
+        """Stop the trials that still run."""
         for name in ("_first", "_first_again"):
             pending = self.__dict__.get(name)
             if isinstance(pending, Background):
@@ -117,7 +117,7 @@ class RobotTrials(Record, eq=False, dict=True):
 
     @property
     def undriven(self) -> dict[int, str]:
-        """Why robots have no trial, by their number; nothing before somebody asked for one."""
+        """Why robots have no trial, by their number; nothing before the first request."""
         collected: tuple[Trial | NotAvailable, ...] = self.__dict__.get("_collected", ())
         return {
             number: trial.reason

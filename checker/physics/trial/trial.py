@@ -16,7 +16,7 @@ from checker.base.record import Record
 
 
 class Repair(Record):
-    """A change that was needed so that the trial could go on.
+    """A change that was needed so that the trial could run.
 
     Attributes:
         part: Scoped name of a link or joint of the robot.
@@ -53,7 +53,7 @@ class Measurement(Record):
 
     Attributes:
         name: Such as `speed_ratio`; the list is in `checker/physics/trial/measures/figures.py`.
-        value: In the unit that the list says; never NaN (a figure that is none is left out).
+        value: The value in the unit of the list; never NaN (a figure that is none is left out).
         part: Scoped name of the link or joint it is about; empty for the robot.
         other: Scoped name of the second part, for figures about pairs; `ground` for the ground.
     """
@@ -137,7 +137,7 @@ class Trial(Record):
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m, the mean of the 0.1 s before), `joint:<joint>` (rad or m).
-        replay: How it moved; None where nothing moved, and of robots of too many moving parts.
+        replay: Its motion; None where nothing moved, and of robots of too many moving parts.
     """
 
     drive: str

@@ -27,8 +27,8 @@ def covered_shares(corners: Array, light: Mapping[str, Any]) -> tuple[float, flo
     Both sides of a triangle count: shadows fall from each.
 
     Args:
-        corners: Of triangles (n × 3 × 3), metres, in the robot's frame.
-        light: Where it is (`at`), and the axis (`along`) and half the angle (`half`) of its beam,
+        corners: The corners of triangles (n × 3 × 3), metres, in the robot's frame.
+        light: Its position (`at`), and the axis (`along`) and half the angle (`half`) of its beam,
             if it does not shine all around.
     """
     import numpy as np

@@ -255,7 +255,7 @@ def entry_distances(kind: str, sizes: Array, origin: Array, rays: Array) -> Arra
     Args:
         kind: One of `SOLIDS`.
         sizes: Lengths, metres (shapes × as many as the kind has).
-        origin: Where the rays start, in each shape's frame (shapes × 3).
+        origin: The start of the rays in each shape's frame (shapes × 3).
         rays: Unit vectors, in each shape's frame (shapes × rays × 3).
     """
     import numpy as np

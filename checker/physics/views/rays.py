@@ -46,7 +46,7 @@ class Steps(Record):
 
     @property
     def step(self) -> float:
-        """From one angle to the next; never 0."""
+        """The step from one angle to the next; never 0."""
         return max((self.upper - self.lower) / self.number, _LEAST_STEP)
 
     @property

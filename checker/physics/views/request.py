@@ -37,7 +37,7 @@ class ViewRequest(Record, eq=False):
     Attributes:
         item: For the worker.
         contents: A hash of each mesh file, in the order of the request.
-        sensors: In the order of the request.
+        sensors: The sensors in the order of the request.
         shapes: Visuals, then collisions if a sensor meets these, by their numbers.
         lights: With the visual around each, in the order of the request.
         unseen: What is left out, and why, as ends of sentences.
@@ -63,7 +63,7 @@ class ViewRequest(Record, eq=False):
 
 
 def view_request(robot: Robot, content: Content) -> ViewRequest:
-    """Return what is to be asked about a robot."""
+    """Return the request for a robot."""
     looking = [
         (sensor, grid) for sensor in mounted_sensors(robot) if (grid := grid_of(sensor.sensor))
     ]
@@ -145,9 +145,10 @@ class _Scene(Record, eq=False):
     """The shapes of a request, as they are collected.
 
     Attributes:
-        solids: By kind.
-        meshes: By the hash of the content, the name of the part and whether it is centred.
-        unseen: Why some are left out.
+        solids: The solids by kind.
+        meshes: The meshes by the hash of the content, the name of the part and whether it is
+            centred.
+        unseen: The reasons why some are left out.
     """
 
     solids: dict[str, dict[str, list[Any]]]

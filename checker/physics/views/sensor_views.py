@@ -1,4 +1,4 @@
-"""The views of a package's robots: begun early, collected when a rule first asks for them."""
+"""The views of a package's robots: started early, collected when a rule first requests them."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ class RobotViews:
 
     def begin(self) -> None:
         """Begin with the first robot, while the caller does something else."""
-        # What goes wrong is met again by who asks for the views.
+        # Errors occur again when a rule requests the views.
         with suppress(Exception):
             self._begin(0)
 
     def stop(self) -> None:
-        """End what nobody has waited for."""
+        """Stop the processes that still run."""
         for _, begun in self._begun.values():
             if begun is not None:
                 begun.stop()

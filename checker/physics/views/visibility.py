@@ -160,7 +160,7 @@ def visibility_of_mesh(
     """Return what the sensors see of a mesh, or why that is not known.
 
     Args:
-        sensors: That look at it.
+        sensors: The sensors that look at it.
         mesh: One of the `meshes` that are asked about.
         data: What is in the file.
         lights: All that are asked about.

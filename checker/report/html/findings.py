@@ -83,7 +83,7 @@ def _shown_lines(text: str) -> tuple[str, ...]:
 MOST_OF_A_RULE = 40
 """Findings of one rule and severity that are shown in full."""
 MOST = 600
-"""Findings that are shown in full; a page with more of them is read by nobody."""
+"""Greatest number of findings shown in full."""
 _PLACES_SHOWN = 8
 _TEXT_LIMIT = 600
 _SHORT_PATCH = 8
@@ -107,7 +107,7 @@ class ShownFinding(Record):
     """One finding.
 
     Attributes:
-        anchor: By which a link leads to it.
+        anchor: The anchor that links to it.
         others: Further places; `more` are not shown.
         also: Ids of other rules that report the same fault.
         elements: Of all places, the main one first: one of them may be a part of the robot.
@@ -140,8 +140,8 @@ class Grade(Record):
     """The findings of one severity.
 
     Attributes:
-        total: How many there are.
-        hidden: How many of them are not shown.
+        total: The number of findings.
+        hidden: The number of those not shown.
     """
 
     severity: str

@@ -1,4 +1,4 @@
-"""The graph of each launch as two drawings: who publishes and reads what, and its frames."""
+"""The graph of each launch as two drawings: publishers and readers of topics, and frames."""
 
 from __future__ import annotations
 
@@ -56,8 +56,8 @@ class ShownLaunch(Record):
     """A launch file.
 
     Attributes:
-        nodes: How many it starts that are known.
-        others: Topics that are read or published alone, or by nobody else that is known.
+        nodes: The number of known nodes that it starts.
+        others: Topics that are only read or only published, as far as is known.
         hidden: Frames that are not drawn.
     """
 

@@ -25,7 +25,7 @@ class Task(Record):
 
     Attributes:
         severity: Empty for a rule that was not checked.
-        anchor: Of the finding, or of the part of the page that tells more.
+        anchor: The anchor of the finding, or of the part of the page with details.
         where: The place; may be empty.
         more: Further findings of the same rule and severity.
     """
@@ -84,7 +84,7 @@ def trial_sentences(
         return [f"MuJoCo refuses the model: {plain(shortened(trial['refused'], _TEXT_LIMIT))}."]
     rows = rows_of(trial["measurements"])
     open_ones = [row for row in rows if row.rule.startswith("TRI") and row.verdict == NOT_JUDGED]
-    # What nobody can judge shows what is wrong with the model, not how the robot drives.
+    # A trial without a verdict shows what is wrong with the model, not how the robot drives.
     unjudged = bool(unseen and open_ones)
     done = [] if unjudged else list(_done(_Told(trial)))
     sentences = [f"In MuJoCo {name} {listed(done)}."] if done else []
@@ -99,7 +99,7 @@ def trial_sentences(
 
 
 class _Told(Record):
-    """A trial, asked for figures."""
+    """A trial with access to its figures."""
 
     trial: Mapping[str, Any]
 

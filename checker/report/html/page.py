@@ -110,9 +110,9 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings, inde
 
     Args:
         package: What was found out.
-        report: Of the run that it belongs to.
-        manner: Where the command was run, and which it was.
-        index: Address of the list of all packages, relative to this page; empty without.
+        report: The report of the run that it belongs to.
+        manner: The command, and the folder in which it was run.
+        index: The address of the list of all packages, relative to this page; empty without.
     """
     robots, reasons = shown_robots(package), reasons_of(package.not_checked)
     driven = any(robot.trial for robot in robots)

@@ -32,9 +32,9 @@ class Plot(Record):
     """Curves of one unit.
 
     Attributes:
-        note: How the figures were made, and what the scale leaves out, as sentences.
-        low: Where the axis begins.
-        high: Where it ends.
+        note: The way the figures were made and what the scale leaves out, as sentences.
+        low: The start of the axis.
+        high: The end of the axis.
     """
 
     title: str

@@ -21,7 +21,7 @@ class ShownRobot(Record):
     """One robot.
 
     Attributes:
-        anchor: By which a link leads to its trial.
+        anchor: The anchor that links to its trial.
         in_view: Whether it is the one in 3D.
         badge: `ok` or a severity: the result of the trial; empty where it was not judged.
         verdict: The same in words, and why it was not driven.

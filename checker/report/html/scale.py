@@ -16,8 +16,8 @@ class Scale(Record):
     """An axis.
 
     Attributes:
-        low: Where it begins.
-        high: Where it ends.
+        low: The start of the scale.
+        high: The end of the scale.
         peak: The value farthest beyond it; 0 where it holds all.
     """
 
@@ -45,9 +45,9 @@ _RARE = 0.01
 _FAR = 0.5
 """Of the axis, from where on a sample lies far from it."""
 _LIMIT_IN_VIEW = 4.0
-"""Times the greatest value: limits beyond are told, not drawn."""
+"""Times the greatest value: limits beyond are written, not drawn."""
 _LIMIT_SHARE = 0.1
-"""Of the greatest limit that the axis spans at least, so that noise stays flat."""
+"""Share of the greatest limit that the axis spans at least, so that noise stays flat."""
 _MARGIN = 0.06
 
 
@@ -58,7 +58,7 @@ def scale_of(
 
     Args:
         measured: The curves it is about, of which at least one has a value.
-        command: What was asked for.
+        command: The commanded value.
         limits: Drawn where they are near.
         floor: The least that the axis spans.
     """

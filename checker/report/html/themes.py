@@ -101,7 +101,7 @@ def _driving(course: Course) -> Theme:
 
 
 def _climbing(course: Course) -> Theme:
-    """Return the rate of height, which is what a copter is told (`Leg.linear`)."""
+    """Return the rate of height, which is a multicopter's command (`Leg.linear`)."""
     placed = next((leg.start for leg in course.legs if leg.name == _PLACED), math.inf)
     rates = _rates(course.time, course.series("z"), placed)
     command = course.series("command_linear")
@@ -124,7 +124,7 @@ def _rates(time: Sequence[float], values: Values, placed: float) -> Values:
 
 
 def themes_of(course: Course) -> Iterator[Theme]:
-    """Yield what is to be drawn."""
+    """Yield the items to draw."""
     climbs = any(leg.name == _CLIMB for leg in course.legs)
     yield _climbing(course) if climbs else _driving(course)
     turning = [("measured", course.series("yaw_rate"))]

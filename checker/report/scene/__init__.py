@@ -1,1 +1,1 @@
-"""The robot as those who look at it see it: layers of shapes, and how its links move."""
+"""The robot for display: layers of shapes, and the motion of its links."""

@@ -143,8 +143,8 @@ def scene_of(
     """Return what is shown of a robot.
 
     Args:
-        robot: It.
-        trial: How it moved; None without a trial.
+        robot: The robot.
+        trial: Its motion; None without a trial.
         surfaces: What its mesh files look like.
         marked: Whether marks such as joints and views are among it, beside its shapes.
     """

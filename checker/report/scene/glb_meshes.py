@@ -84,7 +84,7 @@ class GlbMeshes:
     """Meshes as they are collected.
 
     Attributes:
-        buffer: Where their arrays go.
+        buffer: The buffer for their arrays.
         meshes: glTF's `meshes`.
         materials: glTF's `materials`.
     """

@@ -27,7 +27,7 @@ from checker.physics.mesh.surface import Appearance, Surface, appearance_from_js
 from checker.physics.mesh.uris import MeshFile
 from checker.source.text import Located
 
-# Who gives what mesh files look like, and what is said of parts that are not shown.
+# The sources of meshes' surfaces, and the notes about parts that are not shown.
 
 
 # What is not shown, as sentences: each once, and not more than anybody reads.
@@ -77,7 +77,7 @@ class Surfaces(Protocol):
 
 
 class NoSurfaces(Record):
-    """For a robot whose mesh files nobody reads."""
+    """For a robot whose mesh files are not read."""
 
     def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`
         """Say that the file was not read."""
@@ -99,7 +99,7 @@ class MeshFiles(Record, eq=False, dict=True):
     """Gives what the mesh files of a robot look like: a `Surfaces`.
 
     Attributes:
-        meshes: Where they are found, what is in them, and what reads them.
+        meshes: The places and contents of the meshes, and what reads them.
     """
 
     meshes: PackageMeshes
@@ -124,7 +124,7 @@ class MeshFiles(Record, eq=False, dict=True):
         self._appearances.begin()
 
     def stop(self) -> None:
-        """End the reading, if nobody has waited for it."""
+        """Stop the reading if it still runs."""
         if "_appearances" in self.__dict__:
             self._appearances.stop()
 
@@ -165,8 +165,8 @@ def _asked_of(
     """Return the cache's key of a file's appearance, and what is asked about it.
 
     Args:
-        package: Whose robot names it.
-        file: It.
+        package: The package whose robot names it.
+        file: The mesh file.
         key: Hash of its content.
         mesh: What is in it.
         most: Triangles that it may have.

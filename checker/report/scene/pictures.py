@@ -192,8 +192,8 @@ class Drawing:
     """Pictures in the making, by a child process that may be there before its scene is.
 
     Attributes:
-        cache: Where pictures are kept.
-        child: Waits for a scene, or draws it.
+        cache: The cache of pictures.
+        child: The process that draws, or waits for a scene.
     """
 
     cache: Cache = NO_CACHE
@@ -207,7 +207,7 @@ class Drawing:
             self.child = drawing_process()
 
     def stop(self) -> None:
-        """End what nobody waits for."""
+        """Stop the process if it still runs."""
         for answer in self._drawn:
             answer.stop()
         if self.child is not None:

@@ -35,7 +35,7 @@ class Item(Record, eq=False):
         layer: What it is shown and hidden with.
         name: Of the visual, joint, sensor, … it represents.
         element: Path of that one's element, as `Place.element` has it.
-        pose: In the frame of the link that it hangs on.
+        pose: The pose in the frame of its link.
         surfaces: Its triangles, before `scale`.
         scale: Along its own x, y, z; negative numbers mirror it.
     """
@@ -85,7 +85,7 @@ class DisplayScene(Record, eq=False):
     Attributes:
         robot: Its name.
         links: Carriers before those they carry.
-        tracks: How they move; None without a trial.
+        tracks: Their motion; None without a trial.
         notes: What is not shown, as sentences.
     """
 

@@ -31,8 +31,8 @@ class Drawn(Record, eq=False):
 
     Attributes:
         surfaces: Before `scale`.
-        scale: Along x, y, z.
-        turn: From the surfaces' frame to the shape's.
+        scale: The scale along x, y, z.
+        turn: The rotation from the surfaces' frame to the shape's.
     """
 
     surfaces: tuple[Surface, ...]

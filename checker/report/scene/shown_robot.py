@@ -42,7 +42,7 @@ class Showing(Record, eq=False, dict=True):
         return tuple(self.robot.links_by_name[name] for name in self.frames)
 
     def placed(self, link: Link, part: Part, pose: Pose) -> Transform | None:
-        """Return where a part is in its link's frame; None, with a note, where nobody knows."""
+        """Return where a part is in its link's frame; None, with a note, where unknown."""
         place = self._in_link(link, pose)
         if place is None:
             what = f"{part.element.tag} {short(part.name.value)!r}"

@@ -33,7 +33,7 @@ _SPAWN_MODEL: Mapping[str, int] = MappingProxyType(
 
 
 class Spawned(Record, eq=False):
-    """A controller that a spawner node of a launch file is told to start.
+    """A controller that a spawner node of a launch file starts.
 
     Attributes:
         name: As in the node's args.
@@ -166,7 +166,7 @@ def read_listener(node: Node) -> StateListener | None:
 def published_states(node: Node) -> str:
     """Return the absolute topic on which a node publishes joint states; empty for others.
 
-    A relay counts whatever it passes on: who writes one knows its topics.
+    A relay counts for every type: its topics are the user's choice.
     """
     if node.package in _SOURCES:
         return node.resolve(STATES)

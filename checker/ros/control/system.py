@@ -53,8 +53,8 @@ class Parameters:
     """What YAML texts configure; filled launch file by launch file.
 
     Attributes:
-        package: Whose files are read.
-        controllers: In order of the files.
+        package: The package whose files are read.
+        controllers: The controllers in the order of the files.
         gains: Of `gazebo_ros_control` itself.
         faults: Files that are not there or cannot be read.
         unread: Why parameters are not known.

@@ -44,8 +44,8 @@ class HardwareClass(Record):
     """A class of hardware components that is known by its name.
 
     Attributes:
-        distros: Where it exists; empty for a name that represents no class.
-        evidence: What the entry rests on; `memory` is not enough for an error.
+        distros: The distributions that have it; empty for a name that represents no class.
+        evidence: The evidence for the entry; `memory` is not enough for an error.
     """
 
     name: str
@@ -82,7 +82,7 @@ class KnownParameter(Record, rename={"distros": "in"}):
 
     Attributes:
         type: `double`, `string_array`, …
-        distros: That know it; all of its controller when empty.
+        distros: The distributions that know it; all of its controller when empty.
         default: Its default; None when it has none.
         validation: Names of its validators.
     """
@@ -97,8 +97,8 @@ class ControllerType(Record):
     """A controller type of ros2_controllers.
 
     Attributes:
-        package: That exports it.
-        distros: Where it exists.
+        package: The package that exports it.
+        distros: The distributions that have it.
         joint_params: Parameters that name joints.
         sensor_params: Parameters that name a sensor or gpio of `<ros2_control>`.
         required: Parameters without which it cannot be configured, and where.

@@ -44,7 +44,7 @@ class HardwareJoint(Record, eq=False):
     """A `<joint>`, `<sensor>` or `<gpio>` of a `<ros2_control>` tag.
 
     Attributes:
-        name: Of the joint in the URDF; of a sensor or gpio its own.
+        name: The name of the joint in the URDF, or of the sensor or gpio.
         mimic: Its attribute `mimic`; None when it has none.
         commands: Its command interfaces.
         states: Its state interfaces.

@@ -193,8 +193,8 @@ def launched_controls(
     """Yield what launch files do for ros2_control; those that have nothing to do with it are none.
 
     Args:
-        reader: Of the files of the package that is checked.
-        graphs: Of its launch files.
+        reader: The reader of the files of the package being checked.
+        graphs: The graphs of its launch files.
         controls: ros2_control of its robots.
     """
     for graph in graphs:

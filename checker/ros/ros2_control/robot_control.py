@@ -145,7 +145,7 @@ class ControlReader:
         """Begin with nothing read.
 
         Args:
-            package: Whose robots they are.
+            package: The package of the robots.
             launched: Files of parameters that its launch files name, each with what names it.
         """
         self.package = package

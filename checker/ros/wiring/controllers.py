@@ -1,4 +1,4 @@
-"""Controllers of ros2_control in a launch: who runs them, and what their topics are called."""
+"""Controllers of ros2_control in a launch: their managers and topics."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class RunController(Record, eq=False, dict=True):
     simulated: bool
 
     def resolve(self, name: str) -> str:
-        """Return the absolute topic that it gets when it asks for a name; empty if not known."""
+        """Return the absolute topic that it gets for a name; empty if unknown."""
         topic = apply_remaps(name, self.remaps, self.namespace, self.controller.name)
         return topic if is_known(topic) else ""
 
@@ -87,7 +87,7 @@ def run_controllers(
     """Yield the controllers of all managers of a launch.
 
     Args:
-        nodes: That it starts.
+        nodes: The nodes that it starts.
         spawned: Robots in Gazebo.
     """
     remaps = dict(_spawners(nodes))

@@ -18,11 +18,11 @@ class Endpoint(Record, eq=False):
         topic: Absolute, after remaps.
         types: Of its messages; several where a parameter or the distribution decides.
         publishes: Whether it publishes; else it reads.
-        by: Whose it is, for a message.
+        by: The owner, for a message.
         span: What decides its topic, else the start of its owner.
         owner: The node, controller, plugin or entry of a bridge.
         certain: Whether its owner is started with the defaults of all arguments.
-        parameter: That gives it its topic, where the user states it.
+        parameter: The parameter that gives it its topic, where the user states it.
     """
 
     topic: str

@@ -23,8 +23,8 @@ class NodeFacts(Record):
         publishes: Topics that it may publish, each with its types.
         publishes_more: Types of topics that are only known when it runs; `*` for any.
         subscribes: Topics that it may read, each with its types.
-        transforms: That it publishes, of those whose frames parameters decide.
-        defaults: Of the parameters that decide topics and transforms.
+        transforms: The transforms that it publishes whose frames are parameters.
+        defaults: The defaults of the parameters for topics and transforms.
         offers: Services and actions of its own.
         waits_for: Services and actions of others that it cannot do without; `{x}` is each item of
             parameter x.

@@ -22,7 +22,7 @@ def joint_transforms(node: WiredNode, robot: Robot) -> Iterator[Transform]:
 
     Args:
         node: The robot_state_publisher.
-        robot: That it is given.
+        robot: The robot that it gets.
     """
     prefix = node.fill_in(f"{{{_PREFIX}}}") if _PREFIX in node.settings else ""
     topics = {True: _tree(node, _STATIC), False: node.resolve("/tf")}

@@ -1,4 +1,4 @@
-"""What a node reads: topics of its own, and those that parameters tell it."""
+"""The topics that a node reads: its own, and those of parameters."""
 
 from __future__ import annotations
 
@@ -41,10 +41,11 @@ class Input(Record, eq=False):
     """A topic that a node reads.
 
     Attributes:
-        topic: As the node asks for it.
-        types: Of the messages.
-        parameter: That says so; empty for a topic of its own, or the default of a parameter.
-        setting: Of that parameter.
+        topic: The topic as the node names it.
+        types: The types of the messages.
+        parameter: The parameter that names it; empty for a topic of its own, or the default of a
+            parameter.
+        setting: The setting of that parameter.
     """
 
     topic: str

@@ -29,7 +29,7 @@ class WiredNode(Record, eq=False, dict=True):
     Attributes:
         node: As the launch file has it.
         files: Its parameter files.
-        facts: What is known of its program; None for one that nobody knows.
+        facts: What is known of its program; None for an unknown one.
     """
 
     node: Node
@@ -96,7 +96,7 @@ class WiredNode(Record, eq=False, dict=True):
         return None if _REFERENCE.search(text) else text
 
     def resolve(self, name: str) -> str:
-        """Return the absolute topic that it gets when it asks for a name; empty if not known."""
+        """Return the absolute topic that it gets for a name; empty if unknown."""
         remaps = ((remap.source, remap.target) for remap in self.node.remaps)
         topic = apply_remaps(name, remaps, self.node.namespace, self.name)
         known = is_known(topic) and not self._rules and not self.node.unread
@@ -112,7 +112,7 @@ class WiredNode(Record, eq=False, dict=True):
 
     @cached_property
     def read(self) -> tuple[Input, ...]:
-        """The topics that it reads, as it asks for them; those that are known."""
+        """The known topics that it reads, as it names them."""
         return tuple(inputs(self)) if self.knows_parameters else ()
 
     def publishes_more(self, message: str) -> str:
@@ -130,8 +130,8 @@ def wired_node(node: Node, reader: ControlReader) -> WiredNode:
     """Return a node with its parameter files.
 
     Args:
-        node: As the launch file has it.
-        reader: Of the files of the package that is checked.
+        node: The node of the launch file.
+        reader: The reader of the files of the package being checked.
     """
     files = tuple(_loaded(node, given, reader) for given in node.parameter_files)
     return WiredNode(node, files, node_facts().get(program_of(node)))

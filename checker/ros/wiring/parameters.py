@@ -36,8 +36,8 @@ class LoadedFile(Record, eq=False):
     """A parameter file that a node is given.
 
     Attributes:
-        given: Where the launch file names it.
-        path: As the package lists it; empty when it is not available.
+        given: The place where the launch file names it.
+        path: The path as the package lists it; empty when it is not available.
         blocks: What it gives to which nodes; none when it cannot be read.
         is_read: Whether it could be read.
         refused: The key for whose value rcl refuses the file, if there is one.
@@ -66,7 +66,7 @@ def settings_of(
     parameters in order.
 
     Args:
-        node: That gets them.
+        node: The node that gets them.
         files: Its parameter files.
         name: Of the node.
         namespace: Absolute.

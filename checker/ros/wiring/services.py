@@ -11,7 +11,7 @@ from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
 STATE = "get_state"
-"""The service by which a lifecycle node is asked for its state."""
+"""The service that returns the state of a lifecycle node."""
 _LISTED = re.compile(r"\{(\w+)\}(.*)")
 
 

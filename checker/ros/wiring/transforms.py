@@ -1,4 +1,4 @@
-"""The transforms of a launch: which frame gets its parent from whom."""
+"""The transforms of a launch: the frames and their publishers."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ class Transform(Record, eq=False):
         parent: The frame that it starts from.
         child: The frame that it places.
         topic: Absolute: `/tf`, or what a remap makes of it.
-        span: What decides that it is published.
-        by: Who publishes it, for a message.
-        cure: How to switch it off, for a message.
+        span: The place that causes its publication.
+        by: The publisher, for a message.
+        cure: The way to switch it off, for a message.
         source: The node, plugin or controller.
     """
 
@@ -73,10 +73,10 @@ def transforms(
     """Yield the transforms of odometry and localisation that a launch publishes for certain.
 
     Args:
-        nodes: That are started.
+        nodes: The nodes that are started.
         simulation: What the launch file simulates.
         in_classic: Robots that it puts into Gazebo Classic.
-        controllers: That its controller managers may run.
+        controllers: The controllers that its controller managers may run.
     """
     for plugin in (plugin for robot in in_classic for plugin in robot.plugins):
         yield from _of_classic(plugin)
@@ -94,7 +94,7 @@ def _bridged(simulation: Simulation) -> Iterator[Transform]:
         if entry.direction is Direction.TO_IGN or entry.gz_name != "Pose_V" or not entry.ros_topic:
             continue
         owners = [it.owner for it in simulation.topics_of(entry) if "Pose_V" in it.messages]
-        owner = owners[0] if len(owners) == 1 else None  # of several, names do not tell which
+        owner = owners[0] if len(owners) == 1 else None  # names do not identify one
         if not isinstance(owner, Plugin) or any(owner in robot.plugins for robot in unsure):
             continue
         frames = [

@@ -1,4 +1,4 @@
-"""Who publishes velocities in a launch and who reads them, with the types of a distribution."""
+"""The publishers and readers of velocities in a launch, with the types of a distribution."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Velocity(Record, eq=False):
         topic: Absolute.
         message: `Twist` or `TwistStamped`.
         publishes: Whether it publishes; else it reads.
-        by: Whose it is, for a message.
-        span: Where it is started, or what decides its type.
+        by: The owner, for a message.
+        span: The place where it is started, or that decides its type.
         switch: The parameter that decides its type, if any.
     """
 

@@ -74,7 +74,7 @@ class Wiring(Record, eq=False, dict=True):
         return tuple(found)
 
     def publishers(self, message: str) -> dict[str, str]:
-        """Return the topics on which a type may be published, each with who does it.
+        """Return the topics on which a type may be published, each with its publishers.
 
         Args:
             message: The type: `std_msgs/msg/String`.
@@ -141,8 +141,8 @@ def wirings(
     Args:
         launch: The launch files of a package.
         simulations: What they simulate; None when that is nothing.
-        reader: Of the parameter files of the package.
-        robots: Of the robots that launch files are given.
+        reader: The reader of the parameter files of the package.
+        robots: The robots that launch files are given.
     """
     launched = simulations.launched if simulations is not None else ()
     by_graph = {id(simulation.graph): simulation for simulation in launched}

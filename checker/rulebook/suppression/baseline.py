@@ -26,7 +26,7 @@ class BaselineEntry(Record):
 
     Attributes:
         rule: Id of the rule.
-        places: How often the fault was at each place, by names that `spots.py` gives them.
+        places: The number of faults at each place, by names that `spots.py` gives them.
         key: What its places have in common, where the rule says so.
         reason: Why it need not be mended, if the user wrote so into the file.
     """
@@ -45,7 +45,7 @@ class Baseline(Record):
     Attributes:
         path: Of the file; None without a baseline.
         fault: Why it cannot be used, as the end of a sentence that starts with the path.
-        digest: Of all entries; the key of a cached check contains it.
+        digest: The digest of all entries; the key of a cached check contains it.
         packages: Entries by the name of the package.
         missing: Whether nothing is in the way of a new file there.
     """

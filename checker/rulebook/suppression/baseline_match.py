@@ -20,7 +20,7 @@ class Matched(Record):
     """What a baseline comes to.
 
     Attributes:
-        entries: For each spot the number of its entry; None for what is not in the baseline.
+        entries: The number of each spot's entry; None for what is not in the baseline.
         stale: Numbers of the entries of which nothing is left.
     """
 
@@ -52,7 +52,7 @@ def match_entries(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Ma
 
 
 _Free = dict[tuple[Severity, Hashable], deque[int]]
-"""Numbers of entries that may have something left, by what tells them."""
+"""Numbers of entries that may have something left, by what identifies them."""
 
 
 def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell: _Tell) -> _Free:
@@ -115,7 +115,7 @@ class Held:
 
         Args:
             known: Ids of all rules.
-            looked: Ids of those that looked at all they ask for.
+            looked: Ids of those that ran on complete data.
             file: What to call the baseline's file.
         """
         gone = {rule: tuple(entry.message for entry in self._stale[rule]) for rule in self._stale}

@@ -21,7 +21,7 @@ STEM = "subt-check"
 _XML_TOO = (".gazebo", ".srdf", ".ign", ".md")
 _WITH_HASH = (".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh")
 COMMENTS_LIMIT = 1_000
-"""Of one file; the rest has no effect."""
+"""Greatest number in one file; the rest has no effect."""
 NAMES_LIMIT = 20
 """Of one comment."""
 
@@ -29,7 +29,7 @@ _LENGTH_LIMIT = 4_000
 _START = re.compile(
     r"(<!--\s{0,200}|#[ \t]{0,200})subt-check[ \t]*(:|(?=\s{0,9}ignore\s{0,9}\[))", re.IGNORECASE
 )
-"""Without the colon, what follows tells that it is meant as a mark."""
+"""Without the colon, the text that follows shows that it is meant as a mark."""
 _CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
 
 
@@ -37,7 +37,7 @@ class Comment(Record):
     """A comment that wants findings set aside.
 
     Attributes:
-        place: Where it stands.
+        place: The place.
         names: Ids or names of rules; none where the comment has another form.
         fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
         reason: Why; empty when it does not say.

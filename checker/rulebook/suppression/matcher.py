@@ -36,7 +36,7 @@ F = TypeVar("F", bound=Finding)
 SEARCHED_LIMIT = 100_000_000
 """Bytes of a package's own files in which comments are looked for before findings point there."""
 COMMENTS_LIMIT = 2_000
-"""Of a package and the siblings that its findings point at."""
+"""Greatest number in a package and the siblings that its findings point at."""
 
 _STEMS = tuple(STEM.encode(encoding) for encoding in ("utf-8", "utf-16-le", "utf-16-be"))
 _Line = tuple[str, int, str]
@@ -122,7 +122,7 @@ class SuppressionMatcher:
         """Return what the wishes came to.
 
         Args:
-            looked: Ids of the rules that looked at all they ask for.
+            looked: Ids of the rules that ran on complete data.
             settings: The settings file.
         """
         suggestions = Suggestions(self._ids)

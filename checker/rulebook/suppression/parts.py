@@ -27,7 +27,7 @@ class UnusedEntries(Record):
     """Entries of a settings file that set nothing aside.
 
     Attributes:
-        place: Of the settings file; of the package folder when it lies elsewhere.
+        place: The place of the settings file, or of the package folder when it is elsewhere.
         file: What to call the settings file.
         own: Whether it is in the package, so that it serves no other.
     """

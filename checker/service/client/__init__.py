@@ -1,1 +1,1 @@
-"""The client of the service: uploads a package, waits, and tells its findings."""
+"""The client of the service: uploads a package, waits, and prints its findings."""

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 Trace = Callable[[str, Mapping[str, Any]], None]
-"""Is told of each step of a request by its name."""
+"""Called with the name of each step of a request."""
 ANSWER_LIMIT = 1_000_000
-"""Bytes of an answer that tells how a check stands."""
+"""Bytes of an answer with the state of a check."""
 _BUSY = (408, 429, 502, 503, 504)
 """Answers of a service, or of what is before it, that cannot do it just now."""
 _SHOWN = 300
@@ -41,7 +41,7 @@ class Patience(Record):
         answer: Seconds for a whole answer, once the request is sent.
         trouble: Seconds in which a request is tried again.
         pause: Seconds before the first repetition; they double each time.
-        longest_pause: Seconds, unless the service asks for more.
+        longest_pause: Seconds, unless the service requests more.
     """
 
     silence: float = 60.0
@@ -86,7 +86,7 @@ class Connection(Record):
 
     Attributes:
         token: Shown to the service; may be empty.
-        say: Told why a request is repeated.
+        say: Called with the reason when a request is repeated.
     """
 
     server: Server
@@ -109,7 +109,7 @@ class Connection(Record):
             path: Below the address of the service.
             upload: What goes with it.
             limit: Bytes of the answer that are read.
-            headers: That go with it, beside the usual ones.
+            headers: Headers to send beside the usual ones.
 
         Raises:
             CheckerError: No answer of use comes.
@@ -132,7 +132,7 @@ class Connection(Record):
             pause *= 2.0
 
     def _direct(self, answer: Answer) -> Answer:
-        """Return an answer unless it sends elsewhere: the token is for nobody else.
+        """Return an answer unless it sends elsewhere: the token is for this server alone.
 
         Raises:
             CheckerError: It does.
@@ -184,7 +184,7 @@ class Connection(Record):
         import httpx
 
         headers = {"Accept": "application/json", "User-Agent": "subt-check", **more}
-        # Nothing packed is asked for, and nothing is unpacked: it could be a bomb.
+        # No compressed answer is requested, and nothing is unpacked: it could be a bomb.
         headers |= {"Accept-Encoding": "identity", "Connection": "close"}
         if self.token:
             headers["Authorization"] = f"Bearer {self.token}"
@@ -203,7 +203,7 @@ class Connection(Record):
             body += piece
             if len(body) > limit:
                 raise CheckerError(f"{self.server} answers with more than {limit / 1e6:g} MB")
-        # Without a length, what was cut off could not be told from what is whole.
+        # Without a length, a truncated answer could not be recognised.
         has_end = {"content-length", "transfer-encoding"} & {*response.headers}
         if not has_end and response.status_code != 204:
             raise NoAnswer("hangs up in the middle of its answer")
@@ -221,7 +221,7 @@ def _cut_off(seconds: float) -> Iterator[Trace]:
     """Hang up so many seconds after a request is sent, however slowly its answer drips.
 
     Yields:
-        What is to be told of the steps of the request.
+        Messages about the steps of the request.
 
     Raises:
         NoAnswer: It came to that.

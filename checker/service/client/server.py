@@ -37,7 +37,7 @@ class Server(Record):
 
     @property
     def is_here(self) -> bool:
-        """Whether it is this machine, so that nobody on the way can read along."""
+        """Whether it is this machine, so that no third party can read along."""
         return is_loopback(self.host)
 
 

@@ -41,9 +41,9 @@ class Upload(Record):
 
     Attributes:
         file: Its name goes along.
-        profile: That it is checked by; empty for the service's own choice.
-        say: Told how much of it is sent, each tenth once.
-        key: By which a service knows it again, however often it is sent.
+        profile: The profile of the check; empty for the service's own choice.
+        say: Called with the share that is sent, once for each tenth.
+        key: The key by which a service recognises repetitions.
     """
 
     file: Path
@@ -89,7 +89,7 @@ def file_to_send(path: Path, say: Say) -> Iterator[Path]:
 
     Args:
         path: Of a package.
-        say: Told what the service will not see.
+        say: Called with what the service will not see.
 
     Raises:
         UnreadableInput: It is none of them, or cannot be read.
@@ -136,7 +136,7 @@ def pack(folder: Path, archive: BinaryIO, limits: ArchiveLimits | None = None) -
 
     Args:
         folder: A package, or a folder of packages.
-        archive: Where the archive goes, open for writing.
+        archive: The file of the archive, open for writing.
         limits: What an archive may hold.
 
     Returns:

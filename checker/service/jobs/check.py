@@ -81,8 +81,8 @@ def check_upload(
         children: One of them checks.
         order: What to check.
         stage: `STATIC` for the rules alone and the JSON report, `TRIAL` for all.
-        cancelled: Whether to stop; asked a few times a second.
-        limits: Of the child; those of the stage when None.
+        cancelled: Whether to stop; called a few times a second.
+        limits: The limits of the child; those of the stage when None.
     """
     try:
         known = stored_result(store, order, stage)
@@ -141,7 +141,7 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
         case {"disturbed": str(reason)} if reason:
             return Disturbed(plain(reason))
         case {"crashed": bool(crashed)} as answer:
-            # What went wrong with us may go right the next time: nobody else gets this result.
+            # An internal error may not occur the next time: the result is not shared.
             checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
             if checked is not None:
                 return _kept(store, order, checked, ended)

@@ -1,8 +1,8 @@
 """Reads an upload and checks it: what a process in the sandbox (`checker.base.sandbox`) does.
 
 It loads what a check needs, then waits for the upload. When there is nothing to do for a while, a
-process that reads meshes waits beside it. What it makes goes back as it was asked for, in one file
-without a name; nothing that it writes elsewhere is ever looked at.
+process that reads meshes waits beside it. Its results go back as requested, in one file
+without a name; nothing that it writes elsewhere is read.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ has waited, and of the second stage, the meshes are usually known."""
 
 
 def prepare() -> None:
-    """Load what a check needs; what cannot be loaded is told by the check that misses it."""
+    """Load what a check needs; what cannot be loaded is reported by the check that needs it."""
     from importlib import import_module
 
     from checker.base.errors import CheckerError

@@ -144,7 +144,7 @@ class Children:
                 self._waiting = self._start()
 
     def close(self) -> None:
-        """End the process that waits, and have no other one wait; those that check go on."""
+        """End the waiting process, and start no other one; those that check continue."""
         with self._lock:
             self._ahead = False
             if self._waiting is not None:

@@ -44,7 +44,7 @@ class StageLimits(Record):
         seconds: Of processor time, for each process.
         clock_seconds: For all of it, on however busy a machine.
         memory: Bytes of address space of the process that checks. Not below what the children of
-            the check ask for themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
+            the check request themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
         file_bytes: Size of one file that it writes.
         open_files: At a time.
     """
@@ -166,7 +166,7 @@ def settle(place: Path, name: str, files: Files) -> None:
     os.chdir(upload)
     os.environ["TMPDIR"] = str(place / TEMPORARY)
     os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
-    # A library may have asked for it before; and on a full disk, the search for one finds none.
+    # A library may have requested it before; and on a full disk, the search for one finds none.
     tempfile.tempdir = str(place / TEMPORARY)
 
 
@@ -184,7 +184,7 @@ def new_parts(place: Path, known: Iterable[str]) -> Iterator[tuple[str, Content]
     """Yield what a check has computed: names, and what is in them.
 
     Args:
-        place: Where it worked.
+        place: The folder in which it worked.
         known: Names of what was known before.
     """
     before = set(known)

@@ -59,7 +59,7 @@ class Cancelled(Record):
 
 
 UNFINISHED = "the checker could not finish"
-"""How people are told that they are not at fault."""
+"""The text for faults that are not the user's."""
 FAILED_INSIDE = (
     f"{UNFINISHED}: it failed with an internal error; the operator finds the cause in the log"
 )

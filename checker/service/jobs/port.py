@@ -34,14 +34,14 @@ class Stage(enum.StrEnum):
 
 
 class Order(Record):
-    """A check that somebody asks for.
+    """A requested check.
 
     Attributes:
         upload: Hash (BLAKE3, hexadecimal) of the uploaded content in the store.
-        name: Of the uploaded file, made safe by `service.store.file_names`; its ending tells its
-            kind.
-        profile: Of the check; empty for what suits.
-        sender: Who asks, so that none of them keeps all others waiting; empty for anybody. It is
+        name: The name of the uploaded file, made safe by `service.store.file_names`; its ending
+            gives its kind.
+        profile: The profile of the check; empty to detect it.
+        sender: The sender, so that none of them keeps all others waiting; empty for anybody. It is
             not kept: a digest represents it that means nothing after the day.
     """
 
@@ -52,10 +52,10 @@ class Order(Record):
 
 
 class Receipt(Record):
-    """What is given for an order, and to nobody but its sender.
+    """The receipt of an order, for its sender alone.
 
     Attributes:
-        id: Of the check, unguessable; anyone who has it may read the report.
+        id: The id of the check, unguessable; anyone who has it may read the report.
         secret: Ends and deletes the check; it does not follow from the id.
     """
 
@@ -67,10 +67,10 @@ class State(Record):
     """Where a check stands.
 
     Attributes:
-        id: Of the check, unguessable.
-        order: What was asked for.
-        stage: How far it is.
-        words: What is going on or went wrong, one sentence.
+        id: The id of the check, unguessable.
+        order: The order.
+        stage: The current stage.
+        words: The current activity or error, one sentence.
         ahead: Checks in front of it in the queue.
         created: Seconds since the epoch.
         result: Key of the stored report so far (static findings at first); empty before.
@@ -142,8 +142,8 @@ class Jobs(Protocol):
         """Take an order and return its receipt; once it returns, the order is not lost.
 
         Args:
-            order: What is asked for.
-            key: Of the client's own, unguessable. The same order with the same key gets the same
+            order: The requested check.
+            key: A key of the client, unguessable. The same order with the same key gets the same
                 receipt and is checked once. Empty: each order is a new one.
         """
         ...
@@ -175,7 +175,7 @@ class Jobs(Protocol):
         """Count an upload in all web processes, and return 0; or the seconds until one is allowed.
 
         Args:
-            client: Whom it counts for.
+            client: The client for whom it counts.
             per_minute: Uploads that a client may send, at least one.
         """
         ...

@@ -30,7 +30,7 @@ def admin(options: argparse.Namespace) -> int:
 
     Raises:
         Unreachable: The database does not answer.
-        CheckerError: What is asked for is not there.
+        CheckerError: The requested check does not exist.
     """
     os.umask(UMASK)
     choose(options.data, options.store)
@@ -60,7 +60,7 @@ def _opened() -> Admin:
 
 
 def _done(options: argparse.Namespace, service: Admin) -> str:
-    """Do what is asked for and return what to say of it."""
+    """Run the command and return its message."""
     match options.action:
         case "list":
             listed = [*service.list_checks()]

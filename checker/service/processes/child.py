@@ -26,7 +26,7 @@ from checker.base.sandbox.task import end_with_parent, tighter
 from checker.service.jobs.port import JobsUnreachable
 from checker.service.web.limits.rates import network_of
 
-# Connections as the web server has them: who stands still, or has too many, is sent away.
+# Connections of the web server: idle clients, or those with too many, are disconnected.
 
 
 @dataclass
@@ -59,8 +59,8 @@ class Connection(HttpToolsProtocol):
     its answer. As many connections as it takes at once would be enough to shut everybody out.
 
     Attributes:
-        head_seconds: That the head of a request may take.
-        reading_seconds: That a client may take nothing of an answer that waits for it.
+        head_seconds: The time that the head of a request may take.
+        reading_seconds: The time that a client may leave an answer unread.
         per_client: Connections of one address or IPv6 network; 0 for any number.
         network: Whence it comes, as `checker.service.web.limits.rates.network_of` says it.
     """
@@ -144,7 +144,7 @@ class ProxyConnection(Connection):
 
 
 _CONNECTIONS = 1_000
-"""At once; further ones are told that the service is busy."""
+"""Connections at once; further ones get the answer that the service is busy."""
 _OPEN_FILES = 4 * _CONNECTIONS
 _CLOSING_SECONDS = 5
 """For answers that are under way when the server stops; streams of events are cut off then."""
@@ -197,7 +197,7 @@ def worker(name: str) -> None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Be the process that the arguments ask for."""
+    """Run the process that the arguments name."""
     parent, kind, *rest = arguments
     end_with_parent()
     os.umask(UMASK)  # for its own children and their libraries, too

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 CHILD = (sys.executable, "-P", "-m", f"{__package__}.child")
 """Starts a process of the service; what follows says whose child it is, and which."""
 _MOST_WORKERS = 2
-"""Unless more are asked for: a trial keeps a core busy."""
+"""Default number of workers: a trial keeps a core busy."""
 
 
 def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
@@ -38,7 +38,7 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     said by the web server alone.
 
     Raises:
-        CheckerError: What is asked for makes no sense.
+        CheckerError: The arguments make no sense.
     """
     store = _data_made(options)
     environment = _environment(options)
@@ -85,7 +85,7 @@ def _environment(options: argparse.Namespace) -> Mapping[str, str]:
 
 
 def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store) -> Iterator[str]:
-    """Yield what to say aloud of who may upload, and of what that risks.
+    """Yield the warnings about the permission to upload, and its risks.
 
     Raises:
         CheckerError: It is more than somebody has allowed.
@@ -98,7 +98,7 @@ def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store
 
 
 def _data_made(options: argparse.Namespace) -> Store:
-    """Return the store, made if need be, for nobody else; children look for it in the environment.
+    """Return the store, created privately if needed; children find it in the environment.
 
     Raises:
         CheckerError: It cannot be made or written.

@@ -1,6 +1,6 @@
 """Keeps processes running: starts them, starts again what has died, and stops them in good order.
 
-A process that ends with exit code 0 was told to end, and is not started again.
+A process that ends with exit code 0 was asked to end, and is not restarted.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Pace(Record):
     Attributes:
         first_wait: Seconds before a dead process is started again; they double each time.
         longest_wait: Seconds.
-        grace: Seconds that processes have to end when they are told to.
+        grace: Seconds that processes have to end after a request to.
     """
 
     first_wait: float = 1.0
@@ -58,7 +58,7 @@ class Process:
     _next_start: float = 0.0
 
     def start(self) -> None:
-        """Start it, apart from the terminal's signals: who keeps it passes them on."""
+        """Start it, apart from the terminal's signals: its parent passes them on."""
         self._started = monotonic()
         self._running = subprocess.Popen(  # noqa: S603 - our own interpreter and module
             list(self.command),
@@ -134,7 +134,7 @@ def keep_running(processes: Sequence[Process], stop: threading.Event, pace: Pace
 
 
 def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace) -> bool:
-    """End processes: those who are told to finish what they do, unless they must end at once.
+    """End processes: they may finish their work, unless they must end at once.
 
     Returns:
         Whether all have ended by themselves.

@@ -31,7 +31,7 @@ class FolderObjects(Record):
     """Objects in a folder; see `Objects`.
 
     Attributes:
-        folder: Where all of it lies; made when something comes.
+        folder: The folder of the store; created on the first write.
     """
 
     folder: Path
@@ -54,7 +54,7 @@ class FolderObjects(Record):
     def use(self, kind: Kind, key: str) -> bool:
         """Whether an object is there; it counts as used now."""
         place = self._place(kind, key)
-        if not place.exists():  # most are new: nobody waits for these
+        if not place.exists():  # most are new: no request waits for these
             return False
         with self._alone():
             return _touched(place)

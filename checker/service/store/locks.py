@@ -24,7 +24,7 @@ def try_lock(file: Path, flags: int = 0) -> int | None:
         flags: For opening it, such as `os.O_EXCL`.
 
     Returns:
-        None if somebody else holds the lock, or has just removed the file.
+        None if another process holds the lock, or has just removed the file.
 
     Raises:
         OSError: The disk or the system fails.

@@ -48,8 +48,8 @@ class Objects(Protocol):
 
         Args:
             kind: What it is.
-            key: Of the object.
-            source: On the file system of the store's folder.
+            key: The key of the object.
+            source: A file on the file system of the store's folder.
         """
 
     def add(self, kind: Kind, key: str, source: Path) -> None:

@@ -97,8 +97,9 @@ class Store(Record):
         """Keep a finished folder of artefacts; the first one of a key wins.
 
         Args:
-            key: Of the result, 64 hexadecimal digits.
-            folder: On the file system of the store, such as in a `workplace`; it is gone after.
+            key: The key of the result, 64 hexadecimal digits.
+            folder: A folder on the file system of the store, such as in a `workplace`; it is gone
+                after.
 
         Raises:
             ValueError: The key is none, or the folder holds what no result does.
@@ -126,7 +127,7 @@ class Store(Record):
         return tuple(sorted(name for name in names if ARTEFACT_NAME.fullmatch(name)))
 
     def expire(self, before: float, still_used: Collection[str]) -> Mapping[Kind, int]:
-        """Remove what nobody has come back to.
+        """Remove files that were not used again.
 
         Args:
             before: Seconds since the epoch; what was used later stays.

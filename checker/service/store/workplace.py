@@ -36,7 +36,7 @@ class Incoming:
     """Takes an upload piece by piece; used by one thread at a time.
 
     Attributes:
-        path: Where the bytes lie meanwhile.
+        path: The file of the bytes until then.
         size: Bytes so far.
     """
 
@@ -167,7 +167,7 @@ def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
 
 
 def sweep(home: Path) -> None:
-    """Remove the work whose owners have ended without doing so, and what is nobody's work."""
+    """Remove the work of owners that have ended without doing so, and files without an owner."""
     for stray in _strays(home):
         with suppress(OSError):
             _remove_all(stray)

@@ -77,7 +77,7 @@ class AccessLog(Record):
 
         try:
             await self.app(scope, receive, noting)
-        except Exception:  # noqa: BLE001 - whatever it is, the client is told in our words
+        except Exception:  # noqa: BLE001 - whatever it is, the client gets our message
             _LOG.exception("a request fails", extra={FIELDS: _about(scope)})
             if not status:
                 await _FAULT(scope, receive, noting)
@@ -94,7 +94,7 @@ class AccessLog(Record):
 
 
 def _about(scope: Scope) -> dict[str, Any]:
-    """Return what is told of a request; nothing that a client may choose at will."""
+    """Return the logged description of a request; nothing that a client may choose at will."""
     method = scope["method"] if scope["method"] in _METHODS else "other"
     about = {"method": method, "route": _route(scope)}
     if id := scope.get("path_params", {}).get("id"):
@@ -119,7 +119,7 @@ _NO_TELEMETRY: TelemetryConfig = {
     "operation_spans": False,
     "auto_configure": False,
 }
-"""The framework's own would send addresses, which hold ids, to whom the environment names."""
+"""The framework's own would send addresses, which contain ids, to a host in the environment."""
 
 
 def app_from_environment() -> FastAPI:
@@ -134,14 +134,14 @@ def app_from_environment() -> FastAPI:
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
     indexes = ArchiveIndexes()
-    with suppress(OSError):  # who uploads is told
+    with suppress(OSError):  # the sender gets a message
         indexes.start()
     # Each result is that of a program; to look through all of this one takes as long as 20 uploads.
     program_parts()
     jobs = durable_jobs(database_url(), store, config.retention_days)
     app = create_app(jobs, store, config, indexes)
     # The framework works its routes out when they are first needed, which takes as long as several
-    # uploads: now nobody waits for it.
+    # uploads: now no request waits for it.
     app.openapi()
     return app
 

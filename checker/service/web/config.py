@@ -31,12 +31,13 @@ class Config(Record):
         streams: Watchers of events at once, of all clients.
         streams_per_client: Of them of one client, by its address, which a class may share; on this
             machine, all of them.
-        idle_seconds: That an upload may stand still.
-        upload_seconds: That any upload may last; its size buys more.
+        idle_seconds: The time that an upload may pause.
+        upload_seconds: The time that any upload may last; its size buys more.
         steady: Bytes per second that an upload brings beyond these seconds.
         slowest: Bytes per second that an upload brings on average.
         without_sandbox: Whether workers may check uploads of others without a sandbox.
-        base_url: Where people reach it, such as `https://check.example`; empty for what they asked.
+        base_url: The public address, such as `https://check.example`; empty for that of the
+            request.
     """
 
     tokens: tuple[str, ...] = ()

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 _NO_KEY = "0" * 64
-"""Of no result; asked for to see whether there is an answer."""
+"""Key of no result; requested to see whether there is an answer."""
 
 
 class Well(BaseModel):
@@ -48,7 +48,7 @@ class Ready(Well):
 
 
 def router(services: Services) -> APIRouter:
-    """Return the routes for those who look after the service."""
+    """Return the routes for operators."""
     from fastapi import APIRouter
 
     health = Health(services)
@@ -128,7 +128,7 @@ class Health(Record):
             return None
 
     def _of_workers(self, alive: Alive | None) -> Iterator[str]:
-        """Yield sentences about what is amiss with those who check."""
+        """Yield sentences about faults of the workers."""
         config = self.services.config
         takes_risk = config.only_here or config.without_sandbox
         if alive is None:

@@ -68,7 +68,7 @@ class Metrics:
 
 
 class _Engine(Record):
-    """Figures of the engine: not counted, but asked for each time."""
+    """Figures of the engine: not counted, but read each time."""
 
     alive: Alive | None
     stage_seconds: Mapping[str, float]

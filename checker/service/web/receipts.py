@@ -1,4 +1,4 @@
-"""The secret of a check: given to who uploads a package, and asked for where a check is ended."""
+"""The secret of a check: given to the sender of a package, and required to end a check."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SECRET = "Subt-Check-Secret"  # noqa: S105 - the name of a header
 KEY = "Idempotency-Key"
 """Brings a key of the client's own: the same upload with the same key is one check."""
 KEY_PATTERN = re.compile("[ -~]{22,200}")
-"""Anyone who guesses a key and has the upload knows the link of its check."""
+"""With a guessed key and the upload, anyone can compute the link of its check."""
 _COOKIE = "subt-check-secret"
 
 
@@ -52,7 +52,7 @@ def give(response: Response, receipt: Receipt, request: Request, services: Servi
 
 
 def stored_secret(request: Request) -> str:
-    """Return the secret that a browser keeps for the page that it asks for; empty for none."""
+    """Return the secret that a browser keeps for the page that it requests; empty for none."""
     return request.cookies.get(_COOKIE, "")
 
 

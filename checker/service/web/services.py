@@ -36,7 +36,7 @@ class Services(Record):
         jobs: The engine that checks.
         store: Uploads and results.
         config: What is allowed here.
-        admission: Says who may do what.
+        admission: The permissions of clients.
         metrics: Counts what they do.
         indexes: Reads those of archives.
         watchers: Follow checks.

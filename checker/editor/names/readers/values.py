@@ -93,7 +93,7 @@ def names_in(
     Args:
         value: The text.
         start: Its offset in the file.
-        key: What it is given to, which tells what it may name.
+        key: The key of the value, which determines what it may name.
         words: Whether it is a command line, each word of which counts.
     """
     if not 0 < len(value) <= LENGTH_LIMIT:

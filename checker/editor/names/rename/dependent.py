@@ -22,7 +22,7 @@ def dependent(rename: Rename) -> str:
 
 
 def _beside_topic(rename: Rename) -> Iterator[str]:
-    """Yield who names the camera_info beside a topic, which would move along."""
+    """Yield the mentions of the camera_info beside a topic, which would move along."""
     stated = {it.name for it in rename.index.mentions if it.is_definition}
     for name in rename.names:
         old, new = info_topic(name), info_topic(rename.topic_after(name))

@@ -1,4 +1,4 @@
-"""A thing and the name that it is to have: what all reasons against it need to know."""
+"""A thing and its new name: the input of all reasons against the change."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ OWN_SCOPE = ("sdf", "robot", "launch")
 
 
 class Rename(Record, eq=False, dict=True):
-    """A thing, and the name that it is to have.
+    """A thing and its new name.
 
     Attributes:
-        index: Of the package.
-        mention: Of the thing, which tells its old name.
-        new: The new one.
+        index: The index of the package.
+        mention: The mention of the thing, with its old name.
+        new: The new name.
     """
 
     index: NameIndex

@@ -51,7 +51,7 @@ def invalid(kind: NameKind, old: str, new: str) -> str:
     Args:
         kind: Of the thing.
         old: Its name as it is written.
-        new: The name that it is to have.
+        new: The new name.
     """
     shown = f"{new!r} is not a name for a {kind}"
     if is_composed(old) or is_composed(new):

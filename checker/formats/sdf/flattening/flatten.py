@@ -153,7 +153,7 @@ _FRAMES_TOO = (1, 7)
 
 
 class Flattening(Record, dict=True):
-    """A robot, and what its parts are to be called; `obstacle` must find nothing in the way."""
+    """A robot and the names of its parts; `obstacle` must have found nothing."""
 
     robot: Robot
     names: FlatNames

@@ -9,7 +9,7 @@ FILE_STEPS_LIMIT = 3_000_000
 BITS_LIMIT = 4_096
 """Bits of a whole number that is made; the largest float has 1 024 before its point."""
 WIDTH_LIMIT = 1_000
-"""Characters to which a format may widen a value, and digits that it may ask for."""
+"""Characters to which a format may widen a value, and digits that it may require."""
 LEVELS_LIMIT = 80
 """Levels of lists within lists, and of expressions within expressions."""
 _CHARACTERS_A_STEP = 64
@@ -81,7 +81,7 @@ def check_width(width: int) -> None:
     """Refuse a format that widens a value too far.
 
     Raises:
-        ExpressionLimit: It asks for more than `WIDTH_LIMIT` characters or digits.
+        ExpressionLimit: It requires more than `WIDTH_LIMIT` characters or digits.
     """
     if width > WIDTH_LIMIT:
         raise ExpressionLimit(f"formats a value with more than {WIDTH_LIMIT} characters")

@@ -111,7 +111,7 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
     Args:
         budget: To take the steps from.
         arguments: Those of `dict` or `update`, but for the named ones.
-        among: How many keys the dictionary has.
+        among: The number of keys of the dictionary.
     """
     values = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
     for value in values:

@@ -20,7 +20,7 @@ class Function(Record):
         name: As an expression writes it.
         work: What it does.
         takes: Places and names of arguments that may be functions.
-        stands_for: The type that `isinstance` may ask for by this name.
+        stands_for: The type that `isinstance` may test for by this name.
     """
 
     name: str

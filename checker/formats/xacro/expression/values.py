@@ -1,4 +1,4 @@
-"""The values of the language, told apart by their exact type, and what they weigh."""
+"""The values of the language, distinguished by their exact type, and their sizes."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def read_parameters(value: Value, context: Context, span: Span) -> Iterator[Item
 
     Args:
         value: A list of mappings and files.
-        context: Where the node stands.
+        context: The context of the node.
         span: The node.
     """
     value = chosen_value(value)

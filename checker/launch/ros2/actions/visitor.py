@@ -51,7 +51,7 @@ class Visitor:
             self.visit(value, context)
 
     def unread(self, reason: str, span: Span) -> None:
-        """Note what cannot be told."""
+        """Note what is unknown."""
         self.found.unread.append(Unread(reason, span))
 
     def do_later(self, value: Value, context: Context) -> None:

@@ -48,7 +48,7 @@ class Passed(Record, eq=False):
         ros_type: Such as `sensor_msgs/msg/Imu`.
         gz_type: Such as `gz.msgs.IMU`.
         direction: Which way messages go.
-        way: Where the direction is written.
+        way: The place of the direction.
         overrides_frame: Whether the bridge puts another frame into the messages.
     """
 
@@ -88,7 +88,7 @@ class BridgeEntry(Record, eq=False):
         gz_topic: Absolute, on Gazebo's side; empty when it is not known before the launch.
         ros_topic: Absolute, on ROS's side, after remaps; empty when it is not known.
         remapped: Whether a remap gives it another name in ROS.
-        node: That bridges it; None for a file that no available launch file names.
+        node: The node that bridges it; None for a file that no available launch file names.
     """
 
     passed: Passed

@@ -116,7 +116,7 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
     """Read the bridges that a launch file starts, those under conditions among them.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         graph: Of the launch file.
     """
     reader = _Reader(package)
@@ -133,7 +133,7 @@ def bridges_without_launch(package: Package, named: Iterable[str]) -> Bridges:
     """Read files of bridges that no available launch file names.
 
     Args:
-        package: That is checked.
+        package: The package being checked.
         named: Those that launch files name.
     """
     from checker.source.yaml import read_yaml
@@ -144,7 +144,7 @@ def bridges_without_launch(package: Package, named: Iterable[str]) -> Bridges:
         source = package.read(path)
         if isinstance(source, SourceText) and is_bridge_file(document := read_yaml(source)):
             reader.document(document, _At("/", "", (), False, None))
-    # Names depend on the namespace of whoever reads them.
+    # Names depend on the namespace of the reading node.
     found = reader.bridges()
     unknown = tuple(replace(entry, gz_topic="", ros_topic="") for entry in found.entries)
     return replace(found, entries=unknown)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Work = Callable[["Interpreter", ast.AST, list[Value], dict[str, Value]], Value]
 
 _WIDEST = 1_000
-"""Of lines and indents that are asked for."""
+"""Greatest length of requested lines and indents."""
 _YAML_STYLE = frozenset({"default_flow_style", "sort_keys", "indent", "width", "allow_unicode"})
 _JSON_STYLE = frozenset({"indent", "sort_keys", "ensure_ascii"})
 _MATH: tuple[Callable[..., Any], ...] = (

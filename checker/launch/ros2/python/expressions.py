@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
 
 PATHS = ("PathSubstitution", "PathJoinSubstitution")
-"""Substitutions that `/` goes on."""
+"""Substitutions to which `/` appends a path."""
 _ITEMS_LIMIT = 5_000
 _DATA_LIMIT = 20_000
 _LEVELS_LIMIT = 40

@@ -37,7 +37,7 @@ from checker.source.text import Located, SourceText, Span
 
 
 class World(Protocol):
-    """What a launch file may ask for while it is evaluated."""
+    """What a launch file may query while it is evaluated."""
 
     def read(self, path: str, span: Span) -> SourceText | str:
         """Return the text of a file below a share folder, or why it cannot be had."""
@@ -64,7 +64,7 @@ class Interpreter:
     Attributes:
         source: The file whose code is being evaluated.
         allowance: What it may still take.
-        world: What it may ask for.
+        world: What it may query.
         guards: Conditions around the statement that is being evaluated.
         by_argument: Whether a value that was looked at depends on an argument or a file.
         notes: What was passed over.
@@ -136,7 +136,7 @@ class Interpreter:
         return truth, Condition(text, wanted=True, holds=truth)
 
     def watched(self, node: ast.expr, scope: Scope) -> Value:
-        """Evaluate what is going to be assigned; `by_argument` tells about it alone."""
+        """Evaluate a value to assign; `by_argument` is about it alone."""
         self.by_argument = False
         return evaluate(self, node, scope)
 

@@ -14,12 +14,12 @@ class Scope:
     """Names of a module, a function or a comprehension.
 
     Attributes:
-        values: By name.
-        outer: Where other names are looked up.
+        values: The values by name.
+        outer: The scope in which other names are looked up.
         by_argument: Names whose values depend on arguments or files, with their defaults.
         shared: Names that `global` or `nonlocal` bind outside.
         returned: What has been returned under conditions, in a function.
-        guards: How many conditions stand around the call of the function.
+        guards: The number of conditions around the call of the function.
         yielded: What a generator has yielded; None in other functions.
     """
 

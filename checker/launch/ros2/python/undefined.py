@@ -59,7 +59,7 @@ def _is_annotation(node: ast.AST) -> bool:
 
 
 def _bound(tree: ast.Module) -> Iterator[str]:
-    """Yield the names that any statement of a file binds; `*` where these cannot be told."""
+    """Yield the names that any statement of a file binds; `*` where these are unknown."""
     for node in ast.walk(tree):
         match node:
             case ast.Name(ctx=ast.Store() | ast.Del()):

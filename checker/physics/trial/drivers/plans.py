@@ -121,8 +121,8 @@ def _forward(robot: Robot, track: Track) -> Vector:
 # Multicopters: the rotors as their plugins describe them.
 #
 # A rotor pushes along the z axis of its link with motorConstant · ω², as gz-sim's
-# MulticopterMotorModel. The controller asks for rotor speeds by its own forceConstant; where the
-# two differ, the thrust is not the one that it asks for.
+# MulticopterMotorModel. The controller commands rotor speeds by its own forceConstant; where the
+# two differ, the thrust is not the commanded one.
 
 
 def plan_copter(robot: Robot, locomotion: Locomotion) -> Plan:

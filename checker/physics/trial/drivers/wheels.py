@@ -107,7 +107,7 @@ _STEERING_SECONDS = 1.0
 _USUAL_BASE = 1.0
 _USUAL_LIMIT = 0.5
 _OUTWARDS = {Side.LEFT: -1.0, Side.RIGHT: 1.0}
-"""In a turn to the left, the left wheels have the shorter way."""
+"""Sign by side: in a turn to the left, the left wheels have the shorter way."""
 _GRID = 0.05
 """Seconds between corners of commands that follow the steering."""
 

@@ -30,10 +30,10 @@ class Motion:
 
     Attributes:
         time: Seconds (n).
-        position: Of the robot's frame, metres (n × 3).
-        rotation: Of the robot's frame in the world (n × 3 × 3).
-        velocity: Of the origin of the robot's frame in the world, m/s (n × 3).
-        spin: In the world, rad/s (n × 3).
+        position: The position of the robot's frame, metres (n × 3).
+        rotation: The rotation of the robot's frame in the world (n × 3 × 3).
+        velocity: The velocity of the origin of the robot's frame in the world, m/s (n × 3).
+        spin: The angular velocity in the world, rad/s (n × 3).
         yaw: Heading without jumps, radians (n).
         tilt: Between the robot's z axis and the vertical, radians (n).
         forward: Speed along the robot's x axis, m/s (n).
@@ -100,7 +100,7 @@ class Motion:
 
 
 AVERAGED_SECONDS = 0.1
-"""Over which the torque of a joint is averaged, in figures and plots: a stiff servo asks for a
+"""Over which the torque of a joint is averaged, in figures and plots: a stiff servo commands a
 spike at each bend of its command, which a motor would round off."""
 
 
@@ -122,7 +122,7 @@ def averaged(forces: Array, timestep: float) -> Array:
 # What happened over time, for plots and replays.
 
 
-# How the links moved in a simulation, for those who look.
+# Motion of the links in a simulation, for display.
 
 
 def replay_of(run: Run) -> Replay | None:

@@ -103,7 +103,7 @@ class GeomReader:
     """Reads the collision shapes of a robot.
 
     Attributes:
-        poses: Of the links in the robot's frame.
+        poses: The poses of the links in the robot's frame.
         assets: The hulls, each once, with the name that the text gives it.
     """
 

@@ -24,8 +24,8 @@ class Degree(Record):
     Attributes:
         kind: `hinge`, `slide` or `ball`.
         axis: Direction in the robot's frame, of length 1; any for a ball.
-        range: Metres or radians; None without limit.
-        rest: Where the spring rests, metres or radians.
+        range: The range, metres or radians; None without limit.
+        rest: The rest position of the spring, metres or radians.
     """
 
     kind: str
@@ -40,7 +40,7 @@ class Degree(Record):
         """Return the attributes of `<joint>`.
 
         Args:
-            axis: In the frame of the link.
+            axis: The axis in the frame of the link.
         """
         text = f'type="{self.kind}" damping="{numbers([self.damping])}"'
         if self.kind == "ball":

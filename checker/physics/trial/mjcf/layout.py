@@ -70,8 +70,8 @@ class Layout:
     Attributes:
         ledger: What had to be changed or left out.
         forest: Which link hangs on which.
-        poses: In the robot's frame.
-        degrees: How each link moves against the one it hangs on.
+        poses: The poses in the robot's frame.
+        degrees: The motion of each link relative to its parent.
         held: The link that the trial holds in place, since nothing shows that the robot stands on
             the ground by itself; empty without.
         welded: The link that each link moves with; `world` for what does not move.

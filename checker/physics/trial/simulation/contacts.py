@@ -33,12 +33,12 @@ class Touches(Record):
 
     Attributes:
         names: Scoped names of the robot's links.
-        time: Of each sample, seconds (n).
-        anchors: Where the joints with a servo are, in the robot's frame, metres (n × joints × 3).
+        time: The time of each sample, seconds (n).
+        anchors: Positions of the joints with a servo in the robot's frame, metres (n × joints × 3).
         axes: Their axes, in the robot's frame (n × joints × 3).
         sample: Of each contact, the number of its sample (k).
-        link: Of each contact, the number of the link that touches (k).
-        points: Where, in the robot's frame, metres (k × 3).
+        link: The number of the link of each contact (k).
+        points: The points of contact in the robot's frame, metres (k × 3).
         loads: Normal forces, N (k).
         friction: Coefficients (k).
         depth: Penetration, metres (k).
@@ -211,7 +211,7 @@ class ContactQuery:
         """Return how deep pairs of links, or a link and the ground, are inside each other, metres.
 
         Args:
-            qpos: Of the model; the pose at the start if none is given.
+            qpos: The positions of the model; the pose at the start if none is given.
         """
         import mujoco
 

@@ -1,4 +1,4 @@
-"""Flies a copter: a controller asks for forces, the rotors give what they can."""
+"""Flies a multicopter: a controller commands forces, the rotors give what they can."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Allocation(Record):
     Attributes:
         effect: Force (rows 0–2) and torque (3–5) that a newton of each rotor gives, robot's frame.
         most: Greatest thrust of each, N.
-        gain: Thrust that comes / thrust asked for.
+        gain: Actual thrust / commanded thrust.
         hover: Share of its greatest thrust that each gives to carry the weight; None if no shares
             of at least 0 keep the balance.
         steer: Thrusts that a force up and a torque need, as a matrix (n × 4).
@@ -61,13 +61,13 @@ class Allocation(Record):
         most = np.array([rotor.most for rotor in rotors])
         gain = np.array([rotor.gain for rotor in rotors])
         lift = effect[2:]
-        # Least squares of shares, not of newtons: a weak rotor is asked for less.
+        # Least squares of shares, not of newtons: a weak rotor gets a smaller command.
         steer = most[:, None] * np.linalg.pinv(lift * most, rcond=1e-9)
         hover = balanced_shares(lift * most, np.array((weight, 0.0, 0.0, 0.0)))
         return cls(effect, most, gain, hover, steer, weight)
 
     def thrusts(self, lift: float, torque: Array) -> Array:
-        """Return the thrusts to ask for, N; the rotors may not be able to give them.
+        """Return the thrusts to command, N; the rotors may not be able to give them.
 
         Args:
             lift: Force along the robot's z axis, N.
@@ -83,7 +83,7 @@ class Allocation(Record):
         return thrusts
 
     def delivered_thrusts(self, thrusts: Array) -> Array:
-        """Return the thrusts that come when these are asked for, N."""
+        """Return the actual thrusts for these commands, N."""
         import numpy as np
 
         clipped: Array = np.clip(thrusts * self.gain, 0.0, self.most)
@@ -197,7 +197,7 @@ class Pilot:
         return given
 
     def _push(self, time: float) -> Array:
-        """Return the force that place and height ask for, N, in the world's frame."""
+        """Return the force that place and height require, N, in the world's frame."""
         import numpy as np
 
         data = self.rig.data

@@ -29,7 +29,7 @@ class Rig:
         parts: Of each geom, the scoped name of its link; empty for the ground.
         joints: Number of the joint of each actuator.
         names: Scoped name of the joint of each actuator.
-        initial: Where these joints start, rad or m.
+        initial: The start positions of these joints, rad or m.
         tracked: Scoped names of the links whose motion is kept.
         bodies: Numbers of their bodies.
     """
@@ -92,9 +92,9 @@ class Rig:
         return place - rotation @ self._link_place, rotation
 
     def _tune(self) -> None:
-        """Give each servo the stiffness that its load asks for; their force has no limit.
+        """Give each servo the stiffness that its load needs; their force has no limit.
 
-        A limited stiff servo chatters; what it asks for is compared with the limits afterwards.
+        A limited stiff servo chatters; its commanded force is compared with the limits afterwards.
         """
         own, reaches = self._own_inertia(), self._reaches()
         wheels = {wheel.joint: wheel for wheel in self.plan.wheels}

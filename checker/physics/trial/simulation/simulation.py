@@ -37,12 +37,12 @@ class Samples:
     Attributes:
         time: Seconds.
         position: Of the robot's frame, metres.
-        rotation: Of the robot's frame, 3×3.
-        velocity: Of the origin of the robot's frame, m/s.
-        spin: Of the robot, rad/s.
+        rotation: The rotation of the robot's frame, 3×3.
+        velocity: The velocity of the origin of the robot's frame, m/s.
+        spin: The angular velocity of the robot, rad/s.
         centre: Of mass, in the robot's frame, metres.
         energy: Potential and kinetic, J.
-        joints: Where the joints with a servo stand, rad or m.
+        joints: The positions of the joints with a servo, rad or m.
         tracked: Positions (metres) and quaternions (w, x, y, z) of the frames of `Rig.tracked`.
     """
 
@@ -119,7 +119,7 @@ class Run:
     """A simulation.
 
     Attributes:
-        rig: With the state at the end.
+        rig: The rig with the state at the end.
         timestep: Seconds.
         samples: At the start and every 50 ms.
         contacts: With the ground, sampled more often.
@@ -128,8 +128,8 @@ class Run:
             None if no shares keep the balance, and for what does not fly.
         trouble: What ended it before its time, as the end of a sentence; else empty.
         commands: Of the servos in each step (steps × servos), rad/s, rad or m.
-        thrusts: Of the rotors, N, each with the step in which they begin.
-        states: Where everything is before a step, by the names of states.
+        thrusts: The thrusts of the rotors, N, each with the step in which they begin.
+        states: The positions before a step, by the names of states.
         belts: What has surfaces that move; None without.
     """
 
@@ -242,8 +242,8 @@ class Belts:
     """The surfaces of belts.
 
     Attributes:
-        geoms: Whose surfaces move.
-        surfaces: Velocity of each at 1 m/s, in its own frame (geoms × 3).
+        geoms: The geoms whose surfaces move.
+        surfaces: The velocity of each at 1 m/s, in its own frame (geoms × 3).
         speeds: Of each in each step, m/s (steps × geoms).
         changes: Steps in which a belt changes its speed.
     """

@@ -109,8 +109,8 @@ class Shot(Record):
 
     Attributes:
         caption: A sentence without its dot.
-        layer: What is seen.
-        camera: Where from.
+        layer: The visible layer.
+        camera: The camera.
         tile: Length of the ground's tiles, metres.
         sample: Of the tracks.
     """

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 GROUND_GROUP = 2
 LIGHT = (-0.45, -0.35, -1.0)
-"""Where it shines: over the left shoulder of who is before the robot, a little to its left."""
+"""Its direction: from in front of the robot, above and a little to its left."""
 _ROOM = 12.0
 """Times the distance of the farthest camera that can be seen."""
 _SHADOWED = 1.2
@@ -113,7 +113,7 @@ def set_stage(model: Any, shot: Mapping[str, Any]) -> float:
 
     Args:
         model: From `model_of`.
-        shot: With the `tile` in metres and the `camera`.
+        shot: The `tile` in metres and the `camera`.
     """
     import numpy as np
 

@@ -24,7 +24,7 @@ from checker.report.scene.drawing.studio import (
     set_stage,
 )
 
-# A request that has everything drawn once that other requests have drawn, as small as can be.
+# A minimal request that draws once everything that other requests draw.
 
 
 _GROUPS = (0, 1)

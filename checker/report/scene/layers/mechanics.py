@@ -126,7 +126,7 @@ _LARGEST = 4.0
 def inertias(showing: Showing) -> Hung:
     """Yield a box for each link: of its mass, uniform, with its inertia.
 
-    Inertias that no body can have are left out; rules tell of them. So are those of boxes that
+    Inertias that no body can have are left out; rules report them. So are those of boxes that
     the robot would be lost in, with a note.
     """
     violet = replace(box(), colour=_VIOLET)

@@ -30,8 +30,8 @@ class Listed(Record):
         stage: As in `port.Stage`.
         number: Of the try of that stage.
         age: Seconds since it was ordered.
-        worker: Who has it in hand, or had it last; empty if it waits.
-        words: Of its state.
+        worker: The worker that runs it or ran it last; empty if it waits.
+        words: The description of its state.
     """
 
     key: str
@@ -90,7 +90,7 @@ class Admin(Record):
         """Begin a failed check again, under the same link, with all tries but one."""
         [first, *others] = self.checks.rows([key])[key]
         self.checks.client.delete_workflows([row.task.id for row in others])
-        # The first row holds what was asked for: it stays, whatever happens now.
+        # The first row contains the order: it stays in any case.
         retry_until_answered(lambda: self.checks.retry(replace(first.task, end=None), _FAILED))
 
     def drain(self, names: Sequence[str]) -> Sequence[str]:

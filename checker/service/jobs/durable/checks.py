@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from dbos import DBOSClient, EnqueueOptions, WorkflowStatus
 
 _PAGE = 500
-"""Rows that are asked for at a time."""
+"""Rows that are read at a time."""
 _WAITING = ["ENQUEUED", "DELAYED"]
 _QUEUES = [stage.value for stage in STAGES]
 
@@ -61,7 +61,7 @@ class Checks(Record):
         """Have a task wait in the queue of its stage, unless it was entered before.
 
         Args:
-            task: What is to be done.
+            task: The task.
             pause: Seconds before it may be taken.
         """
         from dbos import error
@@ -109,7 +109,7 @@ class Checks(Record):
         return sorted({each.executor_id or "" for each in lost})
 
     def is_wanted(self, task: Task) -> bool:
-        """Whether a task that is in hand is still to be done, and by who has it in hand."""
+        """Whether a running task is still wanted, and belongs to the worker that runs it."""
         ids = [task.id, first_id(task.key)]
         found = self.client.list_workflows(workflow_ids=ids, load_input=False, load_output=False)
         rows = {row.workflow_id: row for row in found}

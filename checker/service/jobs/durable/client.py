@@ -35,7 +35,7 @@ _DAY = 86400.0
 _LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
 """Of the static rules: of real packages, those of a megabyte take about a second."""
 _PACED = 25
-"""Stages whose median tells how long they take, of the last day: what was before says nothing of
+"""Stages whose median duration of the last day is used: earlier durations say nothing of
 now."""
 
 
@@ -64,7 +64,7 @@ class DurableJobs(Record):
         again: the new check finishes at once and shares the report.
 
         Args:
-            order: What is asked for.
+            order: The requested check.
             key: The same order with the same key gets the same receipt; empty for a new one.
         """
         receipt = receipt_for(order, key or secrets.token_urlsafe(32))
@@ -84,7 +84,7 @@ class DurableJobs(Record):
         return receipt
 
     def _cost(self, order: Order) -> float:
-        """Return the seconds that the static rules take, as far as the size of an upload tells."""
+        """Return the seconds that the static rules take, estimated from the size of an upload."""
         upload = self.store.upload(order.upload)
         size = upload.stat().st_size if upload is not None else 0
         return _LEAST_SECONDS + size * _SECONDS_PER_BYTE

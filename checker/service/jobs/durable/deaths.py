@@ -13,14 +13,14 @@ from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)
 _KNOWN_SILENCES = 60
-"""A dead worker stays known for so many times the silence, for those who look at it."""
+"""A dead worker stays known for so many times the silence, for display."""
 
 
 class Deaths:
     """Shows that this worker lives, and has what is in the hands of the dead tried again.
 
-    The lock of a file tells at once that a worker on this machine has ended; of those on others,
-    and of those that hang, it is silence that tells.
+    The lock of a file shows at once that a worker on this machine has ended; silence shows that
+    those on others, or hanging ones, have.
     """
 
     def __init__(
@@ -30,8 +30,8 @@ class Deaths:
 
         Args:
             checks: In the database.
-            workers: Who has lately shown a sign of life.
-            store: Has the folder of workers on this machine.
+            workers: The workers with a recent sign of life.
+            store: The store, with the folder of workers on this machine.
             name: Of this worker.
             silence: Seconds after which a worker is taken for dead.
         """

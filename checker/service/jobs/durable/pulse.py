@@ -19,9 +19,9 @@ _LOOKS = 2
 
 
 def watch(engine: sa.Engine) -> None:
-    """Have who waits for a server that stands still, or is gone, be told within some seconds.
+    """Report a database server that hangs, or is gone, to waiting callers within seconds.
 
-    All connections end then, and until it answers again, who asks for one gets `JobsUnreachable`.
+    All connections end then, and until it answers again, new ones raise `JobsUnreachable`.
     DBOS itself must not use such an engine: it waits for a server to come back.
 
     Args:

@@ -12,15 +12,15 @@ _CHARACTERS = 22
 _KEY = b"subt-check: key of a check\0"
 """Keeps keys apart from other digests of ids."""
 SHOWN_DIGITS = 12
-"""Of a key, in logs and lists: enough to tell checks apart."""
+"""Length of a key in logs and lists: enough to distinguish checks."""
 
 
 def receipt_for(order: Order, seed: str) -> Receipt:
     """Return the receipt of an order, always the same one for the same order and seed.
 
     Args:
-        order: What is asked for.
-        seed: Unguessable; without it, neither the id nor the secret tells the other.
+        order: The requested check.
+        seed: An unguessable text; without it, neither id nor secret follows from the other.
     """
     parts = (seed, order.upload, order.name, order.profile)
     return Receipt(
@@ -32,12 +32,12 @@ def receipt_for(order: Order, seed: str) -> Receipt:
 def key_of_check(id: str) -> str:
     """Return what represents a check in the database: SHA-256, hexadecimal; it opens no report.
 
-    The id is in the answer to who uploads and in the addresses that they pass on, and nowhere else.
-    A plain digest is enough: an id is 128 random bits, and who has its digest would have to try
-    2¹²⁷ of them, so that neither salt nor a slow function would add anything.
+    The id is in the answer to the sender and in the addresses that they pass on, and nowhere else.
+    A plain digest is enough: an id is 128 random bits, and an attacker with its digest would have
+    to try 2¹²⁷ of them, so that neither salt nor a slow function would add anything.
 
     Args:
-        id: As it was given to who uploaded, or whatever a client sends for one.
+        id: The id as the sender got it, or any text that a client sends.
     """
     return sha256(_KEY + id.encode("utf-8", "surrogatepass")).hexdigest()
 

@@ -21,7 +21,7 @@ class Retention(Record):
     Attributes:
         checks: In the database.
         store: Uploads and results.
-        grace_seconds: That a file stays which no check refers to.
+        grace_seconds: The time that a file without a check is kept.
     """
 
     checks: Checks

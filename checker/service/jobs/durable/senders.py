@@ -1,6 +1,6 @@
 """What the database holds of senders: a digest for the day, and how many uploads they send.
 
-Each digest depends on a salt that is deleted after the day: nobody can tell later who it was.
+Each digest depends on a salt that is deleted after the day: the sender cannot be identified later.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Senders(Record):
         share of a minute, and it may be at most a minute ahead.
 
         Args:
-            client: Whom it counts for.
+            client: The client for whom it counts.
             per_minute: Uploads that a client may send.
         """
         share, moment, who = _MINUTE / per_minute, now(self.engine), self.digest(client)

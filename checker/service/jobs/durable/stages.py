@@ -106,7 +106,7 @@ class Stages(Record):
         return None
 
     def _question(self, task: Task) -> Callable[[], bool]:
-        """Return what tells whether to stop: no time is left, or nobody wants it from here."""
+        """Return the test whether to stop: no time is left, or the check is not wanted here."""
         asked, is_wanted = -_LOOK_SECONDS, True
 
         def is_unwanted() -> bool:

@@ -63,8 +63,8 @@ class Task(Record):
     """A try of a stage: the input of a workflow.
 
     Attributes:
-        key: Of the check.
-        order: What was asked for, without its sender.
+        key: The key of the check.
+        order: The order, without its sender.
         created: When it was ordered, seconds since the epoch.
         expires: When all of the check is deleted.
         stage: `STATIC` or `TRIAL`.
@@ -72,8 +72,8 @@ class Task(Record):
         reason: Why the try before came to nothing, the beginning of a sentence.
         result: Key of the report on the static rules, for a trial.
         packages: Of that report, as in `State`.
-        sender: Whose partition of the queue it waits in.
-        cost: Seconds that it takes, as far as one can tell.
+        sender: The sender in whose partition of the queue it waits.
+        cost: Seconds that it takes, estimated.
         secret: Digest of the secret, in the first workflow of a check.
         end: In the workflow of a check that is over from its beginning.
     """

@@ -1,4 +1,4 @@
-"""A worker: a process that takes checks from the queues until it is told to stop."""
+"""A worker: a process that takes checks from the queues until it is stopped."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ class WorkerOptions(Record):
         grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
         beat_seconds: Between two signs of life.
         silence_seconds: After which other workers take this one for dead.
-        cleaning_seconds: Between two rounds that delete what has had its time.
-        unused_seconds: That files stay which no check refers to.
+        cleaning_seconds: The time between two rounds that delete expired files.
+        unused_seconds: The time that files without a check are kept.
         pauses: Seconds before each further try of what came to nothing (see `tasks.PAUSES`).
         ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
     """
@@ -170,7 +170,7 @@ def work(options: WorkerOptions) -> None:
     """
     log_to_stderr()
     stop = threading.Event()
-    # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
+    # Its parent may make it ignore the terminal's Ctrl-C, and stop it in time.
     both = (signal.SIGTERM, signal.SIGINT)
     heeded = [number for number in both if signal.getsignal(number) is not signal.SIG_IGN]
     on_requests_to_end(heeded, stop.set, lambda: os._exit(1))
@@ -191,7 +191,7 @@ def _once(told: threading.Event, seconds: float, do: Callable[[], None]) -> None
 
 
 def _in_background(do: Callable[[], object], every_seconds: float, stop: threading.Event) -> None:
-    """Do something at once and again and again, come what may, until told to stop."""
+    """Run a function repeatedly, whatever it raises, until stopped."""
 
     def repeat() -> None:
         while True:

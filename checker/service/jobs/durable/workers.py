@@ -52,7 +52,7 @@ class Workers(Record):
             connection.execute(theirs.values(drains=True))
 
     def live_workers(self, silence: float) -> set[str]:
-        """Return who has been silent for less than `silence` seconds."""
+        """Return the workers that have been silent for less than `silence` seconds."""
         fresh = WORKERS.c.beat > now(self.engine) - silence
         with self.engine.connect() as connection:
             return set(connection.execute(sa.select(WORKERS.c.name).where(fresh)).scalars())

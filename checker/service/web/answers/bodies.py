@@ -1,6 +1,6 @@
-"""What is sent of an answer's body: nothing to who asks for the head alone, gzip to who takes it.
+"""The body of an answer: none for HEAD requests, gzip for clients that accept it.
 
-No answer that brings a secret is compressed, such as that to an upload: its length would tell of it
+No answer that brings a secret is compressed, such as that to an upload: its length would reveal it
 (BREACH; docs/security.md).
 """
 
@@ -35,7 +35,7 @@ def takes_gzip(headers: Headers) -> bool:
 
 
 class Compression(Record):
-    """Compresses answers to GET that come whole: pages, and what the API tells."""
+    """Compresses complete answers to GET: pages, and answers of the API."""
 
     app: ASGIApp
 
@@ -94,7 +94,7 @@ class Heads(Record):
         async def head_alone(message: Message) -> None:
             if message["type"] == "http.response.start":
                 await send(message)
-                # Now the answer has ended, and what sends a long body is told that nobody reads on.
+                # The answer has ended: stop the sender of a long body.
                 await send({"type": "http.response.body"})
 
         # What routes write into the scope is for those around as well.

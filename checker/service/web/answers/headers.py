@@ -98,8 +98,8 @@ def file_response(path: Path, asked: Headers | None = None) -> Response:
     The file is open from here on: deleted meanwhile, it is sent anyway.
 
     Args:
-        path: Of the file.
-        asked: Headers of the request, which tell who takes it compressed.
+        path: The path of the file.
+        asked: Headers of the request, which say whether the client accepts compression.
 
     Raises:
         FileNotFoundError: It has been deleted.

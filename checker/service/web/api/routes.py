@@ -108,7 +108,7 @@ def _add_ends(router: APIRouter, api: Api) -> None:
     def cancel(
         request: Request, id: str, secret: str = Header("", alias=receipts.SECRET, description=told)
     ) -> CheckView:
-        """End a check, and tell where it stands; one that has ended stays as it is."""
+        """End a check, and return its state; one that has ended stays as it is."""
         return api.cancel(request, id, secret)
 
     def delete(
@@ -190,7 +190,7 @@ class Api(Record):
         return self._view(request, self.services.check(id))
 
     def cancel(self, request: Request, id: str, secret: str) -> CheckView:
-        """End a check, and tell where it stands."""
+        """End a check, and return its state."""
         receipts.cancel(self.services, id, secret)
         return self._view(request, self.services.check(id))
 

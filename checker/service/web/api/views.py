@@ -1,4 +1,4 @@
-"""What the API tells of a check, at once and as events."""
+"""The API's view of a check, at once and as events."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class CheckView(BaseModel):
 
 
 def check_view(state: State, url: str, names: Iterable[str]) -> CheckView:
-    """Return what the API tells.
+    """Return the API's view of a check.
 
     Args:
         state: Of the check.

@@ -1,4 +1,4 @@
-"""Those who follow checks: what happens to a check is looked up once for all who follow it."""
+"""Followers of checks: the state of a check is looked up once for all its followers."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class Followed:
     """A check that somebody follows.
 
     Attributes:
-        id: Of the check.
-        followers: Number of those who follow it.
+        id: The id of the check.
+        followers: The number of followers.
         last: Number of its last event that is known.
         over: Whether nothing will come any more.
     """
@@ -71,7 +71,7 @@ class Followed:
             self._wake()
 
     def end(self) -> None:
-        """Send all away who follow it."""
+        """Disconnect all followers."""
         self.over = True
         self._wake()
 
@@ -81,7 +81,7 @@ class Followed:
 
 
 class Watchers:
-    """All who follow checks; used by the event loop alone.
+    """All followers of checks; used by the event loop alone.
 
     As long as there is somebody, one task looks what is new of all that is followed.
     """
@@ -131,11 +131,11 @@ class Watchers:
                 await self.look(tuple(self._checks.values()))
                 pause = min(PAUSE_SHARE * (monotonic() - began), LONGEST_SECONDS)
                 await asyncio.sleep(max(PAUSE_SECONDS, pause))
-        except Exception:  # noqa: BLE001 - nobody waits for what raises here
+        except Exception:  # noqa: BLE001 - no caller waits for what raises here
             _LOG.exception("a look at checks that are followed fails")
         finally:
             self._task = None
-            for check in self._checks.values():  # who follows comes back
+            for check in self._checks.values():  # followers reconnect
                 check.end()
             self._checks.clear()
 

@@ -1,1 +1,1 @@
-"""Who may do what, how often, and from where."""
+"""Permissions and rates of clients."""

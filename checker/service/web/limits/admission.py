@@ -1,4 +1,4 @@
-"""Who may do what: tokens, rates and places."""
+"""Admission of clients: tokens, rates and places."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ GUESSES_PER_MINUTE = 30
 """Wrong tokens of one client, where nothing is uploaded."""
 
 _SENDER_DIGITS = 16
-"""Enough to tell senders apart."""
+"""Length that is enough to distinguish senders."""
 
 
 class Admission:
@@ -82,7 +82,7 @@ class Admission:
         """Whether a request brings one of the tokens.
 
         Raises:
-            Refused: Too many wrong ones came from its address; a right one would not be told apart.
+            Refused: Too many wrong ones came from its address; even a right one is refused.
         """
         token, client = bearer(request), client_of(request)
         if not token:
@@ -94,7 +94,7 @@ class Admission:
         return is_known
 
     def sender(self, request: HTTPConnection, fields: Mapping[str, str]) -> str:
-        """Return for whom an upload counts in the queues: a digest of its token, or address."""
+        """Return the key of the sender in the queues: a digest of its token, or address."""
         token = (bearer(request) or fields.get("token", "")) if self._tokens else ""
         who = f"token {token}" if token else f"address {client_of(request)}"
         return hashlib.sha256(who.encode("utf-8", "replace")).hexdigest()[:_SENDER_DIGITS]

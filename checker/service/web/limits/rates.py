@@ -15,18 +15,18 @@ from starlette.requests import HTTPConnection
 from checker.base.record import Record
 
 CLIENTS = 10_000
-"""Remembered at most; who comes new takes the place of who was away the longest."""
+"""Greatest number of remembered clients; a new one replaces the least recent."""
 _IPV6_HOME = 64
 """Bits of an address that one client has: the rest it may choose again for each request."""
 
 
 def client_of(connection: HTTPConnection) -> str:
-    """Return whom a request counts for."""
+    """Return the client for whom a request counts."""
     return network_of(connection.client.host if connection.client else "")
 
 
 def network_of(host: str) -> str:
-    """Return whom an address counts for: itself if it is IPv4, its network if it is IPv6."""
+    """Return the client of an address: itself if it is IPv4, its network if it is IPv6."""
     try:
         address = ipaddress.ip_address(host.partition("%")[0])
     except ValueError:
@@ -62,7 +62,7 @@ class Rate(Record):
         """Count one more for a client, and return 0; or the seconds until it may.
 
         Args:
-            client: Whom it counts for.
+            client: The client for whom it counts.
             count: Zero to ask only.
         """
         if not self.per_minute:
@@ -79,7 +79,7 @@ class Rate(Record):
 
 
 class Slots(Record):
-    """Places for what goes on at once.
+    """Places for simultaneous work.
 
     Attributes:
         all: Places.

@@ -31,7 +31,7 @@ class Claim:
     """Room for one upload.
 
     Attributes:
-        client: Whose it is.
+        client: The owner.
         size: Bytes that it may take at most.
         reserved: Bytes that it may take so far.
         written: Bytes of them that have come.
@@ -67,7 +67,7 @@ class Space:
         """Reserve room for the beginning of an upload, as long as it is under way.
 
         Args:
-            client: Whose it is.
+            client: The owner.
             size: Bytes that it may take at most.
 
         Raises:
@@ -87,8 +87,8 @@ class Space:
         """Have room for so many bytes of an upload, and for some that follow.
 
         Args:
-            claim: Its own.
-            size: Bytes with those that are to be written next.
+            claim: The claim of the upload.
+            size: Bytes including those that are written next.
 
         Raises:
             Refused: There is no such room any more.
@@ -105,7 +105,7 @@ class Space:
             raise no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 
     def _refuse_share(self, claim: Claim) -> None:
-        """Refuse a new upload of one who announces more than its part: it costs nobody else."""
+        """Refuse a new upload of a client that announces more than its part."""
         room = self._room()
         held = sum(each.size for each in self._claims if each.client == claim.client)
         if room is None or not held:
@@ -115,7 +115,7 @@ class Space:
             raise _too_much(held)
 
     def _room(self) -> int | None:
-        """Return the bytes that uploads may still take; None where only writing will tell."""
+        """Return the bytes that uploads may still take; None where only writing shows it."""
         try:
             return self._free() - self._kept_free
         except OSError:
@@ -126,8 +126,8 @@ def space_of(folder: Path, config: Config) -> Space:
     """Return the room of a folder, which may not be there yet.
 
     Args:
-        folder: Of the store.
-        config: How much of it is for uploads.
+        folder: The folder of the store.
+        config: The share of it for uploads.
     """
     return Space(partial(_free_bytes, folder), config.room, config.bytes_per_client)
 

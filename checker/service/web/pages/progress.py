@@ -50,7 +50,7 @@ class Glance(Record):
 
     Attributes:
         findings: The gravest, at most `SHOWN`.
-        more: How many others there are.
+        more: The number of others.
     """
 
     findings: tuple[FirstFinding, ...] = ()
@@ -127,7 +127,7 @@ class Headline(Record):
     Attributes:
         lead: A word or two.
         rest: What follows behind a colon; may be empty.
-        mood: By which it is coloured: a verdict, or empty.
+        mood: The verdict by which it is coloured, or empty.
         advice: What to do; may be empty.
     """
 

@@ -63,7 +63,7 @@ class RuleGroup(Record):
 
 
 class RulePage(Record):
-    """All that is told of a rule; `body` is HTML."""
+    """The page of a rule; `body` is HTML."""
 
     entry: RuleEntry
     body: Markup
@@ -89,7 +89,7 @@ def rule_pages() -> Mapping[str, RulePage]:
     for rule in all_rules():
         title = _line(escaped(parse_page(rule.page).title))
         entry = RuleEntry(rule.id, rule.name, str(rule.severity), title)
-        # Markdown without HTML in it: what is rendered is safe, whoever wrote the rule.
+        # Markdown without HTML in it: what is rendered is safe for any rule.
         body = Markup(_markdown().render("\n\n".join(rule_blocks(rule))))  # noqa: S704
         pages[rule.id] = RulePage(entry, body)
     return pages

@@ -81,7 +81,7 @@ class _Reader:
         """Return its exit code, of a signal its negative number; None if it lives.
 
         Raises:
-            OSError: It was killed, or who started it has died: an archive does neither.
+            OSError: It was killed, or its parent has died: an archive causes neither.
         """
         if not select.select([self._started.code], [], [], _CODE_SECONDS)[0]:
             return None
@@ -124,11 +124,11 @@ class ArchiveIndexes:
         """Look at the index of an archive; what fails of the system is tried again once.
 
         Args:
-            archive: Where it lies.
-            name: As its sender calls it, made safe.
+            archive: The path of the archive.
+            name: The sender's name for it, made safe.
 
         Raises:
-            UnreadableInput: It could do harm, is damaged, or takes down who reads it.
+            UnreadableInput: It could do harm, is damaged, or crashes its reader.
             OSError: The disk or the system fails, which is no fault of the archive.
         """
         try:

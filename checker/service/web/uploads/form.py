@@ -13,7 +13,7 @@ from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.package.no_package import reason_not_checked
 from checker.service.web.answers.refusal import Refused, sentence
 
-# Names that clients send, made safe; they are shown and tell the kind, and never become paths.
+# Names that clients send, made safe; they are shown and give the kind, and never become paths.
 
 
 SUFFIXES = (*ARCHIVE_SUFFIXES, *single_file_suffixes())
@@ -64,7 +64,7 @@ PARTS_LIMIT = 8
 ROOM = 65_536
 """Bytes of a form around its file."""
 HEAD = 512
-"""Bytes of a file that are enough to tell whether they fit its name."""
+"""Bytes of a file that are enough to check whether they fit its name."""
 _ZIP = (b"PK\x03\x04", b"PK\x05\x06")
 _GZIP = b"\x1f\x8b"
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -92,7 +92,8 @@ class UploadForm:
         Args:
             content_type: Of the request.
             write: Takes the next bytes of the file.
-            admit: Called with the fields so far when the file begins; refuses those who may not.
+            admit: Called with the fields so far when the file begins; refuses those without
+                permission.
 
         Raises:
             Refused: The request is no such form.
@@ -163,7 +164,7 @@ class UploadForm:
             raise Refused(415, sentence(str(error)), error.advice, "kind") from None
 
     def _write(self, piece: bytes) -> None:
-        """Hold the first bytes back until they are enough to tell what they are."""
+        """Hold the first bytes back until they are enough to identify the kind."""
         if self._head is not None:
             self._head += piece
             if len(self._head) < HEAD:

@@ -22,10 +22,10 @@ _LOG = logging.getLogger(LOGGER)
 
 
 def sweep_while_serving(store: Store) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
-    """Return what goes on beside an application as long as it serves.
+    """Return the task that runs beside an application as long as it serves.
 
     Args:
-        store: Whose work in progress is looked through: that of workers, too.
+        store: The store whose work in progress is searched, that of workers included.
     """
 
     @asynccontextmanager
