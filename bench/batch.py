@@ -76,7 +76,7 @@ class Taken:
     """What a batch took until the last report was there.
 
     Attributes:
-        seconds: By the clock, from the start of the workers.
+        seconds: Seconds of real time from the start of the workers.
         processor: Seconds of processors, of all processes of the service.
         rows: Rows that the database wrote.
         log: Bytes that the database wrote ahead.

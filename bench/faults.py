@@ -47,9 +47,9 @@ class Robot:
     """A robot to plant faults in.
 
     Attributes:
-        name: In the table.
-        source: Of its package.
-        folder: Of its package, below the folder of the source.
+        name: The name in the table.
+        source: The source of its package.
+        folder: The folder of its package, below the folder of the source.
         checked: The checked path below the package.
         home: The folder to copy the package to, so that its URIs resolve.
         profile: The profile of the check.
@@ -203,7 +203,7 @@ def results(seed: int, words: str = "", *, once: bool = False) -> list[Result]:
     """Plant the faults in the robots that are there.
 
     Args:
-        seed: Of the random choices.
+        seed: The seed of the random choices.
         words: Only kinds with these in their names.
         once: Each kind in one robot only, and the robots in turn.
     """

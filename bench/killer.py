@@ -27,7 +27,7 @@ class Group:
     """A service that is started again whenever it has been killed.
 
     Attributes:
-        number: Of the port, and in the name of its log.
+        number: The number of the port, also in the name of its log.
         folder: Holds the data, and the log.
         bucket: Variables that lead to one of S3, so that it has data of its own; empty: in a folder
             with other services.

@@ -32,9 +32,10 @@ class Upload:
     """How an upload went.
 
     Attributes:
-        status: Of the answer.
-        id: Of the check; empty if it was refused.
-        seconds: From the first byte sent, the connection with it, to the last one of the answer.
+        status: The status of the answer.
+        id: The id of the check; empty if it was refused.
+        seconds: Seconds from the first byte sent, the connection with it, to the last one of the
+            answer.
     """
 
     status: int
@@ -47,7 +48,7 @@ class Client:
     """Speaks with a service as any program does: a connection for each request.
 
     Attributes:
-        address: Such as `http://127.0.0.1:8000`.
+        address: The address, such as `http://127.0.0.1:8000`.
     """
 
     address: str

@@ -58,7 +58,7 @@ class Followed:
     """Checks to which things happen when the bench wants it.
 
     Attributes:
-        ids: Of the checks.
+        ids: The ids of the checks.
         happened: When what a number stands for happened to a check.
     """
 

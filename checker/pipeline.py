@@ -85,9 +85,9 @@ class Task(Record):
     """What one process does at a time: one package, or an archive with all that it holds.
 
     Attributes:
-        path: As the user gave it.
+        path: The path as the user gave it.
         package: The one to check there; None where it has to be opened first.
-        settings: To judge by, instead of those beside the package.
+        settings: The settings to judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Called with a message when a long step starts.
         mesh_server: Starts what reads the meshes of a package, if it is not to be started as usual.
@@ -173,7 +173,7 @@ def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
     """Yield the result of each task, in their order.
 
     Args:
-        tasks: As `tasks_of` returns them.
+        tasks: The tasks as `tasks_of` returns them.
         jobs: Processes.
 
     Raises:

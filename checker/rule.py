@@ -228,7 +228,7 @@ def rule(
     """Make a rule of a function; the page is the docstring of its module.
 
     Args:
-        id: Such as `SEN005`; never reused.
+        id: The id, such as `SEN005`; never reused.
         name: What is wrong, such as `lidar-scan-resolution`.
         severity: Unless a finding says otherwise.
         concern: What its findings are about.

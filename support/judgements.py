@@ -43,7 +43,7 @@ class Judgement:
         severity: The judged severity.
         place: The place where it is, or was, reported.
         verdict: `true`, `false` or `arguable`.
-        reason: Why, in a sentence.
+        reason: The reason, in a sentence.
         still_reported: Whether a false one is reported to this day.
     """
 
@@ -106,9 +106,9 @@ def findings(source: str, path: str, profile: str, *, trial: bool) -> tuple[Repo
     """Return what the rules report now.
 
     Args:
-        source: Of the package.
-        path: Below the folder of the source.
-        profile: To judge by.
+        source: The source of the package.
+        path: The path below the folder of the source.
+        profile: The profile to judge by.
         trial: Whether the robot is driven.
     """
     folder = folder_of(source)

@@ -39,7 +39,7 @@ class ReviewCase:
     """One corrected fault.
 
     Attributes:
-        id: Of the review finding.
+        id: The id of the review finding.
         package: Folder of the package.
         file: The file of the fault.
         rules: Ids of which any may report it, those that do not exist yet among them.

@@ -56,8 +56,8 @@ class Allowance:
         """Begin with nothing used.
 
         Args:
-            seconds: Of processor time, for each piece.
-            seconds_for_all: Of processor time, for all together.
+            seconds: Seconds of processor time, for each piece.
+            seconds_for_all: Seconds of processor time for all together.
             memory: Bytes by which a piece may make the process grow.
         """
         self._seconds, self._left, self._memory = seconds, seconds_for_all, memory
@@ -130,7 +130,7 @@ class _Watch:
         """Begin to count.
 
         Args:
-            seconds: Of processor time that the piece may take.
+            seconds: Seconds of processor time that the piece may take.
             too_long: What is said of one that takes longer.
             most: Bytes that the process may have meanwhile.
             too_large: What is said of a piece that makes it larger.

@@ -89,8 +89,8 @@ class Cache(Record):
         """Note that a result is not kept, as of a process that ran out of time.
 
         Args:
-            kind: Of the result.
-            disturbance: Why there is none, where the cause is momentary.
+            kind: The kind of the result.
+            disturbance: The reason why there is none, where the cause is momentary.
         """
         self._passing.append(kind)
         if disturbance:

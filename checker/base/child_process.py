@@ -41,8 +41,8 @@ class Limits(Record):
     """What a process may use.
 
     Attributes:
-        seconds: Of processor time. By the clock it may take far longer (`clock_seconds`), since a
-            machine that does other things is not to decide what is checked.
+        seconds: Seconds of processor time. By the clock it may take far longer (`clock_seconds`),
+            since a machine that does other things is not to decide what is checked.
         memory: Bytes of address space.
         draws: Whether it may use graphics cards.
     """
@@ -82,7 +82,7 @@ class Child:
             contents: Files that go with the request: their names, and what is in them.
             starter: Starts it; that of this process when None.
             works: Whether it writes into the working folder, and requests processes itself.
-            folder: On whose disk request and answer lie; that of temporary files when None.
+            folder: The folder for request and answer; that of temporary files when None.
             done: The pipe on which it reports that an answer is there, if it lasts (see
                 `child_server`).
         """

@@ -104,7 +104,7 @@ class Server:
         """Start nothing yet.
 
         Args:
-            module: As of a `Child`.
+            module: The module, as in `Child`.
             limits: What the process may use for all requests; by the clock, for each.
         """
         self._module, self._limits = module, limits

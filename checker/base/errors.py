@@ -65,7 +65,7 @@ class UnreadableInput(CheckerError):
     """An argument that is no package, archive or model file, or cannot be opened.
 
     Attributes:
-        path: As the user gave it.
+        path: The path as the user gave it.
         reason: What is wrong with it, as the end of a sentence that starts with the path.
         advice: What to do about it, in the imperative.
     """

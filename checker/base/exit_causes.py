@@ -24,8 +24,8 @@ def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
     """Return what is said of a process that ended with an exit code other than 0.
 
     Args:
-        code: Of a signal, its negative number; None where there is none.
-        seconds: Of processor time that it had.
+        code: The exit code, for a signal its negative number; None where there is none.
+        seconds: Seconds of processor time that it had.
         memory: Bytes of address space that it had.
     """
     if code in _MOMENTARY:

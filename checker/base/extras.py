@@ -16,7 +16,7 @@ class Extra(Record):
     """An extra of the distribution.
 
     Attributes:
-        name: As pip knows it.
+        name: The name as pip knows it.
         modules: What of it is imported; without one of them the extra is not installed.
     """
 
@@ -55,7 +55,7 @@ class MissingExtra(CheckerError):
     """A feature was requested that only an extra provides.
 
     Attributes:
-        extra: Which.
+        extra: The extra.
     """
 
     def __init__(self, extra: Extra, what: str) -> None:

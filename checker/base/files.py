@@ -65,7 +65,7 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
     Args:
         location: Its place on disk, links resolved; a link put there since is refused.
         path: What to call it.
-        limit: In bytes.
+        limit: The greatest size, bytes.
     """
     try:
         with open_file(location) as file:

@@ -46,7 +46,7 @@ def run_in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed
 
     Args:
         work: Called in the fork. This process must have no threads.
-        seconds: Of processor time.
+        seconds: Seconds of processor time.
     """
     read, code = _forked([work], seconds, math.inf)
     return read[0] if read and code == 0 else _cause(code, seconds)
@@ -69,7 +69,7 @@ def run_all_in_forks(
 
     Args:
         works: See `run_in_fork`.
-        seconds: Of processor time, for each.
+        seconds: Seconds of processor time, for each.
         until: When the time for all ends, by `forks_time`; none is begun in its last second.
         late: Why those that are left then have no result.
     """

@@ -25,7 +25,7 @@ class NotAvailable(Record):
     """A part of a package that a rule needs and that is not available.
 
     Attributes:
-        reason: Why, as the end of a sentence.
+        reason: The reason, as the end of a sentence.
         applicable: False when the package has no such part and needs none.
     """
 
@@ -37,7 +37,7 @@ class WorkerFailed(Record):
     """A process gave no result: it died, ran out of what it may use, or answered with nonsense.
 
     Attributes:
-        reason: Why, as the end of a sentence whose subject is the work.
+        reason: The reason, as the end of a sentence whose subject is the work.
         momentary: Whether the cause is not in the work, so that it may go well the next time: it
             was killed from outside, the machine was too busy, or the disk was full.
     """
@@ -61,7 +61,7 @@ class Parts(Protocol):
         """Return the part; several when a file holds several robots.
 
         Args:
-            kind: As `type_name` returns it.
+            kind: The kind as `type_name` returns it.
         """
         ...
 

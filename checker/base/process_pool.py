@@ -31,7 +31,7 @@ def map_in_processes(
     Args:
         work: A function that another process can import.
         items: What can be sent to another process; none of them is None.
-        processes: At most.
+        processes: The greatest number of processes.
 
     Raises:
         RuntimeError: A process ended before its work was done.

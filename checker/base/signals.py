@@ -17,7 +17,7 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
     holds the lock that `Event.set` waits for.
 
     Args:
-        numbers: Of the signals.
+        numbers: The numbers of the signals.
         do: The actions, in this order; further signals do nothing.
     """
     heard, told = os.pipe()  # open until the process ends

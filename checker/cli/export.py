@@ -38,7 +38,7 @@ class Exported(Record):
     """The robot in another format.
 
     Attributes:
-        name: Of the package, and so of the files.
+        name: The name of the package, and so of the files.
         text: The document.
         files: Files that it needs beside it, path and text.
         notes: What was left out or decided.

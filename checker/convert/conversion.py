@@ -47,7 +47,7 @@ class CarriedPlugin(Record, eq=False):
     """A plugin of the source that is in the result, for the caller to judge.
 
     Attributes:
-        plugin: As the source says it; its element leads to the file and line.
+        plugin: The plugin as the source says it; its element leads to the file and line.
         link: Name of the link of the result that its tag is about; empty for the whole robot.
         sensor: Name of the sensor that contains it; else empty.
         reference: Name, without prefix, of the link or joint that the source's tag is about.

@@ -58,8 +58,8 @@ class Copier:
         """Add a copy of an element at the end of one of the result.
 
         Args:
-            element: Of the source.
-            parent: Of the result.
+            element: The element of the source.
+            parent: The parent of the result.
             link: Name of the link of the result that it is about; empty for the robot.
             reference: Name that the source's tag refers to, without prefix.
             pose: The pose of the source's link in that of the result.

@@ -87,10 +87,10 @@ class GazeboSettings:
     """What tags say about one link, joint, or the whole robot.
 
     Attributes:
-        link: For the link itself.
-        collision: For each of its collisions.
-        joint: For the joint.
-        whole: For the model.
+        link: The content for the link itself.
+        collision: The content for each of its collisions.
+        joint: The content for the joint.
+        whole: The content for the model.
         materials: Names of materials of Gazebo; the last counts.
         shapes: `<visual>` and `<collision>`, whose content goes into each of the link's.
         copied: SDF that goes in as it is.

@@ -41,7 +41,7 @@ class BodyParts:
 
         Args:
             root: The document; its bodies have the scene's own names.
-            scene: It.
+            scene: The scene.
         """
         self._root, self._scene = root, scene
         named = {body.get("name"): body for body in root.iter("body")}

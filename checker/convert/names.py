@@ -16,7 +16,7 @@ class Naming(Record):
     """What goes in front of names in the source.
 
     Attributes:
-        prefix: With its slash; empty for none.
+        prefix: The prefix with its slash; empty for none.
         known: Names of links and joints as the source has them.
     """
 

@@ -31,8 +31,8 @@ class Step(Record):
 
     Attributes:
         kind: Its type.
-        pose: Of its frame, and so of its child's, in the robot's frame.
-        axis: In that frame; None for a fixed joint.
+        pose: The pose of its frame, and so of its child's, in the robot's frame.
+        axis: The axis in that frame; None for a fixed joint.
         limits: What the source says of the axis, if anything.
     """
 
@@ -146,9 +146,9 @@ def converted_to_urdf(
     simulation publishes those.
 
     Args:
-        robot: From SDF or URDF.
+        robot: The robot from SDF or URDF.
         mesh_uri: Gives the URI to write for a mesh or texture, as written in the robot's file.
-        prefix: In front of the name of every link, with its slash: `${name}/`.
+        prefix: The prefix in front of the name of every link, with its slash: `${name}/`.
     """
     writer = _Writer(robot, mesh_uri, prefix)
     tree = writer.write()
@@ -260,7 +260,7 @@ def xacro_of(robot: Robot, *, name: str, mesh_uri: Callable[[str], str]) -> etre
     """Return the `<robot>` of a xacro file with `${name}/` in front of every link.
 
     Args:
-        robot: From SDF.
+        robot: The robot from SDF.
         name: The name of the package; the default of the argument `name`.
         mesh_uri: Gives the URI to write for a mesh or texture, as written in the robot's file.
     """

@@ -39,7 +39,7 @@ class Paint(Record):
         """Add `<transparency>` and `<material>` to a visual of SDF.
 
         Args:
-            visual: Of the result.
+            visual: The visual of the result.
             texture_uri: What to write for the texture.
         """
         if self.transparency > 0.0:
@@ -73,7 +73,7 @@ class Materials:
         """Return how a visual looks; None for a look of its own, such as a mesh's.
 
         Args:
-            visual: Of the source.
+            visual: The visual of the source.
             materials: The `<material>`s of `<gazebo>` tags about its link; they come first.
         """
         for element in reversed(materials):

@@ -33,7 +33,7 @@ class Shape(Record, eq=False):
 
     Attributes:
         kind: Its tag.
-        sizes: As `Geometry.sizes`.
+        sizes: The sizes, as in `Geometry.sizes`.
         pose: The pose in the frame of the geometry.
     """
 

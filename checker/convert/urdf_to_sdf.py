@@ -42,9 +42,10 @@ def sdf_of(
     """Write a URDF robot as an SDF 1.6 document.
 
     Args:
-        robot: As read from the description (`description.robot`, or the same with meshes).
+        robot: The robot as read from the description (`description.robot`, or the same with
+            meshes).
         description: Its `<gazebo>` tags.
-        name: Of the model.
+        name: The name of the model.
         mesh_uri: Gives the URI to write for a mesh or texture of the source, as written there.
         namespace: What goes in front of names of links and joints, without the slash. When empty,
             the part before the slash that all links have in common, if there is one.

@@ -29,7 +29,7 @@ def code_actions(
     """Return the actions that a client requests.
 
     Args:
-        server: Of the editor.
+        server: The server of the editor.
         document: The file.
         state: The state of its package.
         context: The user's selection, and the requested kinds of actions.

@@ -45,7 +45,7 @@ def hover(
     """Return what is shown at a position: the pages of rules that find something there, and more.
 
     Args:
-        session: With the packages.
+        session: The session with the packages.
         document: The file.
         state: The state of its package.
         position: The user's position.
@@ -94,7 +94,7 @@ def completions(
     """Return what may be written at a position.
 
     Args:
-        session: With the packages.
+        session: The session with the packages.
         document: The file as it is now.
         checked: What is known of its package.
         position: The position of the caret.

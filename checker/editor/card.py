@@ -32,7 +32,7 @@ def card(title: str, rows: Iterable[tuple[str, str]], note: str = "") -> str:
     """Return a hover.
 
     Args:
-        title: In Markdown.
+        title: The title in Markdown.
         rows: Each a label and what it says, in Markdown; those that say nothing are left out.
         note: A paragraph below, in Markdown.
     """

@@ -24,7 +24,7 @@ class Changes:
         """Begin with none.
 
         Args:
-            documents: Those that are open; an edit of one says which version it is for.
+            documents: The documents that are open; an edit of one says which version it is for.
             columns: The client's unit of columns.
         """
         self._versions = {each.path: (each.uri, each.version) for each in documents}

@@ -66,8 +66,8 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
     The user sees the progress, and may cancel it.
 
     Args:
-        server: Of the editor.
-        uri: Of the file.
+        server: The server of the editor.
+        uri: The URI of the file.
         display: Whether the report is to hold the robot in 3D.
 
     Returns:

@@ -20,11 +20,11 @@ class Document(Record, eq=False, dict=True):
     """An open file.
 
     Attributes:
-        uri: As the client spells it.
+        uri: The URI as the client spells it.
         path: Its path, links resolved; it may not exist yet.
         version: The client's version of the text.
         text: What the editor shows.
-        encoding: Of the file on disk.
+        encoding: The encoding of the file on disk.
     """
 
     uri: str

@@ -38,7 +38,7 @@ def span_of(low: float, high: float, unit: str, *, turns: bool = False) -> str:
     Args:
         low: The lower one; −inf for none.
         high: The upper one; inf for none.
-        unit: Of both.
+        unit: The unit of both.
         turns: Whether they are angles in radians, which degrees are added to.
     """
     if math.isinf(low) and math.isinf(high):

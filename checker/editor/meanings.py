@@ -32,7 +32,7 @@ def meaning_of(language: str, tags: Sequence[str], attribute: str = "") -> Meani
 
     Args:
         language: `sdf` or `urdf`.
-        tags: Of the elements around it and of its own.
+        tags: The tags of the elements around it and of its own.
         attribute: Its name; empty for the element.
     """
     known = table("xml_meanings")[language]
@@ -45,7 +45,7 @@ def words_of_sdf(tags: Sequence[str], attribute: str, kind: str, target: Context
     """Return the words among which an element or attribute of SDF chooses; none where any may be.
 
     Args:
-        tags: Of the elements around it and of its own.
+        tags: The tags of the elements around it and of its own.
         attribute: Its name; empty for a text.
         kind: Its type in the schema.
         target: The target whose sensors count.
@@ -81,7 +81,8 @@ def urdf_attributes(path: str) -> dict[str, AttributeSpec]:
     """Return the attributes of an element of URDF.
 
     Args:
-        path: Below `<robot>`. In a macro it may begin anywhere: then the last tag alone counts.
+        path: The path below `<robot>`. In a macro it may begin anywhere: then the last tag alone
+            counts.
     """
     path = _table_path(path)
     beside = table("xml_meanings")["beside"].get(path, {"attributes": ()})
@@ -95,7 +96,7 @@ def urdf_children(path: str) -> tuple[str, ...]:
     """Return the elements that may stand below one of URDF, those that have to first.
 
     Args:
-        path: As of `urdf_attributes`; `robot` for the robot itself.
+        path: The path, as in `urdf_attributes`; `robot` for the robot itself.
     """
     path, spec = _table_path(path), table("urdf_spec")
     needed = list(spec["needs"].get(path, ()))

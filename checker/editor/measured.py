@@ -18,7 +18,7 @@ class Measured(Record, eq=False):
     """A check with weights and trial.
 
     Attributes:
-        package: In the state that was checked.
+        package: The package in the state that was checked.
         report: The result.
         rules: Ids of the rules that need what is measured.
     """

@@ -45,7 +45,7 @@ class Navigator:
         """Take the names.
 
         Args:
-            index: Of the package.
+            index: The index of the package.
             document: The file.
             columns: The client's unit of columns.
         """

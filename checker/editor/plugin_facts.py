@@ -29,7 +29,7 @@ class Parameter(Record):
     """A parameter of a plugin.
 
     Attributes:
-        path: Below `<plugin>`: `a/b` nested, `@x` an attribute.
+        path: The path below `<plugin>`: `a/b` nested, `@x` an attribute.
         words: Its type, and its default where one is known; empty where neither is.
         usual: What packages set most often.
     """
@@ -52,7 +52,7 @@ class PluginFacts(Record):
         classes: Names that `name` may have.
         title: What it belongs to: `Gazebo Harmonic`.
         releases: What messages call the releases that have it.
-        parameters: By path; none where they are not known.
+        parameters: The parameters by path; none where they are not known.
         note: What else there is to know.
     """
 
@@ -68,8 +68,8 @@ def plugin_facts(filename: str, name: str, target: Context) -> PluginFacts | Non
     """Return what is known of a plugin; None where nothing is.
 
     Args:
-        filename: Of its library, as written; empty if none is.
-        name: Of its class, as written.
+        filename: The filename of its library, as written; empty if none is.
+        name: The name of its class, as written.
         target: The newest release counts where it has none of its own.
     """
     stem = library_stem(filename)

@@ -33,7 +33,7 @@ class RobotParts(Record, eq=False, dict=True):
     """The parts of robots by the elements that a person wrote.
 
     Attributes:
-        robots: Those that count.
+        robots: The robots that count.
     """
 
     robots: tuple[Robot, ...]
@@ -65,7 +65,7 @@ class RobotParts(Record, eq=False, dict=True):
         """Return the part that has a name; the first of the kinds that has one.
 
         Args:
-            name: As written.
+            name: The name as written.
             kinds: What it may be.
             scopes: What may be in front of it in a scoped name, the likeliest first.
         """
@@ -113,8 +113,8 @@ def robot_parts(subject: Subject, path: str) -> RobotParts:
 
     Args:
         subject: The package.
-        path: Of the file. A model that is none of the package's robots is read by itself; a file
-            that describes no part of any robot is about all of them.
+        path: The path of the file. A model that is none of the package's robots is read by itself;
+            a file that describes no part of any robot is about all of them.
     """
     robots = (*package_robots(subject),)
     document = subject.package.xml(path)

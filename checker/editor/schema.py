@@ -11,7 +11,7 @@ def schema_type(tags: Sequence[str], version: str) -> ElementType | None:
     """Return the type of an element of SDF; None for one that has no place there.
 
     Args:
-        tags: From `sdf` down to it.
+        tags: The tags from `sdf` down to it.
         version: SDF version. A newer one counts where it does not know the element.
     """
     later = VERSIONS[VERSIONS.index(version) + 1 :] if version in VERSIONS else ()

@@ -43,7 +43,7 @@ class Problem(Record):
 
     Attributes:
         message: A sentence.
-        path: Of the settings that are at fault; None for other reasons.
+        path: The path of the settings that are at fault; None for other reasons.
     """
 
     message: str
@@ -54,9 +54,9 @@ class State(Record, eq=False, dict=True):
     """What is known of a unit.
 
     Attributes:
-        unit: As it is on disk.
+        unit: The unit as it is on disk.
         checked: The last check; None when there was none.
-        problem: Why it is not checked; None when it is.
+        problem: The reason why it is not checked; None when it is.
         measured: The last check with weights and trial; None when there was none.
     """
 
@@ -85,7 +85,7 @@ class Session:
     """The open files and their packages. All but `documents` belongs to one thread.
 
     Attributes:
-        documents: By their URIs.
+        documents: The documents by their URIs.
         units: Finds the packages of files.
     """
 
@@ -93,7 +93,7 @@ class Session:
         """Begin with no open file.
 
         Args:
-            folders: Of the editor, links resolved.
+            folders: The folders of the editor, links resolved.
         """
         self.documents: dict[str, Document] = {}
         self.units = Units(folders)

@@ -42,7 +42,7 @@ def reason_comment(source: SourceText, rule: str, line: int) -> Insertion | None
     Args:
         source: The file.
         rule: Id of the rule.
-        line: From 1.
+        line: The line, counted from 1.
     """
     if not has_comments(source.file):
         return None
@@ -82,7 +82,7 @@ def rule_switched_off(
     """Return the edit that adds a rule to `ignore` in the settings of a package.
 
     Args:
-        state: Of the package.
+        state: The state of the package.
         rule: Id of the rule.
         documents: All open files, by URI.
         columns: The client's unit of columns.

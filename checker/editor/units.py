@@ -20,7 +20,7 @@ class Unit(Record, eq=False):
 
     Attributes:
         path: What was opened: a folder of the editor's, else the package or file.
-        package: With its siblings, read from disk.
+        package: The package with its siblings, read from disk.
     """
 
     path: Path
@@ -39,7 +39,7 @@ class Units:
         """Look at nothing yet.
 
         Args:
-            folders: Of the editor, links resolved.
+            folders: The folders of the editor, links resolved.
         """
         self.folders = tuple(folders)
         self._opened: dict[Path, Opened | None] = {}

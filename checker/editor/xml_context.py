@@ -65,7 +65,7 @@ class Context(Record):
         where: Kind of place.
         around: Elements around it, outermost first; a tag that it is in is none of them.
         tag: Name of the start or end tag that it stands in.
-        attributes: Of that start tag, by name.
+        attributes: The attributes of that start tag, by name.
         attribute: Name of the attribute in whose value it stands.
         typed: What is between the start of the word and the caret.
         start: Offset of the word: a name, a value, a text of one line.

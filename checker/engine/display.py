@@ -85,7 +85,7 @@ class RobotDisplay(Record, eq=False, dict=True):
     """The first of some robots, to be shown.
 
     Attributes:
-        robots: At least one.
+        robots: The robots, at least one.
         cache: The cache of results.
         stages: Called with a message when a long step starts.
         processes: Processes that wait; the caller ends them.

@@ -65,7 +65,7 @@ def new_findings(added: Outcome, known: Outcome, description: UrdfDescription) -
     Args:
         added: What was found.
         known: What was found in the robots before it.
-        description: Of the robot.
+        description: The description of the robot.
     """
     findings = (*known.findings, *(it.finding for it in known.suppressed), *known.covered)
     told = {_spot(finding, place) for finding in findings for place in finding.places}

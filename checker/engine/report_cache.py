@@ -37,7 +37,7 @@ def from_stored(members: Any, path: str) -> PackageReport:
 
     Args:
         members: What the cache holds.
-        path: Of the package, as the user gives it this time.
+        path: The path of the package, as the user gives it this time.
 
     Raises:
         ValidationError: It is no stored report.

@@ -117,7 +117,7 @@ class Fixed(Record):
     """What fixing comes to.
 
     Attributes:
-        files: Those that change.
+        files: The files that change.
         findings: What was fixed, in order.
         left: Findings whose fix was allowed and could not be made.
         elsewhere: Findings whose fix was allowed, in files that belong to other packages.
@@ -137,7 +137,7 @@ def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]
     """Apply fixes until nothing changes; nothing is written.
 
     Args:
-        package: As it is on disk.
+        package: The package as it is on disk.
         judge: Checks the package as edited so far.
         allowed: Fixes that may be made.
     """

@@ -39,7 +39,7 @@ def uncommitted(folder: Path, paths: Sequence[str]) -> list[str]:
 
     Args:
         folder: Links resolved.
-        paths: Of files, relative to the folder.
+        paths: The paths of files, relative to the folder.
 
     Raises:
         GitFailed: git does not answer.

@@ -16,7 +16,7 @@ class Content(Record, eq=False):
     """The robots and worlds of a file.
 
     Attributes:
-        robots: Those that are not part of another one, in the order of the file.
+        robots: The robots that are not part of another one, in the order of the file.
         worlds: The worlds in the order of the file.
         missing: Why a robot is not among these although the file names it, as a sentence without
             its full stop; else empty.

@@ -25,13 +25,13 @@ class Bridge(Record):
     """A node that passes one topic on.
 
     Attributes:
-        name: Of the node.
-        ign_topic: In Gazebo.
-        ros_topic: Below the robot's namespace.
+        name: The name of the node.
+        ign_topic: The topic in Gazebo.
+        ros_topic: The topic below the robot's namespace.
         args: Of the node: the topic, for all but pictures with the types on both sides.
         picture: Whether image_bridge passes it on.
         depth: Whether it is a picture of distances.
-        info_topic: Of a colour picture, the topic of its camera_info.
+        info_topic: The topic of camera_info for a colour picture.
     """
 
     name: str
@@ -60,7 +60,7 @@ class SensorBridges(Record):
         sensor: Its name.
         kind: What it is, for a comment.
         bridges: One for each topic.
-        rate_topic: Below which its rate can be set; empty for sensors without pictures.
+        rate_topic: The topic below which its rate can be set; empty for sensors without pictures.
     """
 
     sensor: str

@@ -32,15 +32,15 @@ class Drive(Record, eq=False):
     """A DiffDrive or AckermannSteering.
 
     Attributes:
-        wheels: Those that it turns.
-        separation: Between left and right wheels, metres.
-        radius: Of the wheels, metres.
+        wheels: The wheels that it turns.
+        separation: The distance between left and right wheels, metres.
+        radius: The radius of the wheels, metres.
         max_velocity: m/s.
         max_acceleration: m/s².
         normal_force: On each wheel of a robot whose wheels slip, N; else None.
         steering: Left and right steering joint; empty for one that does not steer.
-        wheel_base: Between front and rear wheels, metres.
-        kingpin_width: Between the steering joints, metres.
+        wheel_base: The distance between front and rear wheels, metres.
+        kingpin_width: The distance between the steering joints, metres.
         steering_limit: Radians.
         notes: What was decided.
         open_points: What the author ought to look at.

@@ -81,7 +81,7 @@ class Migrated(Record):
     """A package that was made.
 
     Attributes:
-        folder: Of the package.
+        folder: The folder of the package.
         notes: What was decided, as sentences.
         open_points: What only the author can decide.
         to_do: Places that say TODO, each with what must be filled in.

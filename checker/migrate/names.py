@@ -52,7 +52,7 @@ def _shift(link: etree._Element, new_frame: Transform) -> None:
     """Move a link's frame, and leave its parts where they are.
 
     Args:
-        link: Of the model.
+        link: The link of the model.
         new_frame: Its new frame in its old one.
     """
     _pose(link, _pose_of(link) @ new_frame)

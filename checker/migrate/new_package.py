@@ -62,7 +62,7 @@ class Known(Record, eq=False):
         drive: None for a robot without wheels.
         servos: Joints that are held at a position.
         sensors: What is bridged.
-        folders: Of the package, to be installed.
+        folders: The folders of the package, to be installed.
     """
 
     names: Names

@@ -40,7 +40,7 @@ class Servo(Record):
 
     Attributes:
         joint: The joint that it holds.
-        topic: Below the robot's name.
+        topic: The topic below the robot's name.
         p: N·m/rad (or N/m).
         i: N·m/(rad·s).
         d: N·m·s/rad.

@@ -65,7 +65,7 @@ def as_rgbd_camera(sensor: etree._Element, depth_near: float) -> None:
     """Write a camera of colour and depth.
 
     Args:
-        sensor: To write.
+        sensor: The sensor to write.
         depth_near: Metres from which depth is measured.
     """
     as_camera(sensor)
@@ -103,8 +103,8 @@ def narrow_lidar(sensor: etree._Element, angle: float, near: float, far: float) 
     """Give a sensor without rays a narrow cone of them.
 
     Args:
-        sensor: To write.
-        angle: Of the cone, radians.
+        sensor: The sensor to write.
+        angle: The angle of the cone, radians.
         near: Least distance, metres.
         far: Greatest.
     """

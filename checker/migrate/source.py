@@ -171,9 +171,9 @@ class Papers(Record):
     """The authors of the robot and its licence.
 
     Attributes:
-        name: Of the maintainer.
-        email: Of the maintainer.
-        license: Of the package.
+        name: The name of the maintainer.
+        email: The email of the maintainer.
+        license: The license of the package.
         open_points: What the author has to fill in.
     """
 

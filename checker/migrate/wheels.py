@@ -31,7 +31,7 @@ class Wheels(Record, eq=False):
 
     Attributes:
         left: From front to rear.
-        right: Likewise.
+        right: The same on the right.
         reason: The way they were found, as the end of a sentence.
         steering: Joints that steer a wheel, driven or not: left, right; empty without.
     """

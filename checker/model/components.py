@@ -31,7 +31,7 @@ class Part(Record, eq=False):
     """Anything of a robot that has a name and an element.
 
     Attributes:
-        name: As written.
+        name: The name as written.
         element: The element that describes it, for what the model does not contain.
     """
 
@@ -50,8 +50,8 @@ class Pose(Record, eq=False):
     Attributes:
         transform: The numbers, as a transform into the frame `relative_to`.
         relative_to: Name of that frame; empty for the default of its place.
-        numbers: As written, each with its place: x, y, z (metres), then roll, pitch, yaw (radians,
-            or degrees), or a quaternion x, y, z, w.
+        numbers: The numbers as written, each with its place: x, y, z (metres), then roll, pitch,
+            yaw (radians, or degrees), or a quaternion x, y, z, w.
         span: The pose element, or the element that could have stated one.
         in_radians: Whether the numbers end with three angles in radians.
     """
@@ -152,9 +152,9 @@ class Sensor(Part, dict=True):
     """A sensor.
 
     Attributes:
-        type: As written (`gpu_lidar`).
+        type: The type as written (`gpu_lidar`).
         link: Name of the link (or joint) that carries it.
-        pose: In that link's frame, unless it says otherwise.
+        pose: The pose in that link's frame, unless it says otherwise.
         topic: Empty for the default.
     """
 
@@ -217,7 +217,7 @@ class Link(Part):
     """A rigid body.
 
     Attributes:
-        scoped_name: With the names of nested models in front: `arm::wrist`.
+        scoped_name: The scoped name with the names of nested models in front: `arm::wrist`.
         inertial: None when the file states none.
         gravity: Whether gravity acts on it.
         kinematic: Whether it only follows its joints, and no force moves it.
@@ -325,7 +325,7 @@ class Model(Part):
 
     Attributes:
         scoped_name: `arm` for a model nested in the robot.
-        pose: In the model around it, unless it says otherwise.
+        pose: The pose in the model around it, unless it says otherwise.
         definition: The `<model>` itself, which an include takes from another file.
         scope: What is in front of scoped names around it; empty for the robot.
         prefix: What is in front of scoped names inside it.

@@ -18,9 +18,9 @@ class Controller(Record, eq=False):
     """A controller that parameter files configure.
 
     Attributes:
-        name: As its node is called.
-        type: Such as `diff_drive_controller/DiffDriveController`.
-        parameters: Of its own block and of those for every node, by name.
+        name: The name as its node is called.
+        type: The type, such as `diff_drive_controller/DiffDriveController`.
+        parameters: The parameters of its own block and of those for every node, by name.
         own: Names of the parameters in its own block.
         listed: Whether the controller manager's block names it.
         span: The key of its block, else the place that states its type.
@@ -71,7 +71,7 @@ class ControllerFile(Record, eq=False):
     """A parameter file that is about controllers.
 
     Attributes:
-        path: As the package lists it.
+        path: The path as the package lists it.
         blocks: What it gives to which nodes.
         loaded_by: What names it: the `<parameters>` of a Gazebo plugin, or a launch file; None when
             it is only found in the package.

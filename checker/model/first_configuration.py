@@ -11,7 +11,8 @@ class FirstConfiguration(Record, eq=False):
 
     Attributes:
         name: Its package.
-        robot: With the plugins that its own spawner adds. Places in it are relative to its package.
+        robot: The robot with the plugins that its own spawner adds. Places in it are relative to
+            its package.
     """
 
     name: str

@@ -58,15 +58,15 @@ class Mesh(Record, dict=True):
     """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
 
     Attributes:
-        path: Of the file, relative to the package.
+        path: The path of the file, relative to the package.
         format: `dae`, `stl` or `obj`.
         triangles: The number of triangles; polygons count as the triangles they are cut into.
         low: Least x, y, z of its box, metres.
         high: Greatest.
         metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
         hull: Corners of the convex hull, metres; none where all points are in a plane.
-        volume: Of the surface as it stands, m³; negative when inside out, None when not watertight
-            or when neighbours disagree on which side is outside.
+        volume: The volume of the surface as it stands, m³; negative when inside out, None when not
+            watertight or when neighbours disagree on which side is outside.
         hull_volume: m³.
         watertight: Whether each edge joins two triangles, once equal corners are joined.
         degenerate: Number of triangles without area.
@@ -168,8 +168,8 @@ class MeshUse(Record, eq=False):
     """A collision or visual that names a mesh file.
 
     Attributes:
-        shape: It.
-        uri: As written.
+        shape: The shape.
+        uri: The URI as written.
         file: What the whole file holds.
     """
 

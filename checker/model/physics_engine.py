@@ -22,7 +22,7 @@ class PhysicsEngine(Record):
     """A physics engine that is known.
 
     Attributes:
-        key: In the table, such as `dartsim`.
+        key: The key in the table, such as `dartsim`.
         title: What messages call it.
         is_default: Whether Gazebo loads it because nothing names another one.
     """

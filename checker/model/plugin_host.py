@@ -14,7 +14,7 @@ class PluginHost(Record, eq=False):
     Attributes:
         plugins: Those of a model and its sensors; those of a world and its static models.
         robot: The model; None for a world.
-        unread: Why plugins of the model are not among these; else empty.
+        unread: The reasons why plugins of the model are not among these; else empty.
     """
 
     plugins: tuple[Plugin, ...]

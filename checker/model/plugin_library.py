@@ -26,7 +26,8 @@ class PluginLibrary(Record):
     """A shared library and the plugin classes in it.
 
     Attributes:
-        filename: As plugins usually name it: `libignition-gazebo-diff-drive-system.so`.
+        filename: The filename as plugins usually name it:
+            `libignition-gazebo-diff-drive-system.so`.
         classes: Full names of its classes; none in Gazebo Classic, where `name` is any name.
         parameters: Tags that its source reads; None where the source is not known.
         computed: Pattern of further tags, whose names its source computes; empty where it does not.

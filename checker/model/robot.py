@@ -52,17 +52,18 @@ class Robot(Part, dict=True):
 
     Attributes:
         document: The file it was read from.
-        format: Of the file, such as `sdf`; facts in tables are listed by it.
+        format: The format of the file, such as `sdf`; facts in tables are listed by it.
         conventions: What this format states, and what it leaves to others.
         version: SDF version as written.
-        plugins: Of the model file and, in a package, of what the spawner emits.
+        plugins: The plugins of the model file and, in a package, of what the spawner emits.
         frame_graph: The poses of all frames.
         faults: What could not be read as it stands.
         unresolved_includes: URIs of includes whose model is not available.
         merges_unknown: Whether such a model would have given its parts to the one around it.
-        unread_plugins: Why plugins that the spawner adds are not among these; else empty.
+        unread_plugins: The reasons why plugins that the spawner adds are not among these; else
+            empty.
         meshes: What its mesh files hold.
-        controllers: Of ros2_control, that move its joints.
+        controllers: The controllers of ros2_control, that move its joints.
     """
 
     document: XmlDocument
@@ -293,7 +294,7 @@ class Robot(Part, dict=True):
 
         Args:
             owner: The link (or joint) that carries the part.
-            pose: Of its collision, visual, sensor, light or inertial.
+            pose: The pose of its collision, visual, sensor, light or inertial element.
         """
         if pose.relative_to:
             base = self.pose_of(pose.relative_to)

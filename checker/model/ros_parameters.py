@@ -30,7 +30,7 @@ class Parameter(Record, eq=False):
     """A parameter of a node.
 
     Attributes:
-        name: With dots between its levels: `linear.x.max_velocity`.
+        name: The name with dots between its levels: `linear.x.max_velocity`.
         node: Its value.
         key: The place of its name.
     """
@@ -98,7 +98,7 @@ class NodeBlock(Record, eq=False):
 
     Attributes:
         name: Full name that nodes are matched with, with its wildcards: `/**/controller_manager`.
-        parameters: By name, the last one where a name stands twice.
+        parameters: The parameters by name, the last one where a name stands twice.
         span: The key above `ros__parameters`.
     """
 

@@ -22,7 +22,7 @@ class Format(Record):
     """A format of robots, whose files are XML.
 
     Attributes:
-        name: Such as `sdf`.
+        name: The name, such as `sdf`.
         suffixes: Ends of the names of its files, in lower case; the first one is that of robots.
         roots: Root elements of its files.
         reader: Module and name of the function that returns what a file contains

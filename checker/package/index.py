@@ -83,7 +83,7 @@ class FileIndex(Record, eq=False, dict=True):
     """What a folder holds.
 
     Attributes:
-        entries: By path, sorted.
+        entries: The entries by path, sorted.
         faults: What could not be looked at: unreadable files and folders, limits exceeded.
     """
 

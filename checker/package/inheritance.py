@@ -45,7 +45,7 @@ class Found(Record):
 
     Attributes:
         package: The package that holds it.
-        path: From the package that asked: `model.sdf`, or `../<sibling>/model.sdf`.
+        path: The path from the package that asked: `model.sdf`, or `../<sibling>/model.sdf`.
     """
 
     package: Package

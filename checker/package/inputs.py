@@ -215,7 +215,7 @@ def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
     """Return a package that also finds the packages in further folders.
 
     Args:
-        package: As it was opened.
+        package: The package as it was opened.
         folders: Each holds packages, or is one.
 
     Raises:

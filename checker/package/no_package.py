@@ -41,7 +41,7 @@ class Instead(Record):
     Attributes:
         kind: What it is: `a mesh`.
         advice: What to give, in the imperative.
-        name: Of the file.
+        name: The name of the file.
     """
 
     kind: str

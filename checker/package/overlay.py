@@ -41,7 +41,7 @@ class Overlay(Record, eq=False):
         Args:
             location: The place on disk, links resolved.
             path: What to call it.
-            limit: In bytes, of a file that is read from disk.
+            limit: The greatest size of a file that is read from disk, bytes.
         """
         own = self.texts.get(location)
         return SourceText(path, own.text, own.encoding) if own else read_text(location, path, limit)

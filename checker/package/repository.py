@@ -23,7 +23,7 @@ class Unit(Record):
     """What is checked by itself.
 
     Attributes:
-        folder: Of a package or model, or that of a loose file; links resolved.
+        folder: The folder of a package or model, or that of a loose file; links resolved.
         only: Name of the loose file; empty for a folder.
     """
 
@@ -40,7 +40,7 @@ class Units(Record):
     """All that a folder holds.
 
     Attributes:
-        units: By path, packages before what is in them.
+        units: The units by path, packages before what is in them.
         complete: Whether all folders were looked into.
         ignored: Files that keep the build tools, and this search, out of their folders.
     """
@@ -90,7 +90,7 @@ class _Search:
         """Yield a folder if it is a unit, and what it holds.
 
         Args:
-            folder: To look into.
+            folder: The folder to look into.
             inside: Whether it is in a ROS package.
             depth: Folders above it that were searched.
         """

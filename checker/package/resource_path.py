@@ -53,8 +53,8 @@ class SearchedFolder(Record, eq=False):
     """A folder that is put on the path.
 
     Attributes:
-        folder: Below the folder of all share folders: empty for that itself, `arm/models`; None
-            when it is not known, or lies elsewhere.
+        folder: The folder below the folder of all share folders: empty for that itself,
+            `arm/models`; None when it is not known, or lies elsewhere.
         known: Whether it is known where it lies.
         span: What puts it there.
     """

@@ -40,7 +40,7 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     Args:
         package: The package whose file states it.
         folder: The folder of that file, relative to the package.
-        uri: As written.
+        uri: The URI as written.
     """
     if named := _SCHEME.match(uri):
         return _in_package(package, *named.groups())

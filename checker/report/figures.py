@@ -36,9 +36,9 @@ class Row(Record):
 
     Attributes:
         label: What was measured.
-        value: With its unit; least to greatest of several parts.
+        value: The value with its unit; least to greatest of several parts.
         verdict: The gravest; `ok` only if that goes for all parts.
-        limits: Of the rule that judges them, in words.
+        limits: The limits of the rule that judges them, in words.
         rule: Its id; empty for figures that only inform.
         parts: The number of parts it was measured for.
         matters: Whether it is shown when there is little room.
@@ -159,7 +159,7 @@ class Fact(Record):
 
     Attributes:
         name: `mass`.
-        value: With its unit: `18.5 kg`.
+        value: The value with its unit: `18.5 kg`.
         phrase: Both together as one says it: `mass 18.5 kg`, `8 joints`.
     """
 

@@ -39,9 +39,9 @@ class Launched(Record):
         file: The launch file.
         files: All files that it is read from.
         nodes: And what else has topics.
-        topics: By name.
+        topics: The topics by name.
         transforms: Those of the robot's joints among them.
-        unknown: Why there may be more; empty where all is known.
+        unknown: The reason why there may be more; empty where all is known.
     """
 
     file: str

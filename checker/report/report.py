@@ -163,7 +163,7 @@ class Suppressed(Record):
     """A finding that the user has seen and set aside.
 
     Attributes:
-        finding: As it would have been reported.
+        finding: The finding as it would have been reported.
         reason: The user's reason; for the baseline, a default one.
         place: The place of the comment; None for one elsewhere.
     """
@@ -208,7 +208,7 @@ class PackageReport(Record):
     """All that was found out about one package.
 
     Attributes:
-        path: As the user gave it.
+        path: The path as the user gave it.
         kind: `robot`, `configuration`, `plugin`, ….
         profile: Name of the profile that judged it.
         fail_on: Findings at or above this severity make the run fail.
@@ -294,7 +294,7 @@ class NotOpened(Record):
     """An argument, or a folder below one, that was not checked at all, and why.
 
     Attributes:
-        path: As the user gave it.
+        path: The path as the user gave it.
         reason: The end of a sentence that starts with the path.
         failed: Whether the user named it, so that the run has failed.
         disturbed: What failed of the disk or the system, if that is why; else empty.

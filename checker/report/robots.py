@@ -15,7 +15,7 @@ class TrialVerdict(Record):
 
     Attributes:
         word: `ok`, `info`, `warning`, `error`; `not judged`; `not driven`; empty without a trial.
-        reason: Why it was not driven; may be empty.
+        reason: The reason why it was not driven; may be empty.
     """
 
     word: str

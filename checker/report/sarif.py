@@ -60,7 +60,7 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
 
     Args:
         item: What was found.
-        index: Of its rule among the run's.
+        index: The index of its rule among the run's.
         marks: What it carries besides.
         folder: The folder in which the command was run.
     """

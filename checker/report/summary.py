@@ -36,7 +36,7 @@ class Sentence(Record):
 
     Attributes:
         lead: The verdict, such as `Not ready`.
-        rest: Why; empty or what follows the lead behind a colon.
+        rest: The reason; empty or what follows the lead behind a colon.
         aside: What was left out, for the end in brackets; may be empty.
     """
 
@@ -182,7 +182,7 @@ def what_was_checked(kinds: Iterable[str]) -> str:
     """Return how many packages, worlds and other single files there are: `2 packages and 1 world`.
 
     Args:
-        kinds: Of each, as `PackageReport.kind` has it.
+        kinds: The kind of each, as in `PackageReport.kind`.
     """
     numbers = Counter(map(_noun, kinds))
     return listed([count(numbers[noun], noun) for noun in _NOUNS if numbers[noun]]) or "0 packages"

@@ -41,7 +41,7 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
     """Yield the lines of the table, and what was left out of the trial.
 
     Args:
-        trial: As `PackageReport.trial` has it.
+        trial: The trial, as in `PackageReport.trial`.
         palette: Colours.
     """
     if trial["refused"]:

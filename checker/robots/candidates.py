@@ -29,7 +29,7 @@ class Candidate(Record):
     """A file that ought to hold a robot.
 
     Attributes:
-        path: As the package lists it.
+        path: The path as the package lists it.
         args: Arguments for xacro.
         loaded: Whether a launch file loads it.
         by_xacro: Whether xacro reads it, whatever it holds.
@@ -50,7 +50,7 @@ class Candidate(Record):
         """Return the values that are taken for arguments that are not given.
 
         Args:
-            number: Of the choice, the first one being 0; of fewer choices the last one.
+            number: The number of the choice, the first one being 0; of fewer choices the last one.
             given: Names of the arguments that are given.
         """
         return {
@@ -80,7 +80,7 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
     Beside an SDF model these count only where no launch file loads any.
 
     Args:
-        package: To look into.
+        package: The package to look into.
         loads: What its launch files load.
     """
     if package.only:
@@ -155,7 +155,7 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
     """Yield why files that hold links, joints or macros are not read, each the end of a sentence.
 
     Args:
-        package: To look into.
+        package: The package to look into.
         seen: Files that were read, or are parts of what was.
     """
     for path in _files(package):
@@ -169,7 +169,7 @@ def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:
     """Yield the files that hold links, joints or macros and are part of no robot.
 
     Args:
-        package: To look into.
+        package: The package to look into.
         seen: Files that were read, or are parts of what was.
     """
     left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]

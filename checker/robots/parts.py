@@ -56,8 +56,8 @@ class ControlledRobot(Record, eq=False):
     """A robot of a URDF file that ros2_control controls.
 
     Attributes:
-        robot: As the file describes it.
-        controllers: Those that may run.
+        robot: The robot as the file describes it.
+        controllers: The controllers that may run.
     """
 
     robot: Robot

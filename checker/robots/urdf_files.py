@@ -15,9 +15,9 @@ class UrdfFiles(Record, eq=False):
     """What became of the URDF files of a package.
 
     Attributes:
-        descriptions: Of the files that hold a robot.
-        faults: Of files that hold none because something is wrong with them.
-        unread: Why files could not be looked at, each the end of a sentence.
+        descriptions: The descriptions of the files that hold a robot.
+        faults: The faults of files that hold none because something is wrong with them.
+        unread: The reasons why files could not be looked at, each the end of a sentence.
         set_aside: The same of files beside an SDF model that no launch file loads.
         old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
         assumed: Arguments that are not given, with the choice that is taken, by file.

@@ -55,7 +55,7 @@ def resource_path(package: Package, graph: LaunchGraph, *, classic: bool = False
 
     Args:
         package: The package being checked.
-        graph: Of the launch file that starts Gazebo.
+        graph: The graph of the launch file that starts Gazebo.
         classic: Whether that is Gazebo Classic.
     """
     packages = (package, *package.other_packages)

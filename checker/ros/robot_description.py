@@ -22,7 +22,7 @@ class DescriptionFile(Record):
     """A file that the command names.
 
     Attributes:
-        package: Of `$(find …)`; empty for a path from the package's own folder.
+        package: The package of `$(find …)`; empty for a path from the package's own folder.
         path: Within that package.
     """
 

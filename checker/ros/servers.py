@@ -48,7 +48,7 @@ class GazeboServer(Record, eq=False):
         starts: Whether it counts with the defaults of all arguments; None when not known.
         worlds: The worlds that it loads.
         own_world: The file of Gazebo's own that it loads; else empty.
-        unknown: Why its world is not known; else empty.
+        unknown: The reason why its world is not known; else empty.
         engine: The physics engine that its command line names; else empty.
     """
 
@@ -65,7 +65,7 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
 
     Args:
         package: The package being checked.
-        graph: Of the launch file.
+        graph: The graph of the launch file.
     """
     for include in graph.includes:
         if is_gazebo_include(include) and include.starts is not False:

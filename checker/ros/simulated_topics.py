@@ -30,7 +30,7 @@ class SimulatedTopic(Record, eq=False):
     Attributes:
         topic: Absolute; `*` represents the names of world and model where it is a default.
         messages: Gazebo's messages that it may carry, without their package.
-        direction: Which way messages go through a bridge.
+        direction: The direction of messages through a bridge.
         owner: The sensor or plugin.
     """
 

@@ -33,7 +33,7 @@ class Simulation(Record, eq=False, dict=True):
     """What one launch file simulates and bridges.
 
     Attributes:
-        graph: Of the launch file; None for files of bridges that no launch file names.
+        graph: The graph of the launch file; None for files of bridges that no launch file names.
         bridges: What is passed.
         robots: The robots that it spawns.
         unknown_robots: The reasons why some that it spawns are not among them.
@@ -162,7 +162,7 @@ def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedRead
     Args:
         package: The package being checked.
         launch: Its launch files.
-        reader: Of the robots that they spawn.
+        reader: The reader of the robots that they spawn.
     """
     graphs = launch.entries if launch is not None else ()
     launched = tuple(_simulation(package, graph, reader) for graph in graphs)

@@ -85,7 +85,7 @@ class SpawnedReader:
         """Return the robots that a launch file spawns, and why others are not among them.
 
         Args:
-            graph: Of the launch file.
+            graph: The graph of the launch file.
             spawns: Packages and programs that spawn; those of Gazebo Sim if none are given.
         """
         loaded = [*loaded_descriptions(self._package, graph)]

@@ -38,7 +38,7 @@ class Channel(Record, eq=False):
         topics: Its spellings, made comparable by `comparable`.
         ros_types: Message types on ROS's side; empty where no bridge knows any.
         ign_types: Message types on Gazebo's side.
-        direction: Which way its messages go.
+        direction: The direction of its messages.
         need: What it means when nothing bridges it.
         group: Channels of one owner and one group replace each other.
         ros_name: Regular expression for its name in ROS, below the robot's namespace; empty where

@@ -35,11 +35,11 @@ def rover(
     """Return model.sdf of a rover with skid steering: wheels `fl`, `rl`, `fr` and `rr`.
 
     Args:
-        length: Of the wheels' centres before and behind the middle, metres.
-        width: Of the wheels' centres left and right of it, metres.
-        centre: Of the body's mass: x, y, z.
+        length: The distance of the wheels' centres before and behind the middle, metres.
+        width: The distance of the wheels' centres left and right of it, metres.
+        centre: The centre of the body's mass: x, y, z.
         limit: `<limit>` of each wheel's axis.
-        speed: Of the drive, m/s.
+        speed: The speed of the drive, m/s.
         drive_mark: Comment behind the plugin's start tag.
         wheel_mark: Comment behind the start tag of each wheel's joint.
     """

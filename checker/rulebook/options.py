@@ -18,8 +18,8 @@ class Option(Record):
     """An option of a rule.
 
     Attributes:
-        name: As in a settings file.
-        default: As in a settings file.
+        name: The name as in a settings file.
+        default: The default as in a settings file.
         words: Its effect, with its unit; empty where the rule does not describe it.
     """
 

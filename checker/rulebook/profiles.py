@@ -51,7 +51,7 @@ def profile(name: str, distro: str = "") -> Profile:
     """Return a profile.
 
     Args:
-        name: Of the profile.
+        name: The name of the profile.
         distro: ROS 2 distribution, for a profile that is about one; its own default when empty.
 
     Raises:

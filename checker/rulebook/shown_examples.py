@@ -108,7 +108,7 @@ def shown_examples(rule: Rule) -> ShownExamples | None:
     """Return what the page of a rule shows: its first bad example, and the closest good one.
 
     Args:
-        rule: With its examples; one of an index has none.
+        rule: The rule with its examples; one of an index has none.
     """
     if not rule.bad or not rule.good:
         return None

@@ -69,7 +69,7 @@ class Repeats:
     Attributes:
         record: The first of it, without its trace.
         since: Seconds since the epoch, from which repeats are counted.
-        number: Of repeats since then.
+        number: The number of repeats since then.
     """
 
     record: logging.LogRecord

@@ -104,7 +104,7 @@ class SharedLibrary(Record):
     """What the headers of an ELF file say.
 
     Attributes:
-        machine: As pyelftools names it: `x64`, `x86`, `AArch64`.
+        machine: The name as pyelftools names it: `x64`, `x86`, `AArch64`.
         needed: File names of the libraries it is linked to: `libignition-gazebo4.so.4`.
     """
 

@@ -33,7 +33,7 @@ class Call(Record, eq=False):
     """A command with its variables put in.
 
     Attributes:
-        name: In lower case.
+        name: The name in lower case.
         arguments: Words after expansion; each knows the argument it comes from.
         conditional: Whether it is inside `if()`, a loop that is not unrolled, or a function.
         span: The whole call.

@@ -122,7 +122,7 @@ def is_understood(text: str, until: float) -> bool:
     """Say whether the grammar understands a whole text.
 
     Args:
-        text: Of a Ruby file.
+        text: The text of a Ruby file.
         until: Processor time of the thread at which to give up.
 
     Raises:

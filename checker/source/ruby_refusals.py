@@ -26,7 +26,7 @@ def first_refusal(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> Synt
     """Return the first thing that Ruby refuses.
 
     Args:
-        tree: Of a file.
+        tree: The tree of a file.
         nodes: All its nodes, in order.
         first: Offset up to which the grammar understood everything.
     """

@@ -39,7 +39,7 @@ class DataFiles(Record, eq=False):
     """An entry of `data_files`.
 
     Attributes:
-        destination: Below the prefix, such as `share/arm/launch`.
+        destination: The destination below the prefix, such as `share/arm/launch`.
         files: Paths from the folder of setup.py.
         patterns: Patterns for such paths.
         span: The entry.
@@ -55,9 +55,9 @@ class Executable(Record, eq=False):
     """An entry of `console_scripts`: `talker = arm.nodes:main`.
 
     Attributes:
-        name: Of the program.
+        name: The name of the program.
         module: Dotted.
-        function: In the module; empty when none is named.
+        function: The function in the module; empty when none is named.
         span: The entry.
     """
 

@@ -50,7 +50,7 @@ class SourceText(Record, eq=False, dict=True):
     Attributes:
         file: Path relative to the package folder (see `Place.file`).
         text: The text, line endings as in the file.
-        encoding: Of the file on disk.
+        encoding: The encoding of the file on disk.
         wrapper: Tag of an element that the checker put around the text; empty for none.
     """
 

@@ -39,7 +39,7 @@ class Files:
         """Read nothing yet.
 
         Args:
-            table: By name, where a file begins and how long it is, or why it could not be read.
+            table: The offset and length of each file, by name, or why it could not be read.
             descriptor: The descriptor of the file with them; it stays open as long as this object
                 is used.
             start: The offset from which the table counts.
@@ -82,7 +82,7 @@ def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]
 
     Args:
         file: Empty, or at its end.
-        message: Of any form.
+        message: The message, of any form.
         contents: Names and what is in them; one at a time is held in memory.
 
     Raises:

@@ -45,7 +45,7 @@ class Order(Record):
 
     Attributes:
         module: Its full name; see `checker.base.sandbox.task`.
-        seconds: Of processor time.
+        seconds: Seconds of processor time.
         memory: Bytes of address space.
         works: Whether it writes into the working folder, and requests processes itself.
         draws: Whether it may use graphics cards.
@@ -132,7 +132,7 @@ class OwnLauncher(Launcher):
             work: Folder that a process may write in; where this process is root's, it becomes that
                 of the account that its processes get.
             names: Layers, of `layers.ALL`; others than all are for tests of each alone.
-            niceness: By how much its processes stand back behind others, as `nice` counts it.
+            niceness: The value for `nice` that gives its processes a lower priority.
             loaded: Module that all of its processes need; it is loaded and prepared once for all.
         """
         wrapped = self._wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
@@ -216,7 +216,7 @@ def inherit(descriptor: int) -> None:
     """Have the processes of this one started by the launcher that started it.
 
     Args:
-        descriptor: Of a socket to it.
+        descriptor: The descriptor of a socket to it.
     """
     _launchers(os.getpid()).append(Launcher(socket.socket(fileno=descriptor)))
 

@@ -159,7 +159,7 @@ def forbid_others(*, changes: bool = True) -> None:
     To build that filter again takes a new process as long as to be forked.
 
     Args:
-        changes: As for `forbid_calls`.
+        changes: The changes, as for `forbid_calls`.
 
     Raises:
         NotHeld: As by `forbid_calls`.

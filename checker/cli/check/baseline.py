@@ -39,7 +39,7 @@ def write_baseline(before: Baseline, report: Report, rules: Collection[str]) -> 
 
     Args:
         before: As it was; entries of packages that were not checked stay.
-        report: Of a check without a baseline.
+        report: The report of a check without a baseline.
         rules: Ids of all rules.
 
     Raises:

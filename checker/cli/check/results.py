@@ -35,7 +35,7 @@ def check_and_print(
     Args:
         paths: What to check.
         wishes: Fields of `Settings` that the command line sets; None leaves them.
-        options: Of the command line.
+        options: The options of the command line.
 
     Raises:
         InvalidSettings: The settings name what does not exist.

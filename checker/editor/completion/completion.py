@@ -26,9 +26,9 @@ def completions_at(
 
     Args:
         subject: The package, with the last text of the file that could be read.
-        path: Of the XML file, relative to the package.
-        text: Of the file as it is now; it need not be well-formed.
-        offset: Of the caret, in characters of that text.
+        path: The path of the XML file, relative to the package.
+        text: The current text of the file; it need not be well-formed.
+        offset: The offset of the caret, in characters of that text.
         target: What the package is judged for; its usual target where it is None.
     """
     xml = xml_context(text, offset)

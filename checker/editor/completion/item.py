@@ -70,9 +70,9 @@ class Request(Record, eq=False, dict=True):
 
     Attributes:
         subject: The package, with the last text of the file that could be read.
-        path: Of the file.
-        text: Of the file as it is now.
-        offset: Of the caret.
+        path: The path of the file.
+        text: The current text of the file.
+        offset: The offset of the caret.
         xml: What is around the caret.
         target: What the package is written for.
     """

@@ -30,7 +30,7 @@ def element_card(
 
     Args:
         written: The tag as the file has it.
-        place: Of the element.
+        place: The place of the element.
         attribute: Its name; empty for the element.
         version: SDF version.
         target: What the package is written for.

@@ -30,7 +30,7 @@ class Expression(Record):
     """A `${…}` or `$(…)` under the pointer, with its place in the file.
 
     Attributes:
-        text: With its brackets.
+        text: The text with its brackets.
         word: The name in it that the pointer is on; empty for none.
     """
 

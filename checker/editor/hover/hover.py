@@ -60,8 +60,8 @@ def hover_at(
 
     Args:
         subject: The package.
-        path: Of an XML file, relative to the package.
-        offset: In characters of its text.
+        path: The path of an XML file, relative to the package.
+        offset: The offset in characters of its text.
         target: What the package is judged for; its usual target where it is None.
     """
     document = subject.package.xml(path)

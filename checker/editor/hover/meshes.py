@@ -30,8 +30,8 @@ def file_card(
 
     Args:
         subject: The package.
-        uri: As written, with its place: relative ones start there.
-        scale: Of the shape that uses a mesh, along x, y, z.
+        uri: The URI as written, with its place: relative ones start there.
+        scale: The scale of the shape that uses a mesh, along x, y, z.
     """
     path = path_behind(subject.package, Robot.folder_of(uri), uri.value)
     if isinstance(path, Unknown):

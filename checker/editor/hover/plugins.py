@@ -107,7 +107,7 @@ def parameter_card(plugin: Element, path: str, value: str, target: Context) -> s
 
     Args:
         plugin: The `<plugin>` around it.
-        path: Below it: `a/b`, with `@x` for an attribute.
+        path: The path below it: `a/b`, with `@x` for an attribute.
         value: The value that the file states.
         target: The target of the package.
     """

@@ -17,7 +17,7 @@ class Pointed(Record, eq=False):
     Attributes:
         element: The element that it belongs to.
         where: `TAG`, `ATTRIBUTE` (the name of one), `VALUE` or `TEXT`.
-        span: It.
+        span: The span.
         attribute: Name of the attribute; empty for a tag and a text.
     """
 

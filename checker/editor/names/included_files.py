@@ -24,7 +24,7 @@ def included_path(package: Package, path: str, included: Included) -> str | None
 
     Args:
         package: The package being checked.
-        path: Of the file that includes.
+        path: The path of the file that includes.
         included: What it includes.
     """
     if included.by_xacro:
@@ -75,9 +75,9 @@ class Scopes(Record):
     """What the things of each file belong to.
 
     Attributes:
-        robots: By path, what links, joints, frames, sensors and models belong to.
-        xacro: By path, what properties, macros and arguments of xacro belong to.
-        values: By what xacro files belong to, the texts that their expressions may come to.
+        robots: The owners of links, joints, frames, sensors and models, by path.
+        xacro: The owners of properties, macros and arguments of xacro, by path.
+        values: The possible values of expressions, by the owner of the xacro files.
     """
 
     robots: Mapping[str, str]
@@ -92,8 +92,8 @@ def scopes_of(
 
     Args:
         package: The package being checked.
-        files: By path.
-        links: By path, the paths of the files that it includes.
+        files: The files by path.
+        links: The paths of the files that each file includes, by its path.
     """
     xacro = _connected(files, links)
     robots = {path: xacro[path] for path in files if files[path].format in ("sdf", "robot")}

@@ -30,7 +30,8 @@ class NameIndex(Record, eq=False, dict=True):
     Attributes:
         package: The package that was read.
         files: Names of each file, those of siblings that the package includes among them.
-        links: By path, the paths of the files that it includes; None where one is not known.
+        links: The paths of the files that each file includes, by its path; None where one is not
+            known.
         scopes: What the things of each file belong to.
     """
 
@@ -178,7 +179,7 @@ def names_of(package: Package, known: NameIndex | None = None) -> NameIndex:
     """Return the names of a package.
 
     Args:
-        package: To read.
+        package: The package to read.
         known: An earlier index; what it holds of a text is not read again.
     """
     earlier = known.files if known is not None else {}

@@ -36,7 +36,7 @@ class Mention(Record):
     """A place where a thing is named.
 
     Attributes:
-        kind: Of the thing.
+        kind: The kind of the thing.
         name: Its full name, as `arm::wrist`; two mentions of one thing have the same.
         scope: Path of the file that the thing belongs to: a model, the first of the xacro files
             that include each other, a launch file. Empty for the robot of the package.
@@ -78,7 +78,7 @@ class WrittenName(Record):
         start: Offset of the name's first character.
         end: Offset behind its last one.
         role: The certainty of the mention.
-        files: Of an argument that is passed on, names of files that it may be passed to.
+        files: The names of files that an argument may be passed to, if it is passed on.
     """
 
     kinds: tuple[NameKind, ...]
@@ -93,7 +93,7 @@ class Included(Record):
     """A file that another one includes.
 
     Attributes:
-        uri: As it is written.
+        uri: The URI as it is written.
         name: Full name of the model that it becomes, as far as the includer gives one; of a model
             whose parts become the includer's own, the prefix of these.
         merged: Whether they do.
@@ -112,12 +112,12 @@ class FileNames(Record, eq=False):
     Attributes:
         source: The text that they were read from.
         format: `sdf`, `robot` (URDF, xacro), `srdf`, `launch`, `yaml`, `ruby` or `python`.
-        names: In no order.
+        names: The names in no order.
         included: Files that it includes.
         values: Texts that expressions of the file may come to.
         parameters: Names of the parameters of its macros.
         model: Name of the model or robot that the file holds.
-        fault: Why it cannot be read; empty when it can.
+        fault: The reason why it cannot be read; empty when it can.
     """
 
     source: SourceText

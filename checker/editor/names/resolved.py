@@ -49,7 +49,7 @@ class Lookup:
     """Finds what names mention.
 
     Attributes:
-        mentions: Of the package's own files, and the definitions in siblings.
+        mentions: The mentions of the package's own files, and the definitions in siblings.
         composed: Definitions whose names are composed, by kind.
     """
 
@@ -57,8 +57,8 @@ class Lookup:
         """Look up all names of the files.
 
         Args:
-            files: By path.
-            links: By path, the paths of the files that it includes.
+            files: The files by path.
+            links: The paths of the files that each file includes, by its path.
             scopes: What the things of each file belong to.
         """
         self._files, self._links, self._scopes = files, links, scopes

@@ -31,7 +31,7 @@ def automatic_inertial(element: Element, collisions: Iterable[Collision]) -> Ine
 
     Args:
         element: The `<inertial>`.
-        collisions: Of the link.
+        collisions: The collisions of the link.
     """
     values = ValueReader()
     usual = values.number(element, "density", _WATER).value

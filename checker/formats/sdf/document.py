@@ -49,7 +49,8 @@ def misread_values(text: Located[str], value_type: str) -> list[Misread]:
 
     Args:
         text: Without the blanks around it; not empty.
-        value_type: As the schema calls it: `double`, `pose`, … A `string` always reads well.
+        value_type: The type as the schema calls it: `double`, `pose`, … A `string` always reads
+            well.
     """
     read = _READERS.get(value_type)
     return list(read(text)) if read is not None else []

@@ -17,7 +17,7 @@ class TransmissionEnd(Record, eq=False):
     """A `<joint>` or `<actuator>` of a transmission.
 
     Attributes:
-        name: Of the joint or actuator.
+        name: The name of the joint or actuator.
         interfaces: Its `<hardwareInterface>`s as written, `hardware_interface/` in front or not.
         span: The start tag.
     """
@@ -60,8 +60,8 @@ class UrdfDescription(Record, eq=False, dict=True):
     Attributes:
         file: Path of the file as the package lists it.
         document: The expanded document; places are those of the files that a person wrote.
-        transmissions: In order.
-        gazebo: In order.
+        transmissions: The transmissions in order.
+        gazebo: The `<gazebo>` tags in order.
         for_rviz: Whether it accompanies an SDF model, only to be looked at.
         call: The call of the macro that makes the robot, where the file itself makes none.
         values: Values of arguments that differ from those the file is read with: `model:=waffle`.

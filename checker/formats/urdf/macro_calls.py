@@ -34,10 +34,10 @@ class MacroCall(Record, eq=False):
     """A call that gives a macro nothing but what it must have.
 
     Attributes:
-        name: Of the macro.
-        arguments: By name.
+        name: The name of the macro.
+        arguments: The arguments by name.
         blocks: Names of the blocks, all of them origins.
-        number: Of the macro's element in its file.
+        number: The number of the macro's element in its file.
         span: The start tag of the macro.
     """
 

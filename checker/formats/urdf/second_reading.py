@@ -38,9 +38,9 @@ class SecondReading(Record, eq=False):
     """A robot, and what yourdfpy reads from the same text.
 
     Attributes:
-        robot: As our reader has it.
-        error: Why yourdfpy gives up; else empty.
-        differences: Between the two.
+        robot: The robot as our reader has it.
+        error: The reason why yourdfpy gives up; else empty.
+        differences: The differences between the two.
     """
 
     robot: Robot

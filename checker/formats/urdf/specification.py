@@ -49,7 +49,7 @@ class StrayPart(Record):
 
     Attributes:
         element: The element.
-        path: Of the tag around it.
+        path: The path of the tag around it.
         owner: The link or joint.
         advice: What to write instead.
     """
@@ -64,7 +64,7 @@ class MisspeltPart(Record):
     """An element or attribute that no reader looks at, and that resembles one that they read.
 
     Attributes:
-        name: As written.
+        name: The name as written.
         parent: The tag around it.
         meant: What it resembles, which is not there.
         span: Its place.

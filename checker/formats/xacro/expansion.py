@@ -68,7 +68,7 @@ class Wanted(Record):
     """A file to expand.
 
     Attributes:
-        path: As the package lists it.
+        path: The path as the package lists it.
         args: Arguments by name.
         as_melodic: Whether as xacro 1.13 of ROS Melodic does it.
         call: What is added to it: `text`, a robot whose elements come last; `number`, the element

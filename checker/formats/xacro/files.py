@@ -28,7 +28,7 @@ def path_of(package: Package, path: str) -> str:
 
     Args:
         package: The package being checked.
-        path: As it lists the file; `../other/…` is a sibling's.
+        path: The path as it lists the file; `../other/…` is a sibling's.
     """
     return posixpath.normpath(f"{ROOT}/{package.root.name}/{path}")
 
@@ -71,8 +71,8 @@ def named_path(folder: str, name: str) -> str | None:
     """Return how xacro sees a file that another one names; None where its name is computed.
 
     Args:
-        folder: Of the other file, as xacro sees it.
-        name: As it is written.
+        folder: The folder of the other file, as xacro sees it.
+        name: The name as it is written.
     """
     spelled = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", name)
     if _COMPUTED.search(spelled) or "." not in spelled:
@@ -87,8 +87,8 @@ class Gathered:
     Attributes:
         package: The package being checked.
         sources: The texts.
-        documents: Those that are XML.
-        faults: Those that are no well-formed XML.
+        documents: The documents that are XML.
+        faults: The faults of those that are not well-formed XML.
         absent: Paths at which there is no file.
         beyond: Names of packages that are not available.
     """

@@ -26,7 +26,7 @@ class MacroParameter(Record):
 
     Attributes:
         name: Without its stars.
-        default: As written; None for a parameter that a call has to state.
+        default: The default as written; None for a parameter that a call has to state.
         block: `*` for an element that the call contains, `**` for its content; else empty.
     """
 

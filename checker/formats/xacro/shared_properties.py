@@ -22,8 +22,8 @@ class Setting(Record, eq=False):
     """A `<xacro:property>` at the top of a file.
 
     Attributes:
-        value: As it is written.
-        file: As xacro sees it.
+        value: The value as it is written.
+        file: The file as xacro sees it.
     """
 
     value: Located[str]
@@ -34,7 +34,7 @@ class SharedProperty(Record, eq=False):
     """A property that a macro reads with the value that another file sets.
 
     Attributes:
-        name: Of the property.
+        name: The name of the property.
         own: The value that the macro's file sets.
         other: The value that counts when it is called.
         macro: Name of the macro.
@@ -68,7 +68,7 @@ class _Walk:
         """Follow a file.
 
         Args:
-            path: As xacro sees it.
+            path: The path as xacro sees it.
             around: The files that include it, from the outermost one.
             sure: Whether it is included for certain.
         """

@@ -28,8 +28,8 @@ def assumed_nodes(
     """Return the nodes that an included template starts; None when it is not known.
 
     Args:
-        include: Of a file that is not available.
-        remaps: Those in force where it is included, in order of the file.
+        include: The include of the unavailable file.
+        remaps: The remaps in force where it is included, in order of the file.
     """
     template = _template(include)
     if template is None:

@@ -58,7 +58,7 @@ class Bridge(Record, eq=False):
         ros_topic: Absolute topic on ROS's side, after remaps and namespace.
         ros_type: Message type, such as `sensor_msgs/Imu`.
         ign_type: Message type, such as `ignition.msgs.IMU`.
-        direction: Which way messages go.
+        direction: The direction of messages.
         kind: Which program bridges.
         node: The node that does it.
         span: The topic within the node's `args`.

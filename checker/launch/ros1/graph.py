@@ -110,7 +110,7 @@ class Node(Record, eq=False):
         name: Name of the node, without its namespace.
         namespace: Absolute, `/` or `/X1`.
         args: Command line, substitutions made.
-        remaps: Those in force: the node's own and those around it.
+        remaps: The remaps in force: the node's own and those around it.
         span: The start tag.
         assumed_from: The file of the challenge's own package that is assumed to start the node
             (the span is that of its `<include>`); empty for a node that was read.
@@ -187,7 +187,7 @@ class UnresolvedInclude(Record, eq=False):
         file: Path within the package, or what the attribute says.
         arguments: What is handed over, by name.
         namespace: The namespace that the nodes of the file would have.
-        reason: Why it is not available.
+        reason: The reason why it is not available.
         span: The start tag.
     """
 
@@ -217,9 +217,9 @@ class LaunchGraph(Record, eq=False, dict=True):
         arguments: Args that the entry file declares, with their values.
         undecided: Conditions whose value is not known here; what they guard is left out.
         faults: What is wrong.
-        unread: Why parts of what the robot starts are not known.
-        unknown_commands: Why the commands that start it are not known; then sample arguments
-            represent theirs.
+        unread: The reasons why parts of what the robot starts are not known.
+        unknown_commands: The reasons why the commands that start it are not known; then sample
+            arguments represent theirs.
     """
 
     nodes: tuple[Node, ...] = ()

@@ -32,7 +32,7 @@ class Load(Record):
     """A file that a launch file loads.
 
     Attributes:
-        path: As xacro sees it.
+        path: The path as xacro sees it.
         args: Arguments that xacro is given.
         by_xacro: Whether xacro reads it; otherwise it is loaded as it stands.
         unknown: Names of arguments whose values are only known at launch.

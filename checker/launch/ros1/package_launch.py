@@ -190,8 +190,8 @@ class LaunchEntries(Record, eq=False):
     """What a package can be started with.
 
     Attributes:
-        entries: In the order of their paths.
-        unread: Why launch files are left out.
+        entries: The entries in the order of their paths.
+        unread: The reasons why launch files are left out.
     """
 
     entries: tuple[LaunchEntry, ...] = ()

@@ -64,7 +64,7 @@ class Scope:
         file: The file being expanded.
         args: Values of args by name; a group sees those outside it and hides its own.
         namespace: Absolute.
-        remaps: In order of the file.
+        remaps: The remaps in order of the file.
         depth: The number of groups and files around it.
     """
 

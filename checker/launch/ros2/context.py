@@ -22,8 +22,8 @@ class State:
         configurations: Values of arguments by name.
         environment: Variables that were set, by name.
         namespace: Absolute.
-        parameters: Of every node that follows.
-        remaps: Of every node that follows; the last one counts.
+        parameters: The parameters of every node that follows.
+        remaps: The remaps of every node that follows; the last one counts.
         beyond: Whether a file was included that is not available: it may declare arguments.
     """
 
@@ -52,7 +52,7 @@ class Context:
         report: Takes faults.
         evaluate: Evaluates an expression of Python.
         state: What is in force.
-        conditions: Around the action.
+        conditions: The conditions around the action.
         after: Whether an event or a timer starts it.
         used: Names of arguments that were read.
         declared: Names of arguments that were declared.

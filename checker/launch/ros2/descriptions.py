@@ -29,7 +29,7 @@ class LoadedDescription(Record, eq=False):
     Attributes:
         load: The file, and the arguments that are known.
         unknown: Names of arguments whose values are only known at launch.
-        choices: Of these, the values that the launch file allows; none where any text will do.
+        choices: The values that the launch file allows for these; none where any text is allowed.
         offered: The same of arguments that have the default of one of its own, by name.
         node: The node that gets it.
         parameter: The parameter that contains it; None where it is among the arguments.
@@ -50,7 +50,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
 
     Args:
         package: The package being checked.
-        graph: Of its launch file.
+        graph: The graph of its launch file.
     """
     allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}
     defaults = {a.name: a for a in graph.arguments if a.choices and a.default is not None}

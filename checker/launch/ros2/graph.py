@@ -37,7 +37,7 @@ class SharePath(Record):
 
     Attributes:
         package: Name of the package.
-        path: Below its share folder, such as `urdf/arm.urdf`; empty for the folder itself.
+        path: The path below its share folder, such as `urdf/arm.urdf`; empty for the folder itself.
     """
 
     package: str
@@ -137,10 +137,10 @@ class Argument(Record, eq=False):
     """A declared argument.
 
     Attributes:
-        name: As `name:=value` gives it.
-        default: With the substitutions made; None when it must be given.
+        name: The name as `name:=value` gives it.
+        default: The default with the substitutions made; None when it must be given.
         choices: Values that are allowed; empty for all.
-        description: For `ros2 launch --show-args`.
+        description: The description for `ros2 launch --show-args`.
         conditions: Those around the declaration.
         span: The declaration.
     """
@@ -160,7 +160,7 @@ class Parameter(Record, eq=False):
     """One parameter of a node.
 
     Attributes:
-        name: With dots for nested mappings.
+        name: The name with dots for nested mappings.
         value: Text, number, truth value or list; a text may hold `$(`.
         substituted: Whether substitutions made the value: launch reads such a text as YAML.
         as_text: Whether it is kept as a text (`ParameterValue(…, value_type=str)`).
@@ -241,10 +241,10 @@ class Node(Started, eq=False, kw_only=True):
         name: The name of the node; None for the program's own.
         namespace: Absolute, `/` or `/r1`; it may hold `$(`.
         arguments: Words of the command line, `--ros-args` and what follows among them.
-        parameters: Those in force: of scopes around it first, then its own.
-        remaps: Those in force; its own first.
+        parameters: The parameters in force: of scopes around it first, then its own.
+        remaps: The remaps in force; its own first.
         environment: Variables set for it alone.
-        unread: Why its arguments, parameters or remaps may not be complete.
+        unread: The reasons why its arguments, parameters or remaps may not be complete.
     """
 
     kind: NodeKind = NodeKind.NODE
@@ -288,7 +288,7 @@ class Include(Started, eq=False, kw_only=True):
         path: The file as the package lists it; empty when it is not available.
         accepts: Names of arguments that the file, or one that it includes, declares or uses; None
             when that is not known, as of a file that could not be read in full.
-        reason: Why the file is not read; empty when it is.
+        reason: The reason why the file is not read; empty when it is.
         nodes: The nodes that the file starts, if it is not read but known.
     """
 
@@ -309,7 +309,7 @@ class EnvironmentChange(Started, eq=False, kw_only=True):
     """An environment variable that is set for what starts after it.
 
     Attributes:
-        name: Of the variable.
+        name: The name of the variable.
         value: What is set, or added; empty when it is removed.
         mode: `set`, `append`, `prepend` or `unset`.
     """
@@ -366,7 +366,7 @@ class Ros2Launch(Record, eq=False):
 
     Attributes:
         entries: A graph each.
-        unread: Why launch files are left out.
+        unread: The reasons why launch files are left out.
     """
 
     entries: tuple[LaunchGraph, ...] = ()

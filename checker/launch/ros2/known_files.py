@@ -77,7 +77,7 @@ def nodes_of(file: KnownFile, context: Context, span: Span) -> Iterator[Node]:
     Args:
         file: The included file.
         context: The context of the include, its arguments among the configurations.
-        span: Of the include.
+        span: The span of the include.
     """
     given = {name: _value(name, file, context, span) for name in file.arguments}
     for node in file.nodes:

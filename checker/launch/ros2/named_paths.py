@@ -125,7 +125,7 @@ def unavailable(package: Package, name: str) -> str:
 
     Args:
         package: The package being checked.
-        name: Of the other package.
+        name: The name of the other package.
     """
     if name.startswith(_OF_ROS) or name in _known_packages() or holder_of(package, name):
         return ""

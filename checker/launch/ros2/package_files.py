@@ -17,7 +17,7 @@ def holder_of(package: Package, name: str) -> Package | None:
 
     Args:
         package: The package being checked.
-        name: As package.xml declares it, or that of its folder.
+        name: The name as package.xml declares it, or that of its folder.
     """
     return package if name in own_names(package) else package.workspace.package(name)
 
@@ -65,7 +65,7 @@ def installed_path(package: Package, file: str) -> str:
 
     Args:
         package: The package being checked.
-        file: As the package lists it.
+        file: The file as the package lists it.
     """
     holder, rest = package, file
     if file.startswith("../"):

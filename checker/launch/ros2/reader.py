@@ -53,7 +53,7 @@ def read_launch(
 
     Args:
         package: The package being checked.
-        file: As the package lists it.
+        file: The file as the package lists it.
         arguments: The arguments of the command line.
     """
     return LaunchReader(package, file, arguments or {}).graph()

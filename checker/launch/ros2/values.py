@@ -93,7 +93,7 @@ class FileText(PlacedText):
     """The whole text of a file: `$(file-content PATH)`.
 
     Attributes:
-        path: Of the file.
+        path: The path of the file.
     """
 
     __slots__ = ("path",)
@@ -147,7 +147,7 @@ class Made:
     """An object of the launch system: an action, a substitution, a condition, an event handler.
 
     Attributes:
-        name: Of its class, such as `Node`.
+        name: The name of its class, such as `Node`.
         values: Arguments by name.
         span: The call, or the element.
         keywords: The place of each argument, if not that of its value.

@@ -32,7 +32,7 @@ def launcher_globals(files: SpawnerFiles, path: str, *, ground_truth: bool) -> d
 
     Args:
         files: The workspace.
-        path: Of the spawner.
+        path: The path of the spawner.
         ground_truth: Value of `$enableGroundTruth`.
     """
     example = files.read(posixpath.join(posixpath.dirname(path), _EXAMPLE))

@@ -14,7 +14,7 @@ class Parameter(Record, eq=False):
     """A parameter of a Ruby function.
 
     Attributes:
-        name: As written: `_modelURI`.
+        name: The name as written: `_modelURI`.
         kind: `required`, `optional`, `rest`, `keyword`, `required_keyword`, or `unknown` to the
             evaluator.
         default: The expression of the default.
@@ -31,9 +31,9 @@ class Function(Record, eq=False):
     """A function that a spawner defines.
 
     Attributes:
-        name: Such as `spawner`.
-        parameters: In order.
-        span: From `def` to its parameters' end.
+        name: The name, such as `spawner`.
+        parameters: The parameters in order.
+        span: The span from `def` to its parameters' end.
         node: Its definition.
         path: Path of its file in the workspace.
     """
@@ -62,7 +62,7 @@ class Scope:
 
     Attributes:
         path: Path of the file in the workspace, for `__FILE__`.
-        variables: By name.
+        variables: The variables by name.
         parent: The scope around a block.
         frame: The call that `return` leaves; the scope of the function itself.
         running: The block whose code runs here.

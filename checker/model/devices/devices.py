@@ -27,8 +27,8 @@ class Device(Record, eq=False):
     """A device, as `devices.json` or the user's settings describe it.
 
     Attributes:
-        id: Such as `velodyne_vlp16`.
-        name: As its maker calls it.
+        id: The id, such as `velodyne_vlp16`.
+        name: The name as its maker calls it.
         kind: `lidar3d`, `lidar2d`, `lidar1d`, `camera`, `rgbd`, `thermal`, `imu`, …
         match: Regular expression for its name in running text, ignoring case.
         sdf_types: Types of `<sensor>` that may represent it.
@@ -69,7 +69,7 @@ class SensorDevice(Record, eq=False):
     """A sensor and the device that it represents.
 
     Attributes:
-        sensor: Of the robot.
+        sensor: The sensor of the robot.
         device: What it is.
         words: The words that say so: an item of the specification sheet, else the name of the
             sensor, its link or its topic.

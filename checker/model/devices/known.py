@@ -120,7 +120,7 @@ def devices_of_shape(lidar: Lidar, known: KnownDevices, tolerance: float = 1.0) 
     """Return the devices of several rows that scan as a lidar does.
 
     Args:
-        lidar: As it is set.
+        lidar: The lidar as it is set.
         known: Devices of which one variant is known count.
         tolerance: Degrees.
     """

@@ -35,9 +35,9 @@ def support(
 
     Args:
         geometry: The shape.
-        pose: Of the shape, in the frame of `direction`.
-        direction: Of length 1.
-        meshes: Of the robot; a mesh reaches as far as its convex hull.
+        pose: The pose of the shape, in the frame of `direction`.
+        direction: The direction, of length 1.
+        meshes: The meshes of the robot; a mesh reaches as far as its convex hull.
     """
     reach = extent(geometry, pose, direction, meshes)
     return None if reach is None else reach[1]

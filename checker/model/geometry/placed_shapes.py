@@ -18,7 +18,7 @@ class Placed(Record, eq=False):
     """A shape of a link in the robot's frame.
 
     Attributes:
-        pose: Of the shape.
+        pose: The pose of the shape.
         box: Around the shape; of a mesh, around its hull.
     """
 

@@ -41,7 +41,8 @@ class CommandedWheels(Record, eq=False):
 
     Attributes:
         drive: The drive that they form; None where that is not certain.
-        doubt: Why not, as the end of a sentence; empty where it is, and without such wheels.
+        doubt: The reason why not, as the end of a sentence; empty where it is, and without such
+            wheels.
     """
 
     drive: WheelDrive | None = None

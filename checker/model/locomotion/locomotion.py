@@ -96,8 +96,8 @@ class WheelDrive(Record, eq=False):
 
     Attributes:
         plugin: The plugin of Gazebo, or the controller.
-        wheels: Those that the plugin drives, in its order; joints that do not exist are left out,
-            one named for both sides stands there twice.
+        wheels: The wheels that the plugin drives, in its order; joints that do not exist are left
+            out, one named for both sides stands there twice.
         wheel_separation: Metres; the plugin's default (`stated` false) where it says none.
         wheel_radius: Metres; likewise.
         wheel_base: Metres, of Ackermann steering.
@@ -151,7 +151,7 @@ class Track(Record, eq=False):
 
     Attributes:
         plugin: The TrackController.
-        side: Of the TrackedVehicle that commands it; None if none does.
+        side: The side of the TrackedVehicle that commands it; None if none does.
     """
 
     plugin: Plugin
@@ -164,7 +164,7 @@ class TrackedDrive(Record, eq=False):
     """One TrackedVehicle plugin.
 
     Attributes:
-        tracks: Those that it commands and that have a TrackController.
+        tracks: The tracks that it commands and that have a TrackController.
         separation: Metres between the tracks; the plugin's default where it says none.
         steering_efficiency: Share of the commanded turn that the tracks are expected to lose.
     """
@@ -257,7 +257,7 @@ class Locomotion(Record, eq=False):
             steered.
         by_joint: The drive that plugins form together where each turns one wheel, as those of an
             autopilot's rover do; the first of them represents all.
-        doubt: Why that is not certain, as the end of a sentence.
+        doubt: The reason why that is not certain, as the end of a sentence.
     """
 
     kind: DriveKind

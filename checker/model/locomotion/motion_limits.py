@@ -68,8 +68,8 @@ class BoundedMotion(Record, eq=False):
     Attributes:
         plugin: The drive plugin.
         kind: Along the axis, or about it.
-        axis: Of the robot: `x`, `y` or `z`.
-        limits: As the plugin states them.
+        axis: The axis of the robot: `x`, `y` or `z`.
+        limits: The limits as the plugin states them.
         both_kinds: Whether one figure bounds the linear and the angular motion alike: what it says
             about the angular one may not be meant.
         flies: Whether the plugin is that of a multicopter.

@@ -43,7 +43,7 @@ def thrust_to_weight(rotors: Sequence[Rotor], mass: float) -> float | None:
 
     Args:
         rotors: All of the robot.
-        mass: Of the robot, kilograms.
+        mass: The mass of the robot, kilograms.
 
     Returns:
         None where it is not a number: without rotors, without mass.

@@ -86,7 +86,7 @@ class WheelReader:
 
         Args:
             plugin: What names the joint: one of the model that the plugin stands in.
-            name: Of the joint.
+            name: The name of the joint.
             side: What the plugin says.
             knuckles: Steering joints by the link that each of them turns.
         """

@@ -69,12 +69,12 @@ class Camera(Record, eq=False):
         width: Pixels.
         height: Pixels.
         horizontal_fov: Radians.
-        format: Of the pixels, such as `R8G8B8`.
+        format: The format of the pixels, such as `R8G8B8`.
         clip: The clip distances of the picture.
         depth_clip: The clip distances of the depth image; None where the file states none.
         intrinsics: None where the file states none.
         distortion: Coefficients k1, k2, k3, p1, p2 that the file states.
-        noise: Of the pixels, as a share of white.
+        noise: The noise of the pixels, as a share of white.
         element: The `<camera>`.
     """
 

@@ -17,7 +17,7 @@ class Imu(Record, eq=False):
     """An `<imu>`.
 
     Attributes:
-        noises: By quantity and axis, `("angular_velocity", "x")`: rad/s and m/s².
+        noises: The noise by quantity and axis, `("angular_velocity", "x")`: rad/s and m/s².
         enable_orientation: Whether it gives its true orientation; SDFormat's default is yes.
         element: The `<imu>`.
     """

@@ -46,7 +46,7 @@ class Lidar(Record, eq=False):
         range_min: Metres; what a plugin of Gazebo Classic leaves out does not count.
         range_max: Metres; the same.
         range_resolution: Metres; 0 where the file states none.
-        noise: Of the ranges, metres.
+        noise: The noise of the ranges, metres.
         element: The `<lidar>` or `<ray>`.
     """
 

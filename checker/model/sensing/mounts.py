@@ -21,7 +21,7 @@ class Mounted(Record, eq=False):
 
     Attributes:
         owner: The link or joint that carries it.
-        pose: Of the sensor; its x axis points where a camera looks.
+        pose: The pose of the sensor; its x axis points where a camera looks.
     """
 
     sensor: Sensor
@@ -103,7 +103,7 @@ class CalledDirections(Record):
 
     Attributes:
         word: The first word that says it.
-        source: Of the word: `name`, `topic` or `link`.
+        source: The source of the word: `name`, `topic` or `link`.
         directions: All that its words allow, of length 1, in the robot's frame.
         sideways: Whether it speaks of left and right alone, which is also said of a sensor's place.
         tilted: Whether it speaks of up and down, and not of front or rear: tilts of any size.

@@ -16,10 +16,10 @@ class Noise(Record, eq=False):
     Attributes:
         type: `none`, `gaussian` or `gaussian_quantized`.
         mean: Of the white noise.
-        stddev: Of the white noise.
-        bias_mean: Of the constant bias.
-        bias_stddev: Of the constant bias.
-        dynamic_bias_stddev: Of the bias that wanders.
+        stddev: The standard deviation of the white noise.
+        bias_mean: The mean of the constant bias.
+        bias_stddev: The standard deviation of the constant bias.
+        dynamic_bias_stddev: The standard deviation of the bias that drifts.
         dynamic_bias_correlation_time: Seconds in which it wanders.
         precision: Step of the quantization.
         element: The `<noise>`.

@@ -14,7 +14,7 @@ class Hit(Record, eq=False):
     Attributes:
         share: The share of the view that the ray represents, 0 to 1.
         metres: The distance along the ray.
-        azimuth: Of the ray, to the left of the sensor's x axis, radians.
+        azimuth: The azimuth of the ray, to the left of the sensor's x axis, radians.
         by: The shape, and its link.
     """
 
@@ -71,8 +71,8 @@ class SensorViews(Record, eq=False):
     """A robot and the views of its cameras and lidars.
 
     Attributes:
-        views: Those that could be computed, in the order of the sensors.
-        unseen: Why something that may be in a view is not known, as ends of sentences.
+        views: The views that could be computed, in the order of the sensors.
+        unseen: The reasons why something that may be in a view is not known, as ends of sentences.
         covered: Its lights in the boxes around concave meshes.
     """
 

@@ -43,7 +43,7 @@ class Quantity(Record, eq=False):
 
     Attributes:
         kind: What it measures.
-        value: In SI units.
+        value: The value in SI units.
         resolution: What one step of its last digit is worth, in SI units.
         unit_text: The unit as written.
         approximate: Whether the text says `about`, `~` or the like.

@@ -76,7 +76,7 @@ class Leftover(Record, eq=False):
     """Something that was to be replaced or removed.
 
     Attributes:
-        words: As written.
+        words: The words as written.
         span: Their place.
     """
 

@@ -137,7 +137,7 @@ def check_archive(
 
     Args:
         archive: The file.
-        name: As for `unpack_archive`.
+        name: The name, as for `unpack_archive`.
         limits: What the archive may hold.
         descriptor: The descriptor of the file, where it cannot be opened by name; it stays open.
 

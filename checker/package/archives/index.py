@@ -67,7 +67,7 @@ class ArchiveIndex:
     """Takes the entries of an archive in their order, and refuses the first that may do harm.
 
     Attributes:
-        archive: For messages.
+        archive: The archive for messages.
         packed_bytes: Size of the archive.
         limits: What is allowed.
         members: The entries that passed.

@@ -168,7 +168,7 @@ class Stand(Record):
         polygon: Corners (x, y) in the robot's frame, metres, counter-clockwise.
         height: z of the ground in the robot's frame, metres; None if nothing touches it.
         links: Scoped names of what touches it.
-        unknown: Why this is not known, as the end of a sentence; empty if it is.
+        unknown: The reason why this is not known, as the end of a sentence; empty if it is.
     """
 
     polygon: tuple[Point, ...] = ()
@@ -241,8 +241,8 @@ def leaning_polygon(points: Sequence[Vector], centre: Vector) -> tuple[Point, ..
     It rests on the sides of the hull around its collisions that are nearly level and face down.
 
     Args:
-        points: Of its collisions, in metres.
-        centre: Of mass, in metres.
+        points: The points of its collisions, in metres.
+        centre: The centre of mass, in metres.
     """
     return convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
 

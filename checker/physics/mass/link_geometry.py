@@ -52,9 +52,9 @@ def farthest(geometry: Geometry, pose: Transform, point: Vector, meshes: Meshes)
 
     Args:
         geometry: The shape.
-        pose: Of the shape, in the frame of `point`.
-        point: From where to measure.
-        meshes: Of the robot.
+        pose: The pose of the shape, in the frame of `point`.
+        point: The point to measure from.
+        meshes: The meshes of the robot.
     """
     size = {name: tuple(number.value for number in sizes) for name, sizes in geometry.sizes.items()}
     x, y, z = pose.inverse.apply(point)
@@ -148,7 +148,7 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
     Args:
         robot: The robot of the link.
         link: Its collisions and visuals count.
-        point: In the robot's frame, metres.
+        point: The point in the robot's frame, metres.
     """
     reaches = []
     for shape, pose in _placed(robot, link):

@@ -61,7 +61,7 @@ class MassProperties(Record, eq=False):
         mass: Kilograms.
         centre: Centre of mass in the robot's frame, metres; None where nothing is known of it.
         inertia: Rows of the 3×3 inertia about the centre of mass, robot's axes, kg·m²; likewise.
-        links: By scoped name.
+        links: The links by scoped name.
         support: Corners (x, y) of the convex polygon that it stands on, metres, counter-clockwise.
         support_height: z of the ground in the robot's frame, metres: its lowest collision point.
         standing: Scoped names of the links that touch the ground.
@@ -69,8 +69,8 @@ class MassProperties(Record, eq=False):
             once; None without support.
         gravity_torques: N·m or N that each movable joint's first axis holds, by joint; only of
             joints below which nothing stands on the ground.
-        support_unknown: Why what stands on the ground is not known, as the end of a sentence;
-            empty if it is. Then there is neither support nor gravity torque.
+        support_unknown: The reason why what stands on the ground is not known, as the end of a
+            sentence; empty if it is. Then there is neither support nor gravity torque.
     """
 
     robot: Robot

@@ -45,7 +45,7 @@ class Motion(Record):
     """One way in which a joint moves.
 
     Attributes:
-        number: Of the joint's axis, from 0.
+        number: The number of the joint's axis, from 0.
         axis: Direction in the robot's frame, of length 1; of a ball, any.
     """
 

@@ -32,8 +32,8 @@ class Degree(Record):
 
     Attributes:
         part: Scoped name of the joint; of a free robot, of the link that hangs on nothing.
-        number: Of the joint's axis, from 0; of a ball x, y, z of its turn rate; of a free link
-            x, y, z of its velocity, then of its turn rate.
+        number: The number of the joint's axis, from 0; of a ball x, y, z of its turn rate; of a
+            free link x, y, z of its velocity, then of its turn rate.
         free: Whether it is one of a free link.
     """
 

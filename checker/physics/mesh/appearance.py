@@ -71,8 +71,8 @@ def sampled(pixels: Array, places: Array) -> Array:
     """Return the colours of triangles' corners (n × 3 × 4, uint8).
 
     Args:
-        pixels: Of the picture (h × w × 4).
-        places: Of the corners in it (n × 3 × 2); outside 0 to 1 it repeats.
+        pixels: The pixels of the picture (h × w × 4).
+        places: The places of the corners in it (n × 3 × 2); outside 0 to 1 it repeats.
     """
     import numpy as np
 
@@ -102,8 +102,8 @@ def appearances(
     """Return as JSON what each of some files looks like.
 
     Args:
-        items: For each `file`, `name` (its suffix says the format), `triangles` (at most),
-            `pictures` (by the names inside), `materials` (material files).
+        items: The items for each `file`, `name` (its suffix says the format), `triangles` (at
+            most), `pictures` (by the names inside), `materials` (material files).
         files: All of these, under the names that the items give them.
         run_in_forks: Reads them.
     """

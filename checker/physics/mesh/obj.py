@@ -90,7 +90,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
     """Return the triangles; polygons are cut into fans.
 
     Args:
-        data: Of the file.
+        data: The content of the file.
         material_files: What is in those that it names, as far as they are available.
 
     Raises:

@@ -54,7 +54,7 @@ def mesh_work(
 
     Args:
         wanted: `facts`, `appearance` or `views` (see `checker.physics.mesh.worker`).
-        items: As of a `Work`; likewise the others.
+        items: The items, as in `Work`; the same applies to the other arguments.
         decode: Makes a result of an answer.
         lasts: Whether a result holds next time as well.
         files: The files of an item.
@@ -84,7 +84,7 @@ def facts_key(data: bytes, suffix: str, picked: Sequence[str] = ()) -> str:
 
     Args:
         data: Content of the file.
-        suffix: Of its name, with the dot.
+        suffix: The suffix of its name, with the dot.
         picked: Names of parts that are measured by themselves.
     """
     return work_key([suffix.lower(), *picked, data], ["physics/mesh", "model/mesh.py"], _LIBRARIES)

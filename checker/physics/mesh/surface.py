@@ -26,7 +26,7 @@ class Surface(Record, eq=False):
     Attributes:
         vertices: Corners, metres (n × 3, float32).
         faces: Three numbers of corners a triangle, counter-clockwise from outside (m × 3, uint32).
-        colour: Of all triangles; vertex colours are multiplied with it.
+        colour: The colour of all triangles; vertex colours are multiplied with it.
         vertex_colours: sRGB red, green, blue and alpha of each corner (n × 4, uint8), or None.
         normals: Unit vectors of smooth surfaces (n × 3, float32); None lets every triangle be flat.
     """
@@ -137,9 +137,9 @@ def merge_corners(
 
     Args:
         corners: Metres (n × 3 × 3).
-        colour: Of all of them.
-        colours: Of the corners (n × 3 × 4, uint8), averaged where corners become one.
-        places: In a picture (n × 3 × 2); corners with different ones stay apart.
+        colour: The colour of all of them.
+        colours: The colours of the corners (n × 3 × 4, uint8), averaged where corners become one.
+        places: The places in a picture (n × 3 × 2); corners with different ones stay apart.
     """
     import numpy as np
 

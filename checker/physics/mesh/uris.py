@@ -28,7 +28,7 @@ def file_behind(package: Package, folder: str, uri: str) -> MeshFile | MeshFault
     Args:
         package: The package whose robot names it.
         folder: The folder of the file that states it, relative to the package.
-        uri: As written.
+        uri: The URI as written.
     """
     path = path_behind(package, folder, uri)
     if isinstance(path, Unknown):

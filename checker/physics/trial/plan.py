@@ -46,7 +46,7 @@ class PlannedRotor(Record):
 
     Attributes:
         link: Scoped name.
-        centre: In the robot's frame, metres.
+        centre: The centre in the robot's frame, metres.
         up: Direction of its thrust in the robot's frame, of length 1.
         spin: 1 counter-clockwise, −1 clockwise, 0 unknown.
         most: Greatest thrust, N.
@@ -71,9 +71,9 @@ class Plan(Record):
         legs: The course.
         linear: Commanded forward speed over time, m/s.
         angular: Commanded turn rate over time, rad/s.
-        speeds: Of joints by scoped name over time, rad/s.
-        places: Of joints that a stiff servo holds or steers, over time, rad or m.
-        wheels: Those among `speeds` that stand on the ground.
+        speeds: The speeds of joints by scoped name over time, rad/s.
+        places: The places of joints that a stiff servo holds or steers, over time, rad or m.
+        wheels: The wheels among `speeds` that stand on the ground.
         belts: What a tracked robot stands on.
         rotors: What carries a copter.
         efforts: Effort limits of joints that are driven, N·m or N.
@@ -81,7 +81,7 @@ class Plan(Record):
         acceleration_limit: m/s²; None without.
         turns_in_place: Whether the turn is one in place, not a circle.
         notes: What could not be driven and why, as sentences.
-        not_driven: As of `Trial`.
+        not_driven: The reason why it is not driven, as in `Trial`.
     """
 
     kind: str

@@ -64,7 +64,7 @@ def ramp_to(targets: Iterable[tuple[float, float, float, float]], limits: Limits
 
     Args:
         targets: Start and end (seconds), velocity, and greatest acceleration as an amount.
-        limits: Of the plugin that is commanded.
+        limits: The limits of the plugin that is commanded.
     """
     knots: list[tuple[float, float]] = []
     value = 0.0

@@ -68,11 +68,12 @@ class Recording(Record):
         timestep: Seconds.
         servos: The servos in the order of the scene's actuators.
         states: The states by name: `settled`, and `hovering` for what flies.
-        commands: Of each servo, in the steps in which one of them changes; each lasts to the next.
-        thrusts: Of each rotor likewise, N.
+        commands: The commands of each servo, in the steps in which one of them changes; each lasts
+            to the next.
+        thrusts: The thrusts of each rotor likewise, N.
         belts: What moves as the surface of a belt.
-        speeds: Of each of them likewise, m/s.
-        refused: Why MuJoCo refuses the scene; else empty.
+        speeds: The speeds of each of them likewise, m/s.
+        refused: The reason why MuJoCo refuses the scene; else empty.
     """
 
     timestep: float = 0.0

@@ -32,7 +32,7 @@ def excess_figures(
 
     Args:
         trial: What was measured.
-        limits: By the names of figures.
+        limits: The limits by the names of figures.
     """
     for name, limit in limits.items():
         value = trial.value(name)

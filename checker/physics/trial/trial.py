@@ -52,7 +52,8 @@ class Measurement(Record):
     """One figure.
 
     Attributes:
-        name: Such as `speed_ratio`; the list is in `checker/physics/trial/measures/figures.py`.
+        name: The name, such as `speed_ratio`; the list is in
+            `checker/physics/trial/measures/figures.py`.
         value: The value in the unit of the list; never NaN (a figure that is none is left out).
         part: Scoped name of the link or joint it is about; empty for the robot.
         other: Scoped name of the second part, for figures about pairs; `ground` for the ground.
@@ -68,9 +69,10 @@ class Replay(Record):
     """How the robot moved, to be looked at.
 
     Attributes:
-        time: Of each sample, seconds.
-        poses: By the scoped name of each link that moves by itself: position x, y, z (metres) and
-            quaternion w, x, y, z of the link's frame in the world, flat, seven numbers a sample.
+        time: The time of each sample, seconds.
+        poses: The poses by the scoped name of each link that moves by itself: position x, y, z
+            (metres) and quaternion w, x, y, z of the link's frame in the world, flat, seven numbers
+            a sample.
         carriers: Scoped name of the link in `poses` that carries it, for each other link.
     """
 
@@ -125,7 +127,7 @@ class Trial(Record):
 
     Attributes:
         drive: What was driven, a value of `DriveKind`.
-        versions: Of MuJoCo and of the course, by name.
+        versions: The versions of MuJoCo and of the course, by name.
         legs: The course that was driven; empty when MuJoCo refused the model.
         measurements: All figures.
         repairs: What had to be changed.
@@ -133,7 +135,7 @@ class Trial(Record):
         refused_part: Scoped name of the link or joint that the reason is about; empty if unknown.
         trouble: Solver warnings and NaN, as ends of sentences; empty for a sound run.
         notes: What was left out of the trial and why, as sentences.
-        not_driven: Why a robot that moves was only let stand, as the end of a sentence.
+        not_driven: The reason why a robot that can move was not driven, as the end of a sentence.
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m, the mean of the 0.1 s before), `joint:<joint>` (rad or m).

@@ -41,8 +41,8 @@ def first_hits(corners: Array, grid: Grid) -> tuple[Array, NDArray[bool_]]:
     nearer than the sensor sees.
 
     Args:
-        corners: Of triangles (n × 3 × 3), metres, in the sensor's frame; counter-clockwise seen
-            from outside.
+        corners: The corners of triangles (n × 3 × 3), metres, in the sensor's frame;
+            counter-clockwise seen from outside.
         grid: The sensor's rays.
     """
     import numpy as np
@@ -74,7 +74,7 @@ def in_view(middle: Array, radius: float, grid: Grid) -> bool:
     """Say whether a ray of a grid may meet what is within a ball.
 
     Args:
-        middle: Of the ball (3), metres, in the sensor's frame.
+        middle: The centre of the ball (3), metres, in the sensor's frame.
         radius: Metres.
         grid: The sensor's rays.
     """

@@ -35,11 +35,11 @@ class ViewRequest(Record, eq=False):
     """A request, and what its numbers represent.
 
     Attributes:
-        item: For the worker.
+        item: The item for the worker.
         contents: A hash of each mesh file, in the order of the request.
         sensors: The sensors in the order of the request.
         shapes: Visuals, then collisions if a sensor meets these, by their numbers.
-        lights: With the visual around each, in the order of the request.
+        lights: The lights with the visual around each, in the order of the request.
         unseen: What is left out, and why, as ends of sentences.
     """
 

@@ -48,7 +48,7 @@ def views_of(
 
     Args:
         item: See above.
-        sensors: Those that are asked about.
+        sensors: The sensors that are asked about.
         of_meshes: What is seen of each mesh (`visibility_of_mesh`).
 
     Returns:

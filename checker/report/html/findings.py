@@ -110,7 +110,8 @@ class ShownFinding(Record):
         anchor: The anchor that links to it.
         others: Further places; `more` are not shown.
         also: Ids of other rules that report the same fault.
-        elements: Of all places, the main one first: one of them may be a part of the robot.
+        elements: The elements of all places, the main one first: one of them may be a part of the
+            robot.
     """
 
     anchor: str
@@ -178,7 +179,7 @@ def grades_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ())
     """Return findings by severity, each in order.
 
     Args:
-        findings: Of a package.
+        findings: The findings of a package.
         unseen: Files of robots that the 3D view does not show.
     """
     by_severity = {severity: list[ReportedFinding]() for severity in Severity}

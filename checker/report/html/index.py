@@ -27,7 +27,7 @@ class Entry(Record):
 
     Attributes:
         link: Address of its page; empty without.
-        rank: Of its verdict, for sorting; 0 needs most work.
+        rank: The rank of its verdict, for sorting; 0 needs most work.
         counts: Findings by severity, the gravest first.
         trial: Its result, in words.
     """
@@ -84,7 +84,7 @@ def common_problems(packages: Sequence[PackageReport], links: Sequence[str]) -> 
     """Return the rules that found something in several packages; those in most of them first.
 
     Args:
-        packages: Of a run.
+        packages: The packages of a run.
         links: Address of each package's page.
     """
     by_rule: dict[str, list[tuple[ReportedFinding, Found]]] = {}

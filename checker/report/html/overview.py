@@ -76,9 +76,9 @@ def trial_sentences(
     """Return the result of a trial as sentences.
 
     Args:
-        trial: As `PackageReport.trial` has it.
+        trial: The trial, as in `PackageReport.trial`.
         name: What the robot is called.
-        unseen: Why rules on trials were not checked; empty where all were.
+        unseen: The reasons why rules on trials were not checked; empty where all were.
     """
     if trial["refused"]:
         return [f"MuJoCo refuses the model: {plain(shortened(trial['refused'], _TEXT_LIMIT))}."]

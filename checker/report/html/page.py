@@ -207,7 +207,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
     """Return a page that lists the packages of a run.
 
     Args:
-        report: Of all packages.
+        report: The report of all packages.
         links: Address of each package's own page, relative to this one; none where it is empty.
     """
     script = _script(("index.js",), with_viewer=False)

@@ -62,8 +62,8 @@ def plots_of(trial: Mapping[str, Any], mass: float | None = None) -> TrialPlots 
     """Return the plots of a trial; None where there are no samples.
 
     Args:
-        trial: As `PackageReport.trial` has it.
-        mass: Of the robot, kg, where it is known.
+        trial: The trial, as in `PackageReport.trial`.
+        mass: The mass of the robot, kg, where it is known.
     """
     moments = trial["series"].get("time") or ()
     legs = tuple(Leg(leg["name"], leg["start"], leg["end"]) for leg in trial["course"])

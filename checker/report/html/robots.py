@@ -26,7 +26,7 @@ class ShownRobot(Record):
         badge: `ok` or a severity: the result of the trial; empty where it was not judged.
         verdict: The same in words, and why it was not driven.
         facts: Names and values.
-        trial: As `PackageReport.trial`; None where nothing was driven.
+        trial: The trial, as in `PackageReport.trial`; None where nothing was driven.
     """
 
     anchor: str

@@ -62,7 +62,7 @@ def view_of(sensor: Sensor, grid: Grid, size: float) -> tuple[Surface, ...]:
     Args:
         sensor: A camera or lidar.
         grid: The angles and ranges of its view.
-        size: Of the robot, metres.
+        size: The size of the robot, metres.
     """
     if grid.picture is not None:
         return _pyramid(grid.picture, min(grid.far, _CAMERA * size))

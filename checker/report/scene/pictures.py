@@ -57,7 +57,7 @@ def shots_of(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
     """Yield the shots of a robot.
 
     Args:
-        scene: Of it.
+        scene: The scene.
         aspect: Width of a picture over its height.
     """
     captions = {
@@ -76,7 +76,7 @@ def shot_of(
     """Return a shot of a robot at rest; None where nothing of a layer can be shown.
 
     Args:
-        scene: Of the robot.
+        scene: The scene of the robot.
         layer: What is seen.
         direction: Azimuth and elevation of the line of sight, degrees.
         aspect: Width of the picture over its height.
@@ -217,7 +217,7 @@ class Drawing:
         """Say what to draw; it is drawn while the caller does something else.
 
         Args:
-            scene: Of a robot.
+            scene: The scene of a robot.
             shots: Pictures of it.
             form: Of the files: JPEG, or PNG.
         """

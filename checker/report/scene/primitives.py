@@ -108,7 +108,8 @@ def revolve(profile: Sequence[Point]) -> Surface:
     """Return what a profile leaves when it turns about z.
 
     Args:
-        profile: From below upwards along the outside; corners stand twice, once for each normal.
+        profile: The profile from below upwards along the outside; corners stand twice, once for
+            each normal.
     """
     import numpy as np
 

@@ -19,9 +19,9 @@ class StartedProcesses(Record):
     """Processes that wait.
 
     Attributes:
-        meshes: For mesh files to read.
-        drawing: For a scene to draw.
-        xacro: For xacro files to expand.
+        meshes: The process that reads mesh files.
+        drawing: The process that draws a scene.
+        xacro: The process that expands xacro files.
     """
 
     meshes: Server | None = None

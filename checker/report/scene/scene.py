@@ -33,7 +33,7 @@ class Item(Record, eq=False):
 
     Attributes:
         layer: What it is shown and hidden with.
-        name: Of the visual, joint, sensor, … it represents.
+        name: The name of the visual, joint, sensor, … it represents.
         element: Path of that one's element, as `Place.element` has it.
         pose: The pose in the frame of its link.
         surfaces: Its triangles, before `scale`.
@@ -54,7 +54,7 @@ class LinkNode(Record, eq=False):
     Attributes:
         name: Scoped name; no two links have the same.
         element: Path of its element, as `Place.element` has it.
-        pose: In the robot's frame while all joints stand at 0.
+        pose: The pose in the robot's frame while all joints stand at 0.
         items: What is to see.
         carrier: Name of the link with a track that this one is fixed to; empty where it has a track
             of its own, and for what stays where it is.
@@ -71,8 +71,8 @@ class Tracks(Record, eq=False):
     """How links move in the world (z up, the ground at z = 0).
 
     Attributes:
-        time: Of the samples, seconds (n).
-        poses: By the link's name: x, y, z (metres) and quaternion w, x, y, z (n × 7).
+        time: The time of the samples, seconds (n).
+        poses: The poses by the link's name: x, y, z (metres) and quaternion w, x, y, z (n × 7).
     """
 
     time: Array

@@ -23,9 +23,9 @@ class Showing(Record, eq=False, dict=True):
     """A robot to be shown.
 
     Attributes:
-        robot: It.
+        robot: The robot.
         frames: Poses in the robot's frame of the links that are shown, by scoped name.
-        surfaces: Of its mesh files.
+        surfaces: The surfaces of its mesh files.
         notes: What is not shown.
         size: Radius of the sphere around its shapes, metres; markers are as large as it suits.
     """

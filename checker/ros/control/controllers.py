@@ -21,8 +21,9 @@ class Gain(Record, eq=False):
     """A gain of a PID loop.
 
     Attributes:
-        value: As a number; None where it is not a number, NaN where it is known at launch only.
-        text: As written.
+        value: The value as a number; None where it is not a number, NaN where it is known at launch
+            only.
+        text: The text as written.
     """
 
     value: float | None
@@ -36,9 +37,10 @@ class Controller(Record, eq=False):
     Attributes:
         name: Path below the namespace, such as `arm_controller`.
         namespace: Absolute namespace it is loaded under, such as `/gurdy`.
-        type: Such as `effort_controllers/JointPositionController`; None when not stated.
+        type: The type, such as `effort_controllers/JointPositionController`; None when not stated.
         joints: Names under `joint`, `joints` or the wheels of a drive.
-        gains: By joint, then `p`, `i`, `d`; a joint whose loop is not configured is absent.
+        gains: The gains by joint, then `p`, `i`, `d`; a joint whose loop is not configured is
+            absent.
         loaded_by: The `<rosparam>` that loads it; None when no launch file does.
         span: Its key.
     """
@@ -134,20 +136,20 @@ class ControlSystem(Record, eq=False, dict=True):
 
     Attributes:
         robots: Names of the robots.
-        joints: By name, of all robots; None when the robots are not known.
-        transmissions: Of all robots.
+        joints: The joints by name, of all robots; None when the robots are not known.
+        transmissions: The transmissions of all robots.
         plugins: `gazebo_ros_control`, as often as it stands there.
         publishes_states: Whether a Gazebo plugin publishes the joint states by itself.
         has_manager: Whether a Gazebo plugin, that one or another, runs a controller manager.
         otherwise_moved: Names that plugins other than `gazebo_ros_control` mention.
         controllers: Configured in YAML that a launch file loads, or that is in the package.
-        simulator_gains: Of `gazebo_ros_control` itself.
+        simulator_gains: The gains of `gazebo_ros_control` itself.
         launches: One for each launch file that no other one starts.
         dormant: Controllers started by nodes that a condition leaves out.
         faults: Files of parameters that launch files name and that do not exist.
         file: The file that describes the robot.
-        unread_robot: Why robots, joints and transmissions are not known; else empty.
-        unread: Why parts of what the launch files start and load are not known.
+        unread_robot: The reasons why robots, joints and transmissions are not known; else empty.
+        unread: The reasons why parts of what the launch files start and load are not known.
     """
 
     robots: tuple[Located[str], ...]

@@ -38,7 +38,7 @@ def read_controllers(
     """Yield what a YAML text configures for control.
 
     Args:
-        root: Of the text.
+        root: The root node of the text.
         namespace: Absolute namespace under which its keys are set.
         loaded_by: The `<rosparam>` that loads it; None when no launch file does.
     """

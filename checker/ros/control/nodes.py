@@ -36,7 +36,7 @@ class Spawned(Record, eq=False):
     """A controller that a spawner node of a launch file starts.
 
     Attributes:
-        name: As in the node's args.
+        name: The name as in the node's args.
         namespace: Absolute namespace of its controller manager.
         node: The node.
         span: The word in the args, else the node.

@@ -55,9 +55,9 @@ class Parameters:
     Attributes:
         package: The package whose files are read.
         controllers: The controllers in the order of the files.
-        gains: Of `gazebo_ros_control` itself.
+        gains: The gains of `gazebo_ros_control` itself.
         faults: Files that are not there or cannot be read.
-        unread: Why parameters are not known.
+        unread: The reasons why parameters are not known.
     """
 
     package: Package

@@ -39,7 +39,7 @@ class Claim(Record, eq=False):
     """A joint that a controller names, with what it needs of it.
 
     Attributes:
-        joint: As the parameter names it.
+        joint: The joint as the parameter names it.
         commands: Command interfaces that it needs.
         states: State interfaces that it needs.
     """

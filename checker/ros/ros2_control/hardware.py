@@ -23,7 +23,7 @@ class Interface(Record, eq=False):
     """A `<command_interface>` or `<state_interface>`.
 
     Attributes:
-        name: Such as `velocity`.
+        name: The name, such as `velocity`.
         numbers: What `min`, `max` and `initial_value` say; what reads as no number is left out.
         params: Texts of its `<param>`s by their names.
         element: The tag.
@@ -72,9 +72,9 @@ class Hardware(Record, eq=False, dict=True):
         name: Empty when not stated.
         type: `system`, `actuator` or `sensor`; empty when not stated.
         plugin: Class of the hardware component; empty when not stated.
-        joints: In order.
-        sensors: In order.
-        gpios: In order.
+        joints: The joints in order.
+        sensors: The sensors in order.
+        gpios: The GPIOs in order.
         element: The tag.
     """
 

@@ -30,7 +30,7 @@ class Spawner(Record, eq=False):
 
     Attributes:
         node: The node.
-        names: Of the controllers; those known at launch only are left out.
+        names: The names of the controllers; those known at launch only are left out.
         options: Values of options by their name, short or long, several where given several times.
         complete: Whether nothing of its command line is left to the machine that launches.
     """
@@ -101,7 +101,7 @@ class LaunchedControl(Record, eq=False, dict=True):
     """What one launch file, with all that it includes, does for ros2_control.
 
     Attributes:
-        graph: Of the launch file.
+        graph: The graph of the launch file.
         controls: ros2_control of the robots of the package.
         reader: Reads files of parameters.
     """

@@ -43,7 +43,7 @@ class ParametersFile(Record, eq=False):
     Attributes:
         text: What the plugin says.
         package: Name of the package that it is in; empty where that is not known.
-        path: As the checked package lists it; None where no such package is available.
+        path: The path as the checked package lists it; None where no such package is available.
         exists: Whether the file is there.
     """
 
@@ -88,7 +88,7 @@ class RobotControl(Record, eq=False, dict=True):
         managers: Plugins of Gazebo that run a controller manager.
         files: Files of parameters that are about its controllers.
         faults: What is wrong with them as YAML.
-        unread: Why parameters are not known, each the end of a sentence.
+        unread: The reasons why parameters are not known, each the end of a sentence.
         by_default: Whether the robot is the one that its file makes without further values.
     """
 

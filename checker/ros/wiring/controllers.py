@@ -37,9 +37,10 @@ class RunController(Record, eq=False, dict=True):
     """A controller that a controller manager of the launch may run.
 
     Attributes:
-        controller: As parameter files configure it.
-        namespace: Of the manager, absolute.
-        remaps: Of the process that runs it, then those of its spawner: source and target.
+        controller: The controller as parameter files configure it.
+        namespace: The namespace of the manager, absolute.
+        remaps: The remaps of the process that runs it, then those of its spawner: source and
+            target.
         started: Whether a spawner starts it.
         simulated: Whether Gazebo runs it.
     """

@@ -16,7 +16,7 @@ class Endpoint(Record, eq=False):
 
     Attributes:
         topic: Absolute, after remaps.
-        types: Of its messages; several where a parameter or the distribution decides.
+        types: The types of its messages; several where a parameter or the distribution decides.
         publishes: Whether it publishes; else it reads.
         by: The owner, for a message.
         span: What decides its topic, else the start of its owner.

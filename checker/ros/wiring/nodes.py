@@ -27,7 +27,7 @@ class WiredNode(Record, eq=False, dict=True):
     """A node that a launch file starts.
 
     Attributes:
-        node: As the launch file has it.
+        node: The node as the launch file has it.
         files: Its parameter files.
         facts: What is known of its program; None for an unknown one.
     """

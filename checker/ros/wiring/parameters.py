@@ -68,7 +68,7 @@ def settings_of(
     Args:
         node: The node that gets them.
         files: Its parameter files.
-        name: Of the node.
+        name: The name of the node.
         namespace: Absolute.
     """
     by_given = {id(file.given): file for file in files}

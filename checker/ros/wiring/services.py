@@ -20,7 +20,7 @@ class Wanted(Record, eq=False):
 
     Attributes:
         name: Absolute.
-        item: Of a list, what makes it wait; empty where its program always does.
+        item: The item of a list that makes it wait; empty where its program always does.
         span: What says so, else the start of the node.
     """
 

@@ -69,8 +69,8 @@ def velocities(wiring: Wiring, distribution: str) -> Iterator[Velocity]:
     """Yield the velocity topics of a launch, those that are known for certain.
 
     Args:
-        wiring: Of the launch.
-        distribution: Of ROS 2.
+        wiring: The wiring of the launch.
+        distribution: The distribution of ROS 2.
     """
     entries = [
         (entry, entry.by[distribution])

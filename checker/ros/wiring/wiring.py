@@ -30,7 +30,7 @@ class Wiring(Record, eq=False, dict=True):
     """The wiring of one launch file.
 
     Attributes:
-        graph: Of the launch file.
+        graph: The graph of the launch file.
         every_node: Its nodes, those that conditions leave out among them.
         simulation: What it simulates and bridges; None when it has nothing to do with Gazebo.
         described: The nodes that publish the joints of a robot, each with the robot.

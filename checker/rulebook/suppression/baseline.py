@@ -28,7 +28,7 @@ class BaselineEntry(Record):
         rule: Id of the rule.
         places: The number of faults at each place, by names that `spots.py` gives them.
         key: What its places have in common, where the rule says so.
-        reason: Why it need not be mended, if the user wrote so into the file.
+        reason: The reason why it need not be mended, if the user wrote so into the file.
     """
 
     rule: str
@@ -43,8 +43,8 @@ class Baseline(Record):
     """The content of a baseline's file.
 
     Attributes:
-        path: Of the file; None without a baseline.
-        fault: Why it cannot be used, as the end of a sentence that starts with the path.
+        path: The path of the file; None without a baseline.
+        fault: The reason why it cannot be used, as the end of a sentence that starts with the path.
         digest: The digest of all entries; the key of a cached check contains it.
         packages: Entries by the name of the package.
         missing: Whether nothing is in the way of a new file there.

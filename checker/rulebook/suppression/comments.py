@@ -40,8 +40,8 @@ class Comment(Record):
         place: The place.
         names: Ids or names of rules; none where the comment has another form.
         fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
-        reason: Why; empty when it does not say.
-        lines: Of the file, counted from 1: findings there are set aside.
+        reason: The reason; empty when it does not say.
+        lines: The lines of the file, counted from 1: findings there are set aside.
     """
 
     place: Place

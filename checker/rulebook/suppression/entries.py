@@ -21,7 +21,7 @@ class SettingsEntry(Record):
 
     Attributes:
         rule: Id or name.
-        reason: Why they do not.
+        reason: The reason why they do not.
         file: Pattern of their files, relative to the package; `.` is its folder.
             Empty for all.
         element: A part of the path of their element, such as `link[base]`. Empty for all.

@@ -47,7 +47,7 @@ class Suppression(Record):
     """Why a finding does not count.
 
     Attributes:
-        place: Of the comment that says so; None for what stands elsewhere.
+        place: The place of the comment that says so; None for what stands elsewhere.
     """
 
     by: SuppressedBy

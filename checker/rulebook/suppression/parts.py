@@ -42,7 +42,7 @@ class Suppressions(Record):
     """What the package's comments and the settings want set aside, and what of it has no effect.
 
     Attributes:
-        comments: Those in the package's own files.
+        comments: The comments in the package's own files.
     """
 
     comments: tuple[Comment, ...]

@@ -105,8 +105,8 @@ class Connection(Record):
         """Send a request, again and again while the service is busy or away, and return its answer.
 
         Args:
-            method: Of HTTP.
-            path: Below the address of the service.
+            method: The HTTP method.
+            path: The path below the address of the service.
             upload: What goes with it.
             limit: Bytes of the answer that are read.
             headers: Headers to send beside the usual ones.

@@ -20,7 +20,7 @@ class Server(Record):
     Attributes:
         scheme: `http` or `https`.
         host: Name or address, without brackets.
-        port: Of TCP.
+        port: The TCP port.
         base: Path below which it lies, without a slash at its end; usually empty.
     """
 

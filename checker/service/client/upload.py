@@ -88,7 +88,7 @@ def file_to_send(path: Path, say: Say) -> Iterator[Path]:
     """Give an archive or a model file as it is, a folder packed.
 
     Args:
-        path: Of a package.
+        path: The path of a package.
         say: Called with what the service will not see.
 
     Raises:

@@ -39,7 +39,7 @@ def without_folder(report: Report, place: Path) -> Report:
     Messages hold paths here and there: of settings that cannot be used, of rules that crashed.
 
     Args:
-        report: As it came out of the check.
+        report: The report as it came out of the check.
         place: The folder, laid out by `checker.service.jobs.exchange`.
     """
     folders = "|".join(re.escape(str(folder)) for folder in {place, place.resolve()})

@@ -118,9 +118,9 @@ class Children:
         Args:
             request: See `checker.service.jobs.check_child`.
             contents: The files that go with it.
-            seconds: By the clock, before it is stopped.
+            seconds: Seconds of real time before it is stopped.
             cancelled: Whether it is no longer wanted; asked a few times a second.
-            niceness: By how much it stands back behind other checks, as `nice` counts it.
+            niceness: The value for `nice` that gives it a lower priority than other checks.
 
         Yields:
             How it ended; its files can be read meanwhile.

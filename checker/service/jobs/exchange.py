@@ -41,7 +41,7 @@ class StageLimits(Record):
     """What the check of an upload may use.
 
     Attributes:
-        seconds: Of processor time, for each process.
+        seconds: Seconds of processor time, for each process.
         clock_seconds: For all of it, on however busy a machine.
         memory: Bytes of address space of the process that checks. Not below what the children of
             the check request themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
@@ -151,7 +151,7 @@ def settle(place: Path, name: str, files: Files) -> None:
 
     Args:
         place: An empty folder.
-        name: Of the uploaded file.
+        name: The name of the uploaded file.
         files: The upload, and parts of an earlier check of it.
     """
     upload = place / GIVEN

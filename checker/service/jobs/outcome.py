@@ -12,8 +12,8 @@ class Checked(Record):
     """A report is in the store.
 
     Attributes:
-        key: Of the result.
-        packages: As in `State.packages`.
+        key: The key of the result.
+        packages: The packages, as in `State.packages`.
         words: What came out, one sentence.
     """
 
@@ -26,7 +26,7 @@ class Refused(Record):
     """The upload cannot be checked, and its sender can mend that.
 
     Attributes:
-        reason: Why, and what to do; one sentence.
+        reason: The reason, and what to do; one sentence.
     """
 
     reason: str

@@ -74,8 +74,9 @@ class State(Record):
         ahead: Checks in front of it in the queue.
         created: Seconds since the epoch.
         result: Key of the stored report so far (static findings at first); empty before.
-        packages: Of each package so far: its "name", "verdict" (see `VerdictKind`), "kind",
-            "errors", "warnings", "infos" and the "folder" of its files in the result ("" for one).
+        packages: The data of each package so far: its "name", "verdict" (see `VerdictKind`),
+            "kind", "errors", "warnings", "infos" and the "folder" of its files in the result (""
+            for one).
         expires: When everything of it is deleted, seconds since the epoch.
     """
 
@@ -117,7 +118,7 @@ class Alive(Record):
         workers: Seconds since each worker's last sign of life, by its name.
         waiting: Checks that wait, by queue.
         running: Checks that run.
-        layers: Of the sandbox around what each worker checks.
+        layers: The layers of the sandbox around what each worker checks.
     """
 
     workers: Mapping[str, float]

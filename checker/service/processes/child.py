@@ -154,7 +154,7 @@ def web(descriptor: int, proxies: str) -> None:
     """Serve pages and API until SIGTERM.
 
     Args:
-        descriptor: Of the socket to listen at.
+        descriptor: The descriptor of the socket to listen at.
         proxies: Addresses and networks whose word on their clients counts; empty for none.
     """
     import uvicorn

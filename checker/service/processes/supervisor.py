@@ -42,7 +42,7 @@ class Process:
     """A process to run.
 
     Attributes:
-        name: For messages.
+        name: The name for messages.
         command: Program and arguments.
         environment: Its variables.
         descriptors: Open files that it takes over.

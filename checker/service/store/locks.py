@@ -20,8 +20,8 @@ def try_lock(file: Path, flags: int = 0) -> int | None:
     """Return the descriptor that holds the lock of a file, which is made if it is missing.
 
     Args:
-        file: To lock.
-        flags: For opening it, such as `os.O_EXCL`.
+        file: The file to lock.
+        flags: The flags for opening it, such as `os.O_EXCL`.
 
     Returns:
         None if another process holds the lock, or has just removed the file.
@@ -64,8 +64,8 @@ def hold_lock(folder: Path, name: str) -> Iterator[None]:
     """Hold the lock of a process; where another one of the same name holds it, nothing happens.
 
     Args:
-        folder: Of all such files; made if it is missing.
-        name: Of this process.
+        folder: The folder of all such files; made if it is missing.
+        name: The name of this process.
 
     Raises:
         OSError: The disk or the system fails.

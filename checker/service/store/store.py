@@ -41,8 +41,8 @@ class Store(Record):
     """What was uploaded and what was found out about it.
 
     Attributes:
-        folder: Of work in progress on this machine, and of all that is kept unless `shared` keeps
-            it; made when something comes.
+        folder: The folder of work in progress on this machine, and of all that is kept unless
+            `shared` keeps it; made when something comes.
         shared: Keeps uploads and results for several machines.
     """
 
@@ -65,8 +65,8 @@ class Store(Record):
         """Keep an upload that has come whole, safe from a power failure.
 
         Args:
-            file: Of `Incoming`; it is gone after.
-            hash: Of its content, as `Incoming.finish` says it.
+            file: The file of `Incoming`; it is gone after.
+            hash: The hash of its content, as `Incoming.finish` says it.
         """
         self.objects.put(Kind.UPLOAD, hash, file)
 

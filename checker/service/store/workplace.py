@@ -46,8 +46,8 @@ class Incoming:
         """Begin.
 
         Args:
-            path: Of an empty file.
-            descriptor: To write it; its owner closes it.
+            path: The path of an empty file.
+            descriptor: The descriptor to write it; its owner closes it.
             limit: Bytes.
             admit: Takes the finished file and its hash.
         """

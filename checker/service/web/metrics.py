@@ -49,9 +49,9 @@ class Metrics:
         """Count a request.
 
         Args:
-            method: Of HTTP.
+            method: The HTTP method.
             route: Its template, such as `/checks/{id}`, of which there are few.
-            status: Of the answer; 0 if there was none.
+            status: The status of the answer; 0 if there was none.
             seconds: Until its end.
         """
         self._requests.labels(method, route, status).inc()

@@ -60,7 +60,7 @@ class Services(Record):
         """Return where a check stands.
 
         Args:
-            id: As a client sends it.
+            id: The id as a client sends it.
 
         Raises:
             Refused: There is none; the answer is one and the same for all ids.

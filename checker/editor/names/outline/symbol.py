@@ -36,7 +36,7 @@ class Symbol(Record):
     are outside it.
 
     Attributes:
-        name: As it is written.
+        name: The name as it is written.
         kind: What it is.
         start: Offset of its first character.
         end: Offset behind its last one.

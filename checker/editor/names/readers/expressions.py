@@ -39,8 +39,8 @@ def may_come_to(composed: str, name: str, values: Container[str] | None) -> bool
     """Whether the expressions of a composed name may make it another name.
 
     Args:
-        composed: Such as `${side}_wheel`.
-        name: Such as `left_wheel`.
+        composed: The text, such as `${side}_wheel`.
+        name: The name, such as `left_wheel`.
         values: What each expression may come to, numbers aside; None for anything.
     """
     pieces = literal_pieces(composed)

@@ -52,7 +52,7 @@ def plugin_names(plugin: Element, prefix: str) -> Iterator[WrittenName]:
 
     Args:
         plugin: The element.
-        prefix: Of the model that it belongs to: empty, or `robot::`.
+        prefix: The prefix of the model that it belongs to: empty, or `robot::`.
     """
     namespace = plugin.child(NAMESPACE)
     space = namespace.value if namespace is not None else ""

@@ -52,7 +52,7 @@ class SdfNames:
 
         Args:
             element: Any.
-            prefix: Of the model around it: empty, or `robot::`.
+            prefix: The prefix of the model around it: empty, or `robot::`.
             part: Full name of the link or joint around it.
         """
         for child in element.children:

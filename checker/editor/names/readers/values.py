@@ -198,10 +198,10 @@ def scoped_names(
     """Yield each part of a scoped name: of `arm::wrist`, the model and what is in it.
 
     Args:
-        name: As it is written.
+        name: The name as it is written.
         start: Its offset.
         kinds: What the last part may be.
-        role: Of all parts.
+        role: The role of all parts.
         prefix: What goes in front of it: empty, or `robot::`.
     """
     steps = name.split("::")

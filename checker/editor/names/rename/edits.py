@@ -23,7 +23,7 @@ def rename_edits(index: NameIndex, mention: Mention, new: str) -> tuple[Edit, ..
     """Return the edits that give a thing another name, or why it cannot have it.
 
     Args:
-        index: Of the package.
+        index: The index of the package.
         mention: Any of the thing.
         new: The new name, without the models around the thing; of a topic, without the model's
             name and without a leading slash.

@@ -49,7 +49,7 @@ def invalid(kind: NameKind, old: str, new: str) -> str:
     """Return why a thing cannot have a name; empty when it can.
 
     Args:
-        kind: Of the thing.
+        kind: The kind of the thing.
         old: Its name as it is written.
         new: The new name.
     """

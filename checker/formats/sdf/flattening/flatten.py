@@ -96,7 +96,7 @@ def standing_frame(name: str, pose: Transform, attached_to: str) -> list[str]:
 
     Args:
         name: What it is called.
-        pose: In the robot's frame.
+        pose: The pose in the robot's frame.
         attached_to: The model's canonical link; empty for none.
     """
     tied = f' attached_to="{escape_xml(attached_to)}"' if attached_to else ""

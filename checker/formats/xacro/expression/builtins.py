@@ -109,7 +109,7 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
     """Return what goes into a dictionary, once the hashes of its keys are paid for.
 
     Args:
-        budget: To take the steps from.
+        budget: The budget to take the steps from.
         arguments: Those of `dict` or `update`, but for the named ones.
         among: The number of keys of the dictionary.
     """
@@ -133,8 +133,8 @@ def sorting_key(budget: Budget, items: list[Any], key: Any) -> Any:
     """Take the steps of comparing items with one another; return a key that takes those of its own.
 
     Args:
-        budget: To take the steps from.
-        items: To sort.
+        budget: The budget to take the steps from.
+        items: The items to sort.
         key: What to sort them by, or None.
     """
     rounds = 1 + len(items).bit_length() // 4

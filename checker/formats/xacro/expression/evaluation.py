@@ -200,7 +200,7 @@ def evaluate(text: str, names: Names, allowance: Allowance | None = None) -> Any
     """Return the value of an expression, which is data.
 
     Args:
-        text: As written, without `${` and `}`.
+        text: The text as written, without `${` and `}`.
         names: What its names represent: data, functions, or namespaces of these.
         allowance: Steps that are left to all expressions of a file.
 

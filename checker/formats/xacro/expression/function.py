@@ -17,7 +17,7 @@ class Function(Record):
     """What a name may represent besides data; an expression calls it, or hands it on to another.
 
     Attributes:
-        name: As an expression writes it.
+        name: The name as an expression writes it.
         work: What it does.
         takes: Places and names of arguments that may be functions.
         stands_for: The type that `isinstance` may test for by this name.

@@ -43,11 +43,11 @@ class Passed(Record, eq=False):
     """One topic as an argument or an entry writes it.
 
     Attributes:
-        gz_topic: On Gazebo's side.
-        ros_topic: On ROS's side, before remaps.
-        ros_type: Such as `sensor_msgs/msg/Imu`.
-        gz_type: Such as `gz.msgs.IMU`.
-        direction: Which way messages go.
+        gz_topic: The topic on Gazebo's side.
+        ros_topic: The topic on ROS's side, before remaps.
+        ros_type: The type, such as `sensor_msgs/msg/Imu`.
+        gz_type: The type, such as `gz.msgs.IMU`.
+        direction: The direction of messages.
         way: The place of the direction.
         overrides_frame: Whether the bridge puts another frame into the messages.
     """
@@ -65,8 +65,8 @@ class BridgedService(Record, eq=False):
     """One service as an argument or an entry writes it.
 
     Attributes:
-        name: On both sides.
-        ros_type: Such as `ros_gz_interfaces/srv/ControlWorld`.
+        name: The name on both sides.
+        ros_type: The type, such as `ros_gz_interfaces/srv/ControlWorld`.
         gz_types: Gazebo's messages of request and reply, as far as they are stated.
     """
 
@@ -84,7 +84,7 @@ class BridgeEntry(Record, eq=False):
     """One topic that a bridge passes.
 
     Attributes:
-        passed: As it is written.
+        passed: The name as it is written.
         gz_topic: Absolute, on Gazebo's side; empty when it is not known before the launch.
         ros_topic: Absolute, on ROS's side, after remaps; empty when it is not known.
         remapped: Whether a remap gives it another name in ROS.

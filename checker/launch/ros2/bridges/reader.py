@@ -63,7 +63,7 @@ class Bridges(Record, eq=False):
     Attributes:
         entries: The topics.
         faults: What is wrong with arguments and files.
-        unread: Why some topics are not known.
+        unread: The reasons why some topics are not known.
         files: Paths of the YAML files that are read, as the package lists them.
         services: The services.
     """
@@ -117,7 +117,7 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
 
     Args:
         package: The package being checked.
-        graph: Of the launch file.
+        graph: The graph of the launch file.
     """
     reader = _Reader(package)
     for node in graph.nodes:

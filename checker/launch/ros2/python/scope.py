@@ -56,10 +56,10 @@ class LocalFunction:
 
     Attributes:
         node: Its definition.
-        scope: Around it.
+        scope: The scope around it.
         source: The file.
         defaults: Of its last positional parameters.
-        named_defaults: Of its keyword-only parameters.
+        named_defaults: The defaults of its keyword-only parameters.
     """
 
     node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda

@@ -20,7 +20,7 @@ def undefined_names(tree: ast.Module, entry: str) -> list[ast.Name]:
     a `try`, and functions that nothing names, are not looked at.
 
     Args:
-        tree: Of the file.
+        tree: The tree of the file.
         entry: Name of the function that launch calls.
     """
     bound = {*_GIVEN, *_bound(tree)}

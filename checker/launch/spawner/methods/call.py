@@ -40,7 +40,7 @@ class Call:
     Attributes:
         run: The interpreter.
         node: The whole call.
-        name: Of the method.
+        name: The name of the method.
         receiver: The object before the dot.
         arguments: Positional arguments.
         named: Arguments with a name (`radius: 1`).

@@ -9,7 +9,7 @@ class Measure(Record):
     """What a figure means.
 
     Attributes:
-        label: For tables.
+        label: The label for tables.
         unit: SI; empty for ratios and counts.
         silence_is_ok: Whether the figure is in order when the rule that judges it reports nothing.
     """

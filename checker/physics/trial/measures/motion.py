@@ -35,9 +35,9 @@ class Motion:
         velocity: The velocity of the origin of the robot's frame in the world, m/s (n × 3).
         spin: The angular velocity in the world, rad/s (n × 3).
         yaw: Heading without jumps, radians (n).
-        tilt: Between the robot's z axis and the vertical, radians (n).
+        tilt: The angle between the robot's z axis and the vertical, radians (n).
         forward: Speed along the robot's x axis, m/s (n).
-        contacts: With the ground, sampled more often than the rest.
+        contacts: The contacts with the ground, sampled more often than the rest.
     """
 
     run: Run

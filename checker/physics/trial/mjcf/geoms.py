@@ -82,7 +82,7 @@ class Geom(Record):
 
     Attributes:
         link: Scoped name.
-        pose: In the link's frame.
+        pose: The pose in the link's frame.
         shape: The attributes `type` and `size`, or `type` and `mesh`.
         lowest: z of its lowest point in the robot's frame, metres.
     """

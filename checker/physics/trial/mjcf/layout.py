@@ -69,7 +69,7 @@ class Layout:
 
     Attributes:
         ledger: What had to be changed or left out.
-        forest: Which link hangs on which.
+        forest: The trees of links.
         poses: The poses in the robot's frame.
         degrees: The motion of each link relative to its parent.
         held: The link that the trial holds in place, since nothing shows that the robot stands on

@@ -16,7 +16,7 @@ class Ledger:
     """Collects repairs and notes.
 
     Attributes:
-        repairs: In the order in which they were needed.
+        repairs: The repairs in the order in which they were needed.
     """
 
     repairs: list[Repair] = field(default_factory=list)

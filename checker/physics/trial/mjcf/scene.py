@@ -103,7 +103,7 @@ class Scene(Record):
         root_in_robot: Position (metres) and quaternion (w, x, y, z) of that link in the robot's
             frame at the start.
         spawn_height: z of the robot's frame at the start, metres.
-        unusable: Why no trial is possible, as the end of a sentence; empty if one is.
+        unusable: The reason why no trial is possible, as the end of a sentence; empty if one is.
     """
 
     mjcf: str = ""

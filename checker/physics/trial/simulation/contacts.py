@@ -36,7 +36,7 @@ class Touches(Record):
         time: The time of each sample, seconds (n).
         anchors: Positions of the joints with a servo in the robot's frame, metres (n × joints × 3).
         axes: Their axes, in the robot's frame (n × joints × 3).
-        sample: Of each contact, the number of its sample (k).
+        sample: The number of the sample of each contact (k).
         link: The number of the link of each contact (k).
         points: The points of contact in the robot's frame, metres (k × 3).
         loads: Normal forces, N (k).

@@ -47,8 +47,8 @@ class Allocation(Record):
         """Compute the shares.
 
         Args:
-            rotors: In the robot's frame.
-            centre: Of mass, metres.
+            rotors: The rotors in the robot's frame.
+            centre: The centre of mass, metres.
             weight: N.
         """
         import numpy as np

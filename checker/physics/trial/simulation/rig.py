@@ -25,8 +25,8 @@ class Rig:
     Attributes:
         model, data: MuJoCo's.
         root: Number of the body whose pose is the robot's.
-        mass: Of the robot, kg.
-        parts: Of each geom, the scoped name of its link; empty for the ground.
+        mass: The mass of the robot, kg.
+        parts: The scoped name of the link of each geom; empty for the ground.
         joints: Number of the joint of each actuator.
         names: Scoped name of the joint of each actuator.
         initial: The start positions of these joints, rad or m.

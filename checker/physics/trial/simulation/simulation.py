@@ -36,11 +36,11 @@ class Samples:
 
     Attributes:
         time: Seconds.
-        position: Of the robot's frame, metres.
+        position: The position of the robot's frame, metres.
         rotation: The rotation of the robot's frame, 3×3.
         velocity: The velocity of the origin of the robot's frame, m/s.
         spin: The angular velocity of the robot, rad/s.
-        centre: Of mass, in the robot's frame, metres.
+        centre: The centre of mass, in the robot's frame, metres.
         energy: Potential and kinetic, J.
         joints: The positions of the joints with a servo, rad or m.
         tracked: Positions (metres) and quaternions (w, x, y, z) of the frames of `Rig.tracked`.
@@ -105,8 +105,8 @@ class State:
 
     Attributes:
         step: Its number.
-        positions: Of all degrees of freedom, as MuJoCo's `qpos`.
-        velocities: As MuJoCo's `qvel`.
+        positions: The positions of all degrees of freedom, as MuJoCo's `qpos`.
+        velocities: The velocities, as MuJoCo's `qvel`.
     """
 
     step: int
@@ -122,12 +122,12 @@ class Run:
         rig: The rig with the state at the end.
         timestep: Seconds.
         samples: At the start and every 50 ms.
-        contacts: With the ground, sampled more often.
-        forces: Of the servos in each step, N·m or N (steps × servos).
+        contacts: The contacts with the ground, sampled more often.
+        forces: The forces of the servos in each step, N·m or N (steps × servos).
         hover_effort: Largest share of its greatest thrust that a rotor gives to carry the weight;
             None if no shares keep the balance, and for what does not fly.
         trouble: What ended it before its time, as the end of a sentence; else empty.
-        commands: Of the servos in each step (steps × servos), rad/s, rad or m.
+        commands: The commands of the servos in each step (steps × servos), rad/s, rad or m.
         thrusts: The thrusts of the rotors, N, each with the step in which they begin.
         states: The positions before a step, by the names of states.
         belts: What has surfaces that move; None without.
@@ -244,7 +244,7 @@ class Belts:
     Attributes:
         geoms: The geoms whose surfaces move.
         surfaces: The velocity of each at 1 m/s, in its own frame (geoms × 3).
-        speeds: Of each in each step, m/s (steps × geoms).
+        speeds: The speeds of each in each step, m/s (steps × geoms).
         changes: Steps in which a belt changes its speed.
     """
 

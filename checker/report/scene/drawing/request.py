@@ -35,9 +35,9 @@ class Camera(Record):
 
     Attributes:
         lookat: The middle of the picture, metres.
-        distance: From there, metres.
-        azimuth: Of the direction that it looks, degrees about z from x.
-        elevation: Of that direction, degrees above the horizon.
+        distance: The distance from that point, metres.
+        azimuth: The azimuth of the view direction, degrees about z from x.
+        elevation: The elevation of that direction, degrees above the horizon.
     """
 
     lookat: tuple[float, float, float]
@@ -112,7 +112,7 @@ class Shot(Record):
         layer: The visible layer.
         camera: The camera.
         tile: Length of the ground's tiles, metres.
-        sample: Of the tracks.
+        sample: The number of the sample of the tracks.
     """
 
     caption: str
@@ -144,11 +144,11 @@ def request_of(
     """Return what the worker needs to know.
 
     Args:
-        scene: Of the robot.
+        scene: The scene of the robot.
         shots: Pictures of it.
         ground: Height of the ground, metres.
-        width: Of a picture, pixels.
-        height: Likewise.
+        width: The width of a picture, pixels.
+        height: The height of a picture, pixels.
     """
     meshes = _Meshes()
     shown = list(drawn_items(scene))

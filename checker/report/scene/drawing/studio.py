@@ -112,7 +112,7 @@ def set_stage(model: Any, shot: Mapping[str, Any]) -> float:
     Returns how far around the middle of the picture shadows may fall, metres.
 
     Args:
-        model: From `model_of`.
+        model: The model from `model_of`.
         shot: The `tile` in metres and the `camera`.
     """
     import numpy as np

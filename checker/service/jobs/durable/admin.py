@@ -26,9 +26,9 @@ class Listed(Record):
     """A check that is not over, or has failed.
 
     Attributes:
-        key: Of the check.
-        stage: As in `port.Stage`.
-        number: Of the try of that stage.
+        key: The key of the check.
+        stage: The stage, as in `port.Stage`.
+        number: The number of the try of that stage.
         age: Seconds since it was ordered.
         worker: The worker that runs it or ran it last; empty if it waits.
         words: The description of its state.
@@ -46,8 +46,8 @@ class Admin(Record):
     """The checks and workers of a service.
 
     Attributes:
-        checks: In the database.
-        workers: In the same database.
+        checks: The checks in the database.
+        workers: The workers in the same database.
     """
 
     checks: Checks
@@ -97,7 +97,7 @@ class Admin(Record):
         """Have workers end when what they have in hand is finished, and return their names.
 
         Args:
-            names: Of workers, with or without what each process adds; none for all.
+            names: The names of workers, with or without what each process adds; none for all.
 
         Raises:
             CheckerError: None of that name is alive.

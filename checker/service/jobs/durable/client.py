@@ -46,8 +46,8 @@ class DurableJobs(Record):
     their digests alone.
 
     Attributes:
-        checks: In the database.
-        senders: In the same.
+        checks: The checks in the database.
+        senders: The senders in the same database.
         store: Uploads and results.
         retention_days: After which all of a check is deleted.
     """

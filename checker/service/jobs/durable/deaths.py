@@ -29,10 +29,10 @@ class Deaths:
         """Begin to count the time without a gap in this worker's own signs of life.
 
         Args:
-            checks: In the database.
+            checks: The checks in the database.
             workers: The workers with a recent sign of life.
             store: The store, with the folder of workers on this machine.
-            name: Of this worker.
+            name: The name of this worker.
             silence: Seconds after which a worker is taken for dead.
         """
         self._checks, self._workers, self._folder = checks, workers, store.workers

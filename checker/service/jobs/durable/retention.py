@@ -19,7 +19,7 @@ class Retention(Record):
     """Deletes what has had its time; any number of workers may do so at once.
 
     Attributes:
-        checks: In the database.
+        checks: The checks in the database.
         store: Uploads and results.
         grace_seconds: The time that a file without a check is kept.
     """

@@ -49,7 +49,7 @@ class Stages(Record):
     """Does stages of checks.
 
     Attributes:
-        checks: In the database.
+        checks: The checks in the database.
         store: Uploads and results.
         children: Do the work.
         hand_back: Set when there is no more time to finish what is in hand.

@@ -48,9 +48,9 @@ class End(Record):
 
     Attributes:
         stage: A final one.
-        words: Of its state.
+        words: The words of its state.
         result: Key of the report, if there is one.
-        packages: As in `State`.
+        packages: The packages, as in `State`.
     """
 
     stage: Stage
@@ -68,10 +68,10 @@ class Task(Record):
         created: When it was ordered, seconds since the epoch.
         expires: When all of the check is deleted.
         stage: `STATIC` or `TRIAL`.
-        number: Of the try, from 1; one beyond `TRIES` gives the check up.
-        reason: Why the try before came to nothing, the beginning of a sentence.
+        number: The number of the try, from 1; one beyond `TRIES` gives the check up.
+        reason: The reason why the try before failed, the beginning of a sentence.
         result: Key of the report on the static rules, for a trial.
-        packages: Of that report, as in `State`.
+        packages: The packages of that report, as in `State`.
         sender: The sender in whose partition of the queue it waits.
         cost: Seconds that it takes, estimated.
         secret: Digest of the secret, in the first workflow of a check.
@@ -115,7 +115,7 @@ class Row(Record):
 
     Attributes:
         task: Its input.
-        status: As DBOS calls it.
+        status: The status as DBOS calls it.
         created: When it was written, seconds since the epoch.
         begun: When a worker took it; 0 before.
         ended: When it was over; 0 before.
@@ -165,7 +165,7 @@ def state_of(id: str, rows: Sequence[Row]) -> State | None:
     """Return where a check stands; None if nothing is known of it.
 
     Args:
-        id: Of the check.
+        id: The id of the check.
         rows: All of the check, in the order in which its stages are tried.
     """
     events = events_of(rows)

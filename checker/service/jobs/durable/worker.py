@@ -48,9 +48,10 @@ class WorkerOptions(Record):
     """How a worker works.
 
     Attributes:
-        database_url: As `checker.service.jobs.durable.database.database_url` says it.
+        database_url: The URL as `checker.service.jobs.durable.database.database_url` says it.
         store: Uploads and results.
-        name: Of this worker, of letters, digits and `-`; the process adds what no other one has.
+        name: The name of this worker, of letters, digits and `-`; the process adds what no other
+            one has.
         trials: At once.
         grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
         beat_seconds: Between two signs of life.

@@ -28,7 +28,7 @@ class Workers(Record):
 
     Attributes:
         engine: Of the database.
-        layers: Of the sandbox in which this worker checks.
+        layers: The layers of the sandbox in which this worker checks.
     """
 
     engine: sa.Engine

@@ -11,11 +11,11 @@ class Refused(Exception):
     """A request that is answered by no.
 
     Attributes:
-        status: Of HTTP.
+        status: The HTTP status.
         error: What is wrong, a sentence.
         advice: What to do about it, a sentence.
-        cause: For the metrics, one of few words.
-        headers: Of the answer.
+        cause: The cause for the metrics, one of few words.
+        headers: The headers of the answer.
     """
 
     status: int

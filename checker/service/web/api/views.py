@@ -105,9 +105,9 @@ def check_view(state: State, url: str, names: Iterable[str]) -> CheckView:
     """Return the API's view of a check.
 
     Args:
-        state: Of the check.
-        url: Of its page.
-        names: Of the files of its result.
+        state: The state of the check.
+        url: The URL of its page.
+        names: The names of the files of its result.
     """
     return CheckView(
         id=state.id,

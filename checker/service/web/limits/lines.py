@@ -15,7 +15,7 @@ class Lines:
         """Begin with all places free.
 
         Args:
-            places: Of all senders.
+            places: The places of all senders.
             per_sender: Of them for one sender.
         """
         self._free, self._per_sender = places, per_sender

@@ -166,7 +166,7 @@ def steps_of(state: State, events: Sequence[Event]) -> tuple[Step, ...]:
     """Return the steps of a check, the one under way or where it stopped marked.
 
     Args:
-        state: Of the check.
+        state: The state of the check.
         events: Tell how far a check came that ended before its report.
     """
     order = list(STEPS)
@@ -204,7 +204,7 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
     """Say in a sentence where a check stands.
 
     Args:
-        state: Of the check.
+        state: The state of the check.
         packages: What is known of them so far.
     """
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
@@ -258,8 +258,8 @@ def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]
     """Return the packages of a check, those to work on first, worlds and other files last.
 
     Args:
-        state: Of the check.
-        names: Of the files of its result.
+        state: The state of the check.
+        names: The names of the files of its result.
     """
     lines = [_line(state, package, names) for package in state.packages]
     return tuple(sorted(lines, key=lambda line: (line.is_file, line.verdict == "ready")))

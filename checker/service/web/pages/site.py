@@ -61,7 +61,7 @@ def html(template: str, *, status: int = 200, here: str = "", **values: Any) -> 
 
     Args:
         template: Its file in `templates/web`.
-        status: Of the answer.
+        status: The status of the answer.
         here: Which of the links on top leads to this page; empty for none.
         values: What the template shows; every text is escaped.
     """

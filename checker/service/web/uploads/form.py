@@ -43,7 +43,7 @@ def safe_name(name: str) -> str:
     Letters of all languages are kept.
 
     Args:
-        name: As the client says it: a name, or a path as some browsers send it.
+        name: The name as the client says it: a name, or a path as some browsers send it.
 
     Raises:
         UnknownKind: Its ending is of no archive and no model file.
@@ -77,7 +77,7 @@ class UploadForm:
     """Takes a form piece by piece, and refuses it as soon as something is wrong with it.
 
     Attributes:
-        name: Of the file, made safe; empty before it comes.
+        name: The name of the file, made safe; empty before it comes.
         fields: The other fields so far.
     """
 
@@ -90,7 +90,7 @@ class UploadForm:
         """Begin.
 
         Args:
-            content_type: Of the request.
+            content_type: The type of the request.
             write: Takes the next bytes of the file.
             admit: Called with the fields so far when the file begins; refuses those without
                 permission.
@@ -209,7 +209,7 @@ def signature_mismatch(name: str, head: bytes) -> str:
     """Return what the file should begin with and does not; empty if it does.
 
     Args:
-        name: Of the file, with an ending that is known.
+        name: The name of the file, with an ending that is known.
         head: Its first `HEAD` bytes, or all of them.
     """
     lower = name.lower()
