@@ -35,7 +35,7 @@ from support.postgres import fresh_database, started
 from support.service import service, zip_of
 
 RATIO_LIMIT = 0.6
-"""Of the time of one worker, that two need."""
+"""Greatest time of two workers, as a share of that of one."""
 
 
 def archives(number: int, folder: Path) -> list[tuple[str, bytes]]:

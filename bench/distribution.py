@@ -15,7 +15,7 @@ from bench.measures import Measure
 WIDTH, MARGIN, DOT, AXIS = 900, 30, 5, 24
 """Pixels."""
 COLOURS = {"true": "#c0392b", "arguable": "#e08e0b", "false": "#2471a3", "": "#b4bcc2"}
-"""By verdict; without one, a value is not judged."""
+"""Colours by verdict; without one, a value is not judged."""
 _ORDER = tuple(COLOURS)
 
 

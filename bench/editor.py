@@ -27,7 +27,7 @@ CHANGES = 60
 MODEL = "cerberus_anymal_c_sensor_config_1/model.sdf"
 """The longest model of the corpus."""
 ROBOT = "irobot_create_common/irobot_create_description/urdf/create3.urdf.xacro"
-"""Of the xacro robots there, the one that expands to the most elements."""
+"""The xacro robot of the package that expands to the most elements."""
 REPOSITORY = "create3_sim"
 LIMITS = {"model.sdf": 150.0, "xacro": 400.0, "memory": 300.0}
 """Milliseconds at the 95th percentile; megabytes."""

@@ -17,7 +17,7 @@ from typing import TypeVar
 T = TypeVar("T")
 TRIES = 4
 SHARE = 0.05
-"""Of the processors' time: what others may take during a measurement."""
+"""Share of the processors' time that others may take during a measurement."""
 
 
 def undisturbed(measure: Callable[[], T]) -> T:

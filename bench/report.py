@@ -31,7 +31,7 @@ REPEATS = 3
 
 @dataclass(frozen=True)
 class Cost:
-    """Of one package.
+    """The cost of one package.
 
     Attributes:
         cold: Seconds on top of the check when nothing is in the cache.

@@ -29,7 +29,7 @@ from checker.settings import Settings
 from support.judgements import folder_of, judgements
 
 PROFILES = {"corpus": "subt", "modern": "", "urdf": "urdf"}
-"""By source of packages; without one, the content of a package decides."""
+"""Profiles by source of packages; without one, the content of a package decides."""
 _FAULTS = "bugs/*/before"
 _NO_ROBOTS = ("bugs", "repro")
 ROW = "{:<7} {:<24} {:>9} {:>6} {:>7} {:>5} {:>9} {:>6} {:>8} {:>10} {:>10}"

@@ -24,7 +24,7 @@ from checker.package.inputs import open_input
 ROOT = Path(__file__).parent.parent
 FOLDERS = ("SUBT_CHECK_CORPUS", "SUBT_CHECK_REVIEWS", "SUBT_CHECK_MODERN")
 RATIO = 1.5
-"""Times xacro's own that the expansion is meant to take at most."""
+"""Greatest time of the expansion, as a factor of that of xacro."""
 REPEATS = 5
 _SECONDS = 20
 Request = tuple[dict[str, Any], str]

@@ -1,4 +1,4 @@
-"""From paths to a report: the whole pipeline on one screen."""
+"""The pipeline from paths to a report."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ _START_SECONDS = 60.0
 _STOP_SECONDS = 20.0
 _ATTEMPTS = 3
 _PORTS = range(10_000, 30_000)
-"""Below those that systems give to connections: from 32768 on Linux, 49152 elsewhere."""
+"""Ports below those that systems give to connections: from 32768 on Linux, 49152 elsewhere."""
 _QUICK = {
     "fsync": "off",
     "full_page_writes": "off",

@@ -18,9 +18,9 @@ from pathlib import Path
 from time import process_time
 
 SECONDS = 60.0
-"""Of processor time, for one piece; rules take a hundredth of a second, and reading a robot one."""
+"""Limit for one piece, in processor time; rules take 0.01 s, and reading a robot 1 s."""
 SECONDS_FOR_ALL = 180.0
-"""For all pieces of one package."""
+"""Limit for all pieces of one package."""
 MEMORY = 1_000_000_000
 """Bytes by which one piece may make the process grow; all together, by twice as many."""
 _RESERVE = 60.0

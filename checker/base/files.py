@@ -14,7 +14,7 @@ from checker.base.record import Record
 
 
 UMASK = 0o077
-"""Of processes that write what no other user of the machine may read."""
+"""The umask of processes whose files no other user of the machine may read."""
 
 
 def make_folder(folder: Path) -> None:

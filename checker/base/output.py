@@ -58,7 +58,7 @@ EXIT_CLEAN, EXIT_FINDINGS, EXIT_USAGE, EXIT_CRASH = 0, 1, 2, 3
 """Done; findings, or something is not in order; it cannot be done as asked, as for wrong usage; a
 fault of ours, or a service or database that does not answer. The same for every command."""
 EXIT_INTERRUPTED = 130
-"""As a shell has it: 128 and the number of the signal."""
+"""The code of shells: 128 and the number of the signal."""
 
 
 def show(text: str) -> None:

@@ -20,7 +20,7 @@ from checker.base.garbage_collection import collect_between
 Given = TypeVar("Given")
 Made = TypeVar("Made")
 _ENDS_SECONDS = 0.3
-"""For what is in work to be put away; what is not done then is killed."""
+"""Time for running work to end; processes that still run then are killed."""
 
 
 def map_in_processes(

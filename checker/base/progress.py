@@ -9,7 +9,7 @@ from contextlib import suppress
 from checker.base.words import plain, shortened
 
 _COLUMNS = 80
-"""Of a terminal that does not say how many it has."""
+"""Width of a terminal that does not report it."""
 _BAR = 20
 """Characters of the bar."""
 

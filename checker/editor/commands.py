@@ -34,7 +34,7 @@ CHECK = "subt-check.server.check"
 SHOW = "subt-check.server.show3d"
 DRIVE = "subt-check.server.drive"
 _LOOKS_SECONDS = 0.1
-"""Between two looks whether the user has cancelled."""
+"""Pause between two checks whether the user has cancelled."""
 
 
 def register(server: Server) -> None:

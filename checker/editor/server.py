@@ -29,11 +29,11 @@ from checker.editor.session import Key, Session, State
 
 T = TypeVar("T")
 _PAUSE_SECONDS = 0.02
-"""Between a change and its check: keys that are pressed together are checked together."""
+"""Pause between a change and its check: keys that are pressed together are checked together."""
 _QUIET_SECONDS = 0.5
 """Without a change, after which what old checks have left is collected."""
 _CHECKS_LEFT = 25
-"""That are collected without waiting for a quiet moment; each leaves some 4 MB."""
+"""Number of checks after which garbage is collected without a pause; each leaves some 4 MB."""
 
 
 class Server(LanguageServer):

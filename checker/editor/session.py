@@ -35,7 +35,7 @@ from checker.source.xml_positions import XmlFault
 Key = tuple[Path, str]
 """The key of a unit: its folder, and its file where that is checked alone."""
 _SERVER_BYTES = 50_000_000
-"""That a process may have been given before another one takes its place."""
+"""Bytes of requests after which a process is replaced."""
 
 
 class Problem(Record):

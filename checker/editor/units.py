@@ -12,7 +12,7 @@ from checker.package.inputs import Opened, open_input
 from checker.package.kind import changed_packages
 from checker.package.package import Package
 
-"""Of models outside of packages; XML may be anything."""
+"""Suffixes of models outside of packages; XML may be anything."""
 
 
 class Unit(Record, eq=False):

@@ -108,7 +108,7 @@ def _measurements(
 
 
 _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
-"""By the name of a figure: how grave each finding about it is, and where its places start."""
+"""For each figure, by name: severity and places of each finding about it."""
 
 
 def _verdicts(outcome: Outcome, known: Sequence[Rule]) -> _Verdicts:

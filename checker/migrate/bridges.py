@@ -49,7 +49,7 @@ class Bridge(Record):
 
     @property
     def optical_info_topic(self) -> str:
-        """Likewise of its camera_info."""
+        """The same for its camera_info."""
         return _optical(self.info_topic)
 
 
@@ -70,7 +70,7 @@ class SensorBridges(Record):
 
     @property
     def ign_prefix(self) -> str:
-        """Of its topics in Gazebo."""
+        """The prefix of its topics in Gazebo."""
         before, own, _ = self.bridges[0].ign_topic.rpartition(f"/sensor/{self.sensor}")
         return before + own
 
@@ -121,7 +121,7 @@ def _bridges(sensor: Sensor, channels: Sequence[Channel], base: str) -> Iterator
 
 
 _ENDINGS = {"camera_info": "_info", "points": "_points"}
-"""Of nodes of cameras, by what they pass on."""
+"""Endings of the names of cameras' nodes, by what they relay."""
 
 
 def _ros_topic(sensor: Sensor, channel: Channel, base: str) -> str:

@@ -24,7 +24,7 @@ _STEERING_LIMIT = 0.5
 _ROUNDED = 6
 """Digits behind the point, of metres."""
 LATERAL_COMPLIANCE = 0.172
-"""Of WheelSlip, as accepted skid-steer robots of SubT state it."""
+"""WheelSlip's value in accepted skid-steer robots of SubT."""
 _WHEELS_THAT_SLIP = 4
 
 

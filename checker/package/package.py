@@ -69,7 +69,7 @@ DOCUMENTS_FOR_ALL = 4
 """Documents with as many elements as one may have that a package may have; the largest real package
 has 5 500 elements."""
 RUBY_FILES = 20
-"""That a spawner may load."""
+"""Greatest number of files that a spawner may load."""
 
 
 class Package(Record, eq=False, dict=True):

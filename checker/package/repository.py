@@ -15,7 +15,7 @@ from checker.package.kind import IGNORED, MODEL_MARKERS, looks_like_package
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
 _ITEMS = 5_000
-"""Of one folder that are looked at."""
+"""Greatest number of items of one folder that are read."""
 _URDF_FOLDER = "urdf"
 
 

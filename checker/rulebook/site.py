@@ -26,7 +26,7 @@ _LANGUAGES = {
     ".obj": "text",
     ".mtl": "text",
 }
-"""By the suffix of a file; the others hold XML."""
+"""Languages by the suffix of a file; the others contain XML."""
 # Sphinx looks for each page in the menu, unless it is an orphan: the index leads to them.
 _ORPHAN = "---\norphan: true\n---"
 

@@ -22,7 +22,7 @@ from checker.physics.mass.mechanism import spanning_tree_of
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _HINGES = 3
-"""Of a leg, such as two at the hip and one at the knee; a rocker-bogie suspension has two."""
+"""Hinges of a leg, such as two at the hip and one at the knee; a rocker-bogie has two."""
 _UPRIGHT = 0.5
 """Part along z of an axis that is nearer to upright than to level."""
 

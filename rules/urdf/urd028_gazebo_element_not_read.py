@@ -28,7 +28,7 @@ _ADVICE: Mapping[str, str] = {
     "initial_position": "give it to the controller, or to the hardware of ros2_control",
 }
 _VERSION = "1.7"
-"""Of SDF, where nothing says for which; what a link holds has hardly changed."""
+"""The version of SDF where none is stated; the content of a link has hardly changed."""
 
 
 @rule("URD028", "gazebo-element-not-read", Severity.WARNING, Concern.ROBOT)

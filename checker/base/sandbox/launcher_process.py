@@ -36,7 +36,7 @@ from checker.base.sandbox.task import FAILED, load_prepared, run
 
 _PR_SET_CHILD_SUBREAPER = 36
 _SECONDS = 5.0
-"""For what makes new processes as fast as they are ended."""
+"""Time to end programs that start processes as fast as they are ended."""
 _LIMIT = 100_000
 """Bytes of a list of processes."""
 
@@ -79,9 +79,9 @@ class Orphans:
 MESSAGE_LIMIT = 4096
 """Bytes of one message."""
 DESCRIPTORS = 4
-"""That come with an order; one more where the process lasts."""
+"""Number of descriptors with an order; one more where the process lasts."""
 _MOST_DESCRIPTORS = 1_048_576
-"""That come with the order to start a process."""
+"""Greatest number of descriptors with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
 _TELL_SECONDS = 0.5
 _PROCESSES_LIMIT = 512

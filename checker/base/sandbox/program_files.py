@@ -12,11 +12,11 @@ _SYSTEM = (
     *("/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d", "/etc/glvnd"),
     *("/etc/localtime", "/etc/drirc", "/sys/devices", "/sys/class/drm", "/sys/dev/char"),
 )
-"""Of the system: libraries, and what they look up when they are loaded."""
+"""System files: libraries, and what they read when they are loaded."""
 _OF_PREFIX = ("bin", "include", "lib", "lib32", "lib64", "pyvenv.cfg")
-"""Of the folder that Python is installed in, or of a virtual environment."""
+"""Files of Python's folder, or of a virtual environment."""
 _PARTS = ("checker", "rules", "samples", "subt_check", "subt_check.py", "templates")
-"""Of this program, where it is in a folder with other things, as a checkout or installed."""
+"""Files of this program in a folder with others, such as a checkout or site-packages."""
 MACHINE = ("/proc/cpuinfo", "/proc/meminfo")
 """What libraries ask about processors and memory."""
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")

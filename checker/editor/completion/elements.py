@@ -22,7 +22,7 @@ from checker.model.sensing.kind import frame_ids, sensor_type
 _ONCE = ("0", "1")
 _OLD = "-1"
 _SEVERAL = ("visual", "collision")
-"""Of a link of URDF."""
+"""Elements that a link of URDF may have several times."""
 _ROOTS = {".sdf": "sdf", ".world": "sdf", ".urdf": "robot", ".xacro": "robot"}
 
 

@@ -16,7 +16,7 @@ from checker.source.xml import Element, XmlDocument
 from checker.source.yaml import YamlNode, read_yaml
 
 _LEVELS = 2
-"""Of keys of a YAML file that are shown."""
+"""Levels of keys of a YAML file that are shown."""
 _YAML = (".yaml", ".yml", ".rviz")
 _OF_LAUNCH = {
     "arg": SymbolKind.ARGUMENT,

@@ -24,7 +24,7 @@ from checker.source.xml import Element, XmlDocument
 
 MAX_NESTING = 40
 MAX_INCLUDES = 100
-"""Of one robot in all: files that include one another twice would double at each level."""
+"""Limit for one robot in all: files that include one another twice would double at each level."""
 
 
 def read_sdf(document: XmlDocument, include: IncludeReader = read_no_include) -> tuple[Robot, ...]:

@@ -19,7 +19,7 @@ from checker.model.robot import Robot
 _LIMITS = Limits(seconds=20.0, memory=1_000_000_000)
 _KILOGRAMS = 1e-9
 _METRES = 1e-6
-"""Below which readings are alike; also for entries of rotation matrices."""
+"""Differences below it are ignored; also for entries of rotation matrices."""
 
 
 class Difference(Record, eq=False):

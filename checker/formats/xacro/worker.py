@@ -51,7 +51,7 @@ def _refuser() -> Callable[[str, object], None]:
 
 
 SECONDS_FOR_ONE = 5
-"""Of processor time; the largest real file takes less than 1 s."""
+"""Seconds of processor time; the largest real file takes less than 1 s."""
 SECONDS_FOR_ALL = 30.0
 """Likewise, for the files of one request."""
 _SHORTEST = 1

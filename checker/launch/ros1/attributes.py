@@ -74,7 +74,7 @@ def left_outside(element: Element) -> dict[str, Located[str]]:
 
 MAX_STEPS = 100_000
 CHARACTERS_PER_STEP = 100
-"""Of texts that substitutions make."""
+"""Characters of substituted text that count as one step."""
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _WORD = re.compile(r"(?:\$\([^()]*\)|\S)+")
 

@@ -1,4 +1,4 @@
-"""From launch XML to the launch graph: what roslaunch would do, without starting anything.
+"""Expands launch XML to the launch graph as roslaunch does, without starting anything.
 
 Scoping follows roslaunch: args and remaps of a group end with it, remaps reach into included
 files, args do not unless they are handed over.

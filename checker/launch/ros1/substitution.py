@@ -17,7 +17,7 @@ Value = str | int | float | bool
 MAX_EXPRESSION = 400
 _CONSTANTS: Mapping[str, Value] = {"true": True, "false": False}
 _BUILTINS = ("list", "dict", "map", "str", "float", "int")
-"""That roslaunch offers, beside all of `math`."""
+"""Built-in functions that roslaunch offers, beside all of `math`."""
 
 
 class Unknown(Record):

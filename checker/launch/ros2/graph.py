@@ -189,7 +189,7 @@ class ParameterFile(Record, eq=False):
 
 
 Parameters = tuple[Parameter | ParameterFile, ...]
-"""Of a node, in order: later ones count."""
+"""The parameters of a node, in order: later ones count."""
 
 
 class NodeKind(enum.StrEnum):

@@ -15,7 +15,7 @@ MAX_DEPTH = 110
 MAX_CALLS = 40
 """Ruby functions that may be waiting for each other."""
 MAX_INTEGER_BITS = 1000
-"""Below the largest exponent of a double, so that every integer has a float."""
+"""Less than the largest exponent of a double, so that every integer has a float."""
 
 MAX_NUMBER_LENGTH = 400
 """Characters of a number in YAML: reading one takes the square of its length."""

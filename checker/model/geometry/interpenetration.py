@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _FILLS = 0.9
 """Share of its hull that a mesh must fill to be taken for convex."""
 DEEP_PAIRS = 60
-"""After so many findings no more are looked for: each takes some ms."""
+"""Greatest number of findings: each takes some ms."""
 
 
 class Inside(Record, eq=False):

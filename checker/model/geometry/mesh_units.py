@@ -29,7 +29,7 @@ Shapes = Iterable[Collision | Visual]
 
 
 class UnitLimits(Record):
-    """From when on a length is of another unit.
+    """The limits beyond which a length has another unit.
 
     Attributes:
         near: Factor above 1 by which a ratio of lengths may differ from 39.4, 100 or 1000.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _ROUND = ("cylinder", "capsule", "cone")
 """Shapes that are round about their own z axis and nothing else."""
 ASKEW = math.radians(1)
-"""From where on a wheel's collision is a shape that stands wrong, and not one of wrong size."""
+"""Least angle at which a wheel's collision counts as turned, not as of another size."""
 
 
 def wheel_shapes(robot: Robot, wheel: Wheel) -> list[Placed]:

@@ -62,11 +62,11 @@ MAX_EXTENDED_HEADER = 1_000_000
 MAX_EXTENDED_HEADERS = 16_000_000
 """Bytes of all extended headers of an archive."""
 MAX_RECORDS = 100
-"""Of one extended header; those of real archives have fewer than ten."""
+"""Greatest number in one extended header; those of real archives have fewer than ten."""
 # Headers, padding and extended headers around each entry's content.
 OVERHEAD_PER_ENTRY = 4_096
 _HEADERS_PER_ENTRY = 4
-"""At most: its own, and those of a long name, a long target and further fields."""
+"""Greatest number: its own, and those of a long name, a long target and further fields."""
 
 _OCTAL = re.compile(rb"[\0 ]*([0-7]*)[\0 ]*\Z")
 _FILES = {b"0", b"\0", b"7"}

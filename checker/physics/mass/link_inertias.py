@@ -15,7 +15,7 @@ from checker.physics.mass.mass_properties import LinkInertia
 Rows = Sequence[Sequence[float]]
 
 _TURNS = 60
-"""Of the axes; about ten suffice."""
+"""Greatest number of rotations of the axes; about ten suffice."""
 _PAIRS = ((0, 1, 2), (0, 2, 1), (1, 2, 0))
 
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
 
 PIXELS = 40_000_000
-"""Of a picture; 160 MB while it is read. One of 4096 × 4096 has 17 million."""
+"""Greatest size of a picture; 160 MB while it is read. One of 4096 × 4096 has 17 million."""
 _SIDE = 512
 """Pixels to which a picture is reduced: a colour for each corner shows no more of it."""
 _INWARDS = 0.15

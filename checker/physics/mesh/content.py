@@ -73,7 +73,7 @@ class MeshContent(Record, eq=False):
 
     @property
     def corners(self) -> Array:
-        """Of all triangles: n triangles × 3 corners × (x, y, z), metres."""
+        """The corners of all triangles: n triangles × 3 corners × (x, y, z), metres."""
         import numpy as np
 
         if len(self.pieces) == 1:

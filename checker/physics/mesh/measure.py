@@ -88,7 +88,7 @@ _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)
 
 
 MOST_CORNERS = 2_000
-"""Of a hull; finer ones (spheres, organic shapes) lose corners, by less than 1 part in 1 000."""
+"""Corners of a hull; finer ones (such as spheres) lose corners, by less than 1 part in 1 000."""
 
 _AT_ONCE = 100_000
 

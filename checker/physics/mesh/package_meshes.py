@@ -29,7 +29,7 @@ from checker.physics.mesh.uris import MeshFile, file_behind
 from checker.source.text import Located
 
 _MATERIAL_FILES = 20
-"""Of one mesh; they are read again in each check."""
+"""Greatest number for one mesh; they are read again in each check."""
 _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is not a mesh of this robot")
 
 _Read = Mesh | MeshFault

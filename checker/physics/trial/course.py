@@ -9,7 +9,7 @@ from checker.physics.trial.profile import Knots, Limits, ramp_to
 from checker.physics.trial.trial import Leg
 
 VERSION = "1"
-"""Of the course; it changes when figures of older trials are no longer comparable."""
+"""The version of the course; it changes when figures of older trials are no longer comparable."""
 
 SETTLE, DRIVE, STOP_DRIVE = "settle", "drive", "stop after drive"
 TURN, STOP_TURN, FULL = "turn", "stop after turn", "full speed"
@@ -25,7 +25,7 @@ CLIMB_SECONDS = 4.0
 CLIMB_METRES = 1.0
 
 _STEADY_SECONDS = 2.0
-"""Of a leg that is driven at one speed, once the ramp is over."""
+"""Time that a leg is driven at constant speed, after the ramp."""
 _LONGEST_RAMP = 6.0
 """Seconds that a leg may be longer so that a slow ramp ends."""
 

@@ -54,7 +54,7 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
 
 
 ROBOTS_LIMIT = 8
-"""Of one file or package; each takes about a second."""
+"""Greatest number for one file or package; each takes about a second."""
 
 
 class RobotTrials(Record, eq=False, dict=True):

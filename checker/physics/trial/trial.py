@@ -119,7 +119,7 @@ def _swapped(numbers: array[float]) -> array[float]:
 
 
 POSE_NUMBERS = 7
-"""Of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
+"""Numbers of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
 
 
 class Trial(Record):

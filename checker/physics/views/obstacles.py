@@ -246,7 +246,7 @@ SOLIDS: dict[str, tuple[tuple[str, ...], Callable[[Array, Array, Array], Between
     "capsule": (("radius", "length"), _capsule),
     "ellipsoid": (("radii",), _ellipsoid),
 }
-"""By shape: the names of its lengths, in the order in which they are given, and its function."""
+"""The names of the lengths of each shape, in order, and its function."""
 
 
 def entry_distances(kind: str, sizes: Array, origin: Array, rays: Array) -> Array:

@@ -88,7 +88,7 @@ class Grid(Record, dict=True):
 
     @property
     def azimuths(self) -> NDArray[float64]:
-        """Of each ray, radians."""
+        """The azimuth of each ray, radians."""
         return self._angles[0]
 
     @cached_property

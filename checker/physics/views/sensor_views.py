@@ -25,7 +25,7 @@ _LIBRARIES = ("lxml", "numpy", "pycollada", "trimesh")
 _SMALL = 1500
 """Pairs of sensor and visual up to which solids are looked at without a child: some 50 ms."""
 _ROBOTS = 8
-"""Of one file; a world with more of them is no submission."""
+"""Greatest number for one file; a world with more of them is no submission."""
 
 _RAYS = ("shares", "reach", "across", "visual")
 """What the worker says of each ray of a view."""

@@ -16,7 +16,7 @@ from checker.report.report import ReportedFinding
 WIDTH = 400
 """Characters of a line that are shown."""
 _LEAD = 120
-"""Of them at most in front of the mark."""
+"""Greatest number of characters in front of the mark."""
 _EDITS_SHOWN = 20
 _LINES_SHOWN = 20
 

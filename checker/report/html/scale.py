@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from checker.base.record import Record
 
 Values = Sequence[float | None]
-"""Of a curve; None where there is none."""
+"""The values of a curve; None where there is none."""
 Named = tuple[str, Values]
 """A curve with its name."""
 
@@ -43,9 +43,9 @@ def extent(curves: Iterable[Values]) -> float:
 _RARE = 0.01
 """Share of the samples at either end that do not choose the scale if they lie far from the rest."""
 _FAR = 0.5
-"""Of the axis, from where on a sample lies far from it."""
+"""Share of the axis from which on a sample is far from it."""
 _LIMIT_IN_VIEW = 4.0
-"""Times the greatest value: limits beyond are written, not drawn."""
+"""Factor of the greatest value: limits beyond are written, not drawn."""
 _LIMIT_SHARE = 0.1
 """Share of the greatest limit that the axis spans at least, so that noise stays flat."""
 _MARGIN = 0.06

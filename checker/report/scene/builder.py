@@ -39,7 +39,7 @@ _GREEN: Colour = (0.2, 0.85, 0.4, 0.18)
 _CAMERA, _LIDAR = 1.5, 2.0
 """How far views reach at most, in sizes of the robot."""
 _WIDTH = 0.006
-"""Of an edge, as a share of its view's length."""
+"""Width of an edge, as a share of its view's length."""
 _STEP = math.radians(7.5)
 _ROUND = 2 * math.pi - 1e-3
 _FLAT = 1e-6

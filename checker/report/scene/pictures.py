@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 MOMENTS = 3
-"""Of the trial."""
+"""Number of moments of the trial."""
 _FROM_FRONT_LEFT, _FROM_SIDE = (212.0, -22.0), (262.0, -25.0)
 """Azimuth and elevation of the camera's direction, degrees: of the robot, of its path."""
 _TILES = 8.0

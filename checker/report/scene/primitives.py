@@ -21,7 +21,7 @@ _ARCS = 8
 """Steps of a quarter circle."""
 
 Point = tuple[float, float, float, float]
-"""Of a profile: distance from the z axis, z, and the normal's parts outward and along z."""
+"""A point of a profile: distance from the z axis, z, and the normal's parts outward and along z."""
 
 
 @cache

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MANAGER_PLUGIN = "gazebo_ros_control"
 GAINS = ("p", "i", "d")
 _OF_NODE = "ros__parameters"
-"""Below this key stand the parameters of the node whose name is the key above."""
+"""The key of a node's parameters, below the key with its name."""
 _TYPE = re.compile(r"\w{1,200}/\w{1,200}\Z")
 _JOINTS = (
     *("joint", "joints", "left_wheel", "right_wheel"),

@@ -23,7 +23,7 @@ _WITH_HASH = (".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", 
 COMMENTS_LIMIT = 1_000
 """Greatest number in one file; the rest has no effect."""
 NAMES_LIMIT = 20
-"""Of one comment."""
+"""Greatest number in one comment."""
 
 _LENGTH_LIMIT = 4_000
 _START = re.compile(

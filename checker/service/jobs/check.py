@@ -56,9 +56,9 @@ LIMITS: Mapping[Stage, StageLimits] = {
 UPLOAD_LIMIT = 2_000_000_000
 """Bytes of an upload that is read here; the service takes no larger ones."""
 _FILES_LIMIT = 50_000
-"""Of a result and of what was computed for it: what has no content takes room on a disk, too."""
+"""Greatest number of files of a result and its parts: empty files take room on a disk, too."""
 _PARTS_LIMIT = 10_000
-"""Of one upload, by all of its checks."""
+"""Greatest number for one upload, by all of its checks."""
 _NAME_LIMIT = 255
 """Bytes of the name of a file or folder: no disk has longer ones."""
 _ROOM = 10_000_000

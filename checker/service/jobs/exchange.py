@@ -26,9 +26,9 @@ from checker.service.jobs.outcome import Checked
 
 
 NICENESS = 10
-"""Below that of the processes of the service, as `nice` counts it."""
+"""Priority below that of the processes of the service, as in `nice`."""
 TRIAL_NICENESS = 5
-"""Of trials below static rules: somebody waits for the first findings."""
+"""Priority of trials below static rules: users wait for the first findings."""
 
 
 MOST = Usage(memory=3_000_000_000, disk=2_000_000_000, files=200_000, processes=64)

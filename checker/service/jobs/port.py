@@ -104,7 +104,7 @@ class Event(Record):
 RETENTION_DAYS = 30
 """After which all of a check is deleted, unless somebody says otherwise."""
 SILENCE_SECONDS = 60.0
-"""After which a worker that shows no sign of life counts as dead."""
+"""Time after which a worker without a sign of life counts as dead."""
 
 
 class JobsUnreachable(Exception):

@@ -147,7 +147,7 @@ _CONNECTIONS = 1_000
 """Connections at once; further ones get the answer that the service is busy."""
 _OPEN_FILES = 4 * _CONNECTIONS
 _CLOSING_SECONDS = 5
-"""For answers that are under way when the server stops; streams of events are cut off then."""
+"""Time for running answers when the server stops; streams of events are cut off then."""
 
 
 def web(descriptor: int, proxies: str) -> None:

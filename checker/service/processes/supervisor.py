@@ -75,7 +75,7 @@ class Process:
 
     @property
     def exit_code(self) -> int:
-        """Of its last run; 0 while it runs."""
+        """The exit code of its last run; 0 while it runs."""
         return (self._running.poll() or 0) if self._running is not None else 0
 
     def mend(self, pace: Pace, say: Say) -> None:

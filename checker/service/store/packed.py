@@ -16,7 +16,7 @@ SUFFIX = ".gz"
 LARGEST = 32_000_000
 """Bytes of a file that is compressed; a larger one is sent as it is."""
 _GAIN = 0.9
-"""Of its bytes: a file that stays larger is sent as it is, as one of pictures."""
+"""Share of its bytes: a file that stays larger, such as a picture, is sent as it is."""
 _BEGIN = 65_536
 """Bytes of a page that hold its style, and the start of its header."""
 _HEADER = re.compile(rb'<header(?: class="[a-z_ ]*")?>')

@@ -31,13 +31,13 @@ if TYPE_CHECKING:
     from obstore.store import RetryConfig, S3Store
 
 COPY_SECONDS = 600.0
-"""That copies stay beyond their last use."""
+"""Time that copies are kept after their last use."""
 _PIECE = 1_048_576
 _SHOWN = 300
 _LOG = logging.getLogger(__name__)
 _CONTENT, _USED = "content", "used"
 _CONNECT_SECONDS, _SECONDS = timedelta(seconds=3), timedelta(seconds=60)
-"""Of one request; large objects go in several."""
+"""Time limits of one request; large objects go in several."""
 _TRIES: RetryConfig = {"max_retries": 2, "retry_timeout": timedelta(seconds=10)}
 
 

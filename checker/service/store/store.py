@@ -31,7 +31,7 @@ SUMMARY = "summary.json"
 RESULT_LIMIT = 1_000_000_000
 """Bytes of one result."""
 CACHE_SECONDS = 86_400.0
-"""That parts of a check are kept beyond their last use: for its second stage, and for the same
+"""Time that parts of a check are kept after their last use: for its second stage, and for the same
 upload with another profile."""
 _OURS = ("uploads", "results", "incoming", "parts", "workers", "cache", "lock")
 _KEY = re.compile(r"[0-9a-f]{64}")

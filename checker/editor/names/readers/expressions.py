@@ -10,7 +10,7 @@ EXPRESSION = re.compile(r"\$\{[^{}]{0,400}\}|\$\([^()]{0,400}\)|#\{[^{}]{0,400}\
 _NAME_LIMIT = 200
 """Characters; a longer text is not compared with composed names."""
 _PIECES_LIMIT = 12
-"""Of more pieces it is enough that both ends fit."""
+"""Greatest number of pieces compared; of more, only both ends must fit."""
 _NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 
 

@@ -25,7 +25,7 @@ from checker.editor.names.readers.expressions import is_composed, is_computed
 from checker.editor.names.readers.topics import is_topic, topic_key
 
 ELSEWHERE = ("",)
-"""In place of the files that an argument may be passed to: any but the one that passes it."""
+"""Represents any file but the one that passes an argument."""
 LENGTH_LIMIT = 20_000
 """Characters; a longer text names nothing."""
 

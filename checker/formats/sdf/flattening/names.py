@@ -47,7 +47,7 @@ def _texts(plugin: Plugin) -> Iterator[tuple[str, Located[str]]]:
 
 
 SEPARATOR = "__"
-"""Between the name of a model and those of its parts, as in `arm__wrist`."""
+"""Separates the name of a model from those of its parts, as in `arm__wrist`."""
 _SCOPE = "::"
 
 

@@ -20,7 +20,7 @@ from checker.source.xml import Element
 _SAME = 1e-14
 """Numbers that differ by less are the same but for rounding."""
 _DIGITS = 15
-"""Behind the point: metres and radians far below the precision of any solver."""
+"""Digits behind the point: metres and radians far below the precision of any solver."""
 
 
 def write_pose(draft: Draft, holder: Element, pose: Transform) -> None:

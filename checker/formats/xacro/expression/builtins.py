@@ -266,4 +266,4 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
         "max": Function("max", extreme(max), frozenset({"key"})),
     }
 )
-"""By name."""
+"""The functions by name."""

@@ -147,4 +147,4 @@ def _lone_lambda(_: Interpreter, __: ast.Lambda, ___: Scope | None) -> Any:
 CALLS: Mapping[type[ast.AST], Handler] = MappingProxyType(
     {ast.Call: _call, ast.Lambda: _lone_lambda}
 )
-"""By type of node."""
+"""The functions by type of node."""

@@ -112,7 +112,7 @@ COMPREHENSIONS: Mapping[type[ast.AST], Handler] = MappingProxyType(
         ast.GeneratorExp: _generator,
     }
 )
-"""By type of node."""
+"""The functions by type of node."""
 
 
 # Reads the text of an expression into Python's syntax tree, and looks over it.

@@ -113,7 +113,7 @@ TEXTS: Mapping[str, TextMethod] = MappingProxyType(
     | {name: _widening(name) for name in _WIDENING}
     | {"expandtabs": _expandtabs, "format": _format, "join": _join, "replace": _replace}
 )
-"""By name."""
+"""The methods by name."""
 
 
 Method = Callable[..., Any]

@@ -81,7 +81,7 @@ OPERATIONS: Mapping[type[ast.AST], Handler] = MappingProxyType(
         ast.IfExp: _conditional,
     }
 )
-"""By type of node."""
+"""The functions by type of node."""
 
 
 _CONVERSIONS = {-1: "", 115: "s", 114: "r", 97: "a"}
@@ -222,4 +222,4 @@ NODES: Mapping[type[ast.AST], Handler] = MappingProxyType(
         ast.JoinedStr: _joined,
     }
 )
-"""By type of node."""
+"""The functions by type of node."""

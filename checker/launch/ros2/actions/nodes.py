@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from checker.launch.ros2.actions.visitor import Visitor
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
-"""Of `Node` until Foxy."""
+"""Keywords of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,

@@ -120,4 +120,4 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
     }
     | {f"math.{function.__name__}": _mathematics(function) for function in _MATH}
 )
-"""By the dotted path that an import names them by."""
+"""The functions by their dotted path in imports."""

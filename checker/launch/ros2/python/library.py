@@ -40,7 +40,7 @@ CONSTANTS: Mapping[str, str | float] = MappingProxyType(
     | dict(data_functions.CONSTANTS)
 )
 PREFIX = f"{ROOT}-prefix"
-"""Below it stand install prefixes of packages."""
+"""The folder of the install prefixes of packages."""
 
 
 def text_of(run: Interpreter, value: Value, node: ast.AST) -> PlacedText | Unknown:
@@ -434,7 +434,7 @@ BUILTINS: Mapping[str, Work] = MappingProxyType(
         "builtins.isinstance": _is_instance,
     }
 )
-"""By the name that launch files call them by."""
+"""The functions by their name in launch files."""
 
 _AMENT = ("ament_index_python.packages", "ament_index_python", "ament_index_python.resources")
 FUNCTIONS: Mapping[str, Work] = MappingProxyType(
@@ -480,4 +480,4 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
     | {f"{module}.get_package_share_path": _share_path for module in _AMENT}
     | {f"{module}.get_package_prefix": _prefix for module in _AMENT}
 )
-"""By the dotted path that an import names them by."""
+"""The values by their dotted path in imports."""

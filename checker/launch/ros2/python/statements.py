@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
 
 ROUNDS_LIMIT = 2_000
-"""Of a `while` loop."""
+"""Greatest number of rounds of a `while` loop."""
 
 
 class Flow(enum.Enum):

@@ -1,4 +1,4 @@
-"""From a receiver's class and a method's name to the function that answers; and Ruby's Kernel."""
+"""The functions of Ruby's methods, by a receiver's class and a method's name; and Kernel."""
 
 from __future__ import annotations
 

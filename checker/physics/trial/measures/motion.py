@@ -100,7 +100,7 @@ class Motion:
 
 
 AVERAGED_SECONDS = 0.1
-"""Over which the torque of a joint is averaged, in figures and plots: a stiff servo commands a
+"""Time over which a joint's torque is averaged, in figures and plots: a stiff servo commands a
 spike at each bend of its command, which a motor would round off."""
 
 

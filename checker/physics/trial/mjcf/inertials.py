@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Rows = tuple[Vector, Vector, Vector]
-"""Of a symmetric 3×3 matrix."""
+"""The rows of a symmetric 3×3 matrix."""
 
 LEAST_MASS = 1e-3
 """Kilograms taken for a moving link that has none."""

@@ -155,7 +155,7 @@ _LEAST = 1e-3
 """Metres; less is a matter of how shapes are rounded."""
 _MOST_PAIRS = 30
 _STEPS = 24
-"""Of a joint through its range: 15° of a full turn."""
+"""Steps of a joint through its range: 15° of a full turn."""
 _EFFORT = 100_000
 """Shapes times poses that are looked at: about a second."""
 _FULL_TURN = 2 * math.pi

@@ -119,7 +119,7 @@ def balanced_shares(effect: Array, wanted: Array) -> Array | None:
 
 
 PILOT_SECONDS = 0.008
-"""Between two decisions of the controller: an eightieth of its slowest period."""
+"""Period of the controller: an eightieth of its slowest period."""
 _ABOVE = 1.0
 """Metres above the place where it settled."""
 _PLACE, _PLACE_DAMPING = 4.0, 4.0
@@ -127,7 +127,7 @@ _PLACE, _PLACE_DAMPING = 4.0, 4.0
 _TILT, _TILT_DAMPING = 64.0, 16.0
 """1/s², 1/s: 8 rad/s, critically damped; well above the place's."""
 _MOST_LEAN = 0.35
-"""Of g, sideways."""
+"""Greatest sideways acceleration, as a share of g."""
 
 
 class Pilot:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _WHEEL_SECONDS = 0.001
 """Time constant of a wheel's velocity servo."""
 _HOLD_SECONDS = 0.01
-"""Of a position servo: stiff against the robot's weight, slow against the time step."""
+"""Time constant of a position servo: stiff for the robot's weight, slow for the time step."""
 
 
 class Rig:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 SAMPLE_SECONDS = 0.05
 CLOSE_SECONDS = {SETTLE: 1.0, TURN: 1.5}
-"""At the end of which legs, and for how long, contacts are sampled in every step: those of stiff
+"""Time at the end of these legs in which contacts are sampled in every step: those of stiff
 bodies come and go step by step."""
 
 

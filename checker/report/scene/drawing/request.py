@@ -98,7 +98,7 @@ GROUPS = {Layer.VISUAL: 0, Layer.COLLISION: 1}
 _FARTHEST = 1e5
 """Metres; what reaches farther is not drawn."""
 _ITEMS = 2000
-"""That are drawn of a robot, in each layer."""
+"""Greatest number of items of a robot in each layer."""
 _TRIANGLES = 1_000_000
 """Likewise, each as often as it is shown: what draws them takes some 100 bytes for each, for which
 no limit of address space can be set, since graphics cards need more of it than there is memory."""

@@ -18,9 +18,9 @@ GROUND_GROUP = 2
 LIGHT = (-0.45, -0.35, -1.0)
 """Its direction: from in front of the robot, above and a little to its left."""
 _ROOM = 12.0
-"""Times the distance of the farthest camera that can be seen."""
+"""Factor of the distance of the farthest camera that can be seen."""
 _SHADOWED = 1.2
-"""Times the camera's distance around the middle of the picture within which shadows fall; the
+"""Factor of the camera's distance around the middle of the picture within which shadows fall; the
 ground gets grainy where they end."""
 _THINNEST = 1e-14
 """Share of the squared size below which a triangle has no area."""

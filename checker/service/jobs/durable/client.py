@@ -33,7 +33,7 @@ from checker.service.store.store import Store
 
 _DAY = 86400.0
 _LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
-"""Of the static rules: of real packages, those of a megabyte take about a second."""
+"""Times of the static rules: a real package of a megabyte takes about a second."""
 _PACED = 25
 """Stages whose median duration of the last day is used: earlier durations say nothing of
 now."""

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from dbos import DBOSClient
 
 APPLICATION = "subt-check"
-"""As DBOS knows this program; it may serve others in the same database."""
+"""The name of this program for DBOS; it may serve others in the same database."""
 SCHEMA = "subt_check"
-"""Of its tables in PostgreSQL."""
+"""The schema of its tables in PostgreSQL."""
 CONNECT_SECONDS = 5
-"""After which a server that does not answer counts as unreachable."""
+"""Time after which a server that does not answer counts as unreachable."""
 POOL_SIZE = 20
 """Connections at most, made as they are needed and then kept: to make one takes longer than to use
 it."""

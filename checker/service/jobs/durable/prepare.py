@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 
 _OURS = (WORKERS, SALTS, RATES)
 _LOCK = 7_302_815_601
-"""Of PostgreSQL's advisory locks; any number that others do not use."""
+"""The number of the advisory lock in PostgreSQL; any that others do not use."""
 _OLD = "subt_checks"
 _OLD_TABLES = (_OLD, "subt_events", "subt_queues")
 _KEY_LENGTH = 64
-"""Of a digest; version 0.1.0 wrote ids, which are shorter."""
+"""The length of a digest; version 0.1.0 wrote ids, which are shorter."""
 
 
 def prepare_database(engine: sa.Engine, trials: int = 0) -> Checks:

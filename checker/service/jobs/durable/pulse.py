@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from checker.service.jobs.port import JobsUnreachable
 
 _SECONDS, _PAUSE_SECONDS = 2, 1.0
-"""At most for a look (libpq takes no shorter time to connect), and between two."""
+"""Greatest time of a query (the least that libpq can use to connect), and the pause after it."""
 _LOOKS = 2
 """Missed looks after which a server counts as stopped: a busy one may be late once."""
 

@@ -8,7 +8,7 @@ from hashlib import sha256
 from checker.service.jobs.port import Order, Receipt
 
 _CHARACTERS = 22
-"""Of an id and of a secret, six bits each."""
+"""Length of an id and of a secret, six bits a character."""
 _KEY = b"subt-check: key of a check\0"
 """Keeps keys apart from other digests of ids."""
 SHOWN_DIGITS = 12

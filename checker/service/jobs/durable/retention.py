@@ -11,7 +11,7 @@ from checker.service.jobs.durable.senders import Senders
 from checker.service.store.store import Store
 
 UNUSED_SECONDS = 3600.0
-"""That files stay which no check refers to: one may be about to."""
+"""Time that files without a check are kept: a check may be about to use them."""
 _AT_ONCE = 200
 
 

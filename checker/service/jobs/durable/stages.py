@@ -39,7 +39,7 @@ _T = TypeVar("_T")
 _LOG = logging.getLogger(__name__)
 _RETRY_SECONDS = 1.0
 _LOOK_SECONDS = 1.0
-"""Between two questions to the database whether a check is still wanted."""
+"""Pause between two queries of the database whether a check is still wanted."""
 _TRIAL_SECONDS, _TRIAL_SHARE = 3.0, 2.0
 """A trial and the drawing of all that was found take so long, and so many times as long as the
 rules did, in whole seconds: of real packages, within a factor of two."""

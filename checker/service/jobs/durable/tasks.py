@@ -94,7 +94,7 @@ class Task(Record):
 
     @property
     def id(self) -> str:
-        """Of the workflow."""
+        """The id of the workflow."""
         return f"{self.key}.{self.stage}.{self.number}"
 
     @property

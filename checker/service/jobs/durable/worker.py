@@ -41,7 +41,7 @@ _LANDING_SECONDS = 10
 _DRAIN_SECONDS = 3600.0
 """For a worker that is drained to finish its checks; each has limits of its own, of minutes."""
 _VERSION = "1"
-"""Of the workflows as DBOS knows them: workers of another one leave each other's tasks alone."""
+"""The version of the workflows for DBOS: workers do not take tasks of another version."""
 
 
 class WorkerOptions(Record):

@@ -19,7 +19,7 @@ from checker.service.web.answers.bodies import takes_gzip
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-"""For what is no page: a browser that shows it anyway runs nothing of it."""
+"""The policy for files that are not pages: a browser that shows one runs nothing of it."""
 PAGE = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"

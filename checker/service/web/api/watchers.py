@@ -17,12 +17,12 @@ from checker.service.jobs.port import Event, Jobs, JobsUnreachable
 from checker.service.logs import LOGGER
 
 QUIET_SECONDS = 15.0
-"""After which a comment shows that the stream lives; proxies close what is silent."""
+"""Time after which a comment keeps the stream alive; proxies close silent ones."""
 STREAM_SECONDS = 600.0
-"""After which a stream ends; browsers come back by themselves and say where they were."""
+"""Time after which a stream ends; browsers reconnect and say where they were."""
 PAUSE_SECONDS, LONGEST_SECONDS, PAUSE_SHARE = 0.3, 1.0, 9.0
-"""Between two looks, at least and at most; in between, so many times as long as the last one took,
-that many watchers do not use a processor up."""
+"""Pause between two queries, at least and at most; in between, so many times as long as the last
+one took, that many watchers do not use a processor up."""
 _LOG = logging.getLogger(LOGGER)
 
 

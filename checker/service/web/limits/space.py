@@ -21,7 +21,7 @@ from checker.service.web.config import Config
 _SHARE = 2
 """One client has one of so many parts of the room, unless it has but one upload under way."""
 _COPIES = 2
-"""Of each upload: itself, and the copy from which the index of an archive is read."""
+"""Copies of each upload: itself, and the copy from which the index of an archive is read."""
 WINDOW = 250_000
 """Bytes that are reserved ahead of what has come; of a longer upload, as many as have come."""
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fastapi import FastAPI
 
 SECONDS = 30.0
-"""From one look to the next; it takes a millisecond where a hundred uploads are under way."""
+"""Pause between two rounds; one takes a millisecond where a hundred uploads are under way."""
 _LOG = logging.getLogger(LOGGER)
 
 
