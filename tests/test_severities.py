@@ -91,7 +91,18 @@ CONTROLLED = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 </robot>
 """
 CHOSEN = {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": CONTROLLED}
+DRIVE = '<plugin filename="libp.so" name="ignition::gazebo::systems::{name}">{inside}</plugin>'
+LINEAR = "".join(
+    f"<{end}_linear_{kind}>{sign}1</{end}_linear_{kind}>"
+    for end, sign in (("min", "-"), ("max", ""))
+    for kind in ("velocity", "acceleration")
+)
+COPTER = "".join(
+    f"<maximumLinear{kind}>3 3 3</maximumLinear{kind}>" for kind in ("Velocity", "Acceleration")
+)
 CASES: list[tuple[str, Example, str]] = [
+    ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
+    ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
     ("R2C003", CHOSEN, "warning"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),

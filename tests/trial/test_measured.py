@@ -81,6 +81,21 @@ def test_one_finding_about_two_figures_counts_for_both_and_no_more() -> None:
     assert [each["verdict"] for each in said.values()] == ["error", "error", "ok"]
 
 
+@pytest.mark.parametrize(
+    ("name", "good", "bad"),
+    [
+        ("hover_effort", 0.9, 1.1),
+        ("hover_sink", 0.1, 0.3),
+        ("hover_tilt", 0.2, 0.3),
+        ("climbed", 0.9, 0.7),
+    ],
+)
+def test_each_figure_of_a_hover_has_its_limit(name: str, good: float, bad: float) -> None:
+    for value, verdict in ((good, "ok"), (bad, "error")):
+        (figure,) = figures(trial_of(**{name: value})).values()
+        assert figure["verdict"] == verdict
+
+
 def test_what_no_rule_looked_at_is_not_judged() -> None:
     trial = trial_of(stop_distance=0.1, speed_ratio=0.1, thrust_to_weight=1e4)
     said = figures(trial, ignore=("TRI003",))
