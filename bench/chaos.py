@@ -200,7 +200,7 @@ def database_away(group: Group, server: int) -> Iterator[None]:
 
 @contextmanager
 def standing_still(process: int) -> Iterator[None]:
-    """Have a process, and all below it, stand still for a while."""
+    """Pause a process, and all below it, for a while."""
     for pid in (process, *descendant_ids(process)):
         os.kill(pid, signal.SIGSTOP)
     try:
@@ -241,7 +241,7 @@ class Trouble:
         faults: What is wrong with them.
         extra: Checks that were not ordered, or that are missing.
         left: Files that are left at work.
-        seconds: Until all was over.
+        seconds: Seconds until all ended.
     """
 
     kills: Counter[str]
@@ -270,7 +270,7 @@ def suffered(
     Args:
         groups: The running services, which share one store and database.
         uploads: Robots.
-        kills: Of processes.
+        kills: The number of killed processes.
         pause: Seconds between two kills.
         meanwhile: What else happens, once all uploads are on their way.
     """

@@ -1,4 +1,4 @@
-"""Somebody sends heavy packages, then somebody else a small one: how long that one waits.
+"""Measures how long a small package waits behind the heavy packages of another sender.
 
 Eight packages with a model of some 10 000 links come from one address, and while they are checked,
 a small robot from another. Then two hundred small ones wait, and another sender's first findings
@@ -74,7 +74,7 @@ def main() -> None:
 
 
 def _beside_many(address: str) -> None:
-    """Print how much longer first findings take where somebody else has many checks waiting."""
+    """Print how much longer first findings take where another sender has many checks waiting."""
     _first_findings(address, 0)  # the first one loads what others find loaded
     alone = median(_first_findings(address, n) for n in range(1, 6))
     for n in range(WAITING):

@@ -116,7 +116,7 @@ class Result:
         robot: Name of the robot.
         kind: Name of the kind.
         rules: The rules that had to find it.
-        found: Those that did.
+        found: The rules that did.
         cascades: Other rules that report something new, with a message of each.
     """
 

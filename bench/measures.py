@@ -47,7 +47,7 @@ class Measure:
             missing, its value is 0.
         options: Make the rule report all values.
         value: Works it out.
-        below: Those of the numbers that a value must not be below; above the others it must not be.
+        below: The numbers that are lower limits of a value; the others are upper limits.
         linear: Whether the axis of the plot is linear.
     """
 

@@ -41,7 +41,7 @@ SNIPPET_LIMIT = 240
 
 
 class Severity(enum.StrEnum):
-    """How grave a finding is on the target that is judged (see docs/severity.md).
+    """The severity of a finding on the target (see docs/severity.md).
 
     `ERROR`: the robot or its interface does not load, move, collide, weigh, sense or publish as
     written, or a required part of a submission is missing. `WARNING`: probably not what the author
@@ -54,7 +54,7 @@ class Severity(enum.StrEnum):
 
     @property
     def rank(self) -> int:
-        """0 for the gravest, so that sorting puts errors first."""
+        """0 for the most severe, so that sorting puts errors first."""
         return list(Severity).index(self)
 
 

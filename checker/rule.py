@@ -49,7 +49,7 @@ class Finding(Record):
     Attributes:
         places: The main place first, then related ones.
         message: Names the thing and its value, and what was expected.
-        severity: When it differs from the rule's own.
+        severity: The severity, if it differs from the rule's own.
         key: Findings of one rule with one key are one fault in many places.
         fix: Text edits that mend it.
         covered_by: Ids of more precise rules: where one of them reports the same place, or all
@@ -94,7 +94,7 @@ def finding(
     Args:
         where: The element or value that the message names.
         message: Present tense; names the thing, its value, and what was expected, with its unit.
-        severity: When it differs from the rule's own.
+        severity: The severity, if it differs from the rule's own.
         key: What repeated findings have in common; the message when empty.
         related: Other places, each with a note that says what it has to do with the finding.
         fix: Text edits that mend it.

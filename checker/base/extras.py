@@ -39,7 +39,7 @@ class Extra(Record):
         return f"pip install 'subt-check[{self.name}]'"
 
     def require_for(self, what: str) -> None:
-        """Go on only where it is installed.
+        """Raise unless it is installed.
 
         Args:
             what: The feature that needs it, as the beginning of a sentence.
@@ -87,7 +87,7 @@ SERVICE = Extra(
 S3 = Extra("s3", ("obstore",))
 """Keeps uploads and results of a service in S3, for several machines."""
 EDITOR = Extra("editor", ("lsprotocol", "pygls"))
-"""Tells editors of faults while a package is written."""
+"""Reports faults to editors while a package is written."""
 
 
 @cache

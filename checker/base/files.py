@@ -37,7 +37,7 @@ def tighten_below(place: Path) -> None:
 
 def tighten(path: Path) -> None:
     """Take from all others what a file or folder allows them; a link stays what it is."""
-    with suppress(OSError):  # it is gone by now, or somebody else's
+    with suppress(OSError):  # it is gone by now, or belongs to another user
         mode = path.lstat().st_mode
         if mode & UMASK and not stat.S_ISLNK(mode):
             path.chmod(stat.S_IMODE(mode) & ~UMASK)

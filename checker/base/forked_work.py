@@ -64,14 +64,14 @@ def run_all_in_forks(
     """Return what each of several works returns in a fork; one that dies takes no other with it.
 
     They share a fork, since a new one takes as long as a small file. Where it ends, the work at
-    which it did is tried once more, the first in a fork of its own. Those that take long are done
+    which it did is tried again, the first in a fork of its own. Those that take long are done
     after all others, so that they take time from one another alone.
 
     Args:
         works: See `run_in_fork`.
         seconds: Seconds of processor time, for each.
-        until: When the time for all ends, by `forks_time`; none is begun in its last second.
-        late: Why those that are left then have no result.
+        until: The end of the time for all, by `forks_time`; none is started in its last second.
+        late: The reason why those that are left then have no result.
     """
     brief = min(_BRIEF, seconds)
     results = _in_turn(works, brief, until, late)

@@ -112,7 +112,7 @@ def current_folder() -> Path:
 
 
 def empty_of(folder: Path, names: Collection[str] = ()) -> Path:
-    """Return a folder, made if need be, without some files.
+    """Return a folder, created if needed, without some files.
 
     Raises:
         CheckerError: It cannot be made or changed.

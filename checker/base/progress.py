@@ -19,7 +19,7 @@ class ProgressLine:
 
     Attributes:
         total: Things to do; the bar is shown when there are several.
-        done: Those that are done.
+        done: The finished items.
     """
 
     def __init__(self, total: int = 1) -> None:

@@ -26,7 +26,7 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
     def in_turn() -> None:
         for action in do:
             while os.read(heard, 1)[0] not in numbers:
-                pass  # a signal that somebody else handles
+                pass  # a signal that other code handles
             action()
 
     threading.Thread(target=in_turn, daemon=True, name="requests to end").start()

@@ -57,7 +57,7 @@ def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> i
         path: Package, archive or model file.
         form: `urdf` or `mjcf`.
         output: A file; or, if it exists or ends with `/`, a folder, which then also gets the meshes
-            of an MJCF and the commands of its trial. It is made if need be. The standard output
+            of an MJCF and the commands of its trial. It is created if needed. The standard output
             when empty.
         cached: Whether meshes may come from the cache.
 

@@ -121,7 +121,7 @@ def is_identity(pose: Transform) -> bool:
 
 
 def unique(name: str, taken: dict[str, int]) -> str:
-    """Return a name that is not taken, with a number behind it if need be, and take it.
+    """Return a name that is not taken, with a number behind it if needed, and take it.
 
     Args:
         name: Wanted.

@@ -57,7 +57,7 @@ def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[N
 
     Args:
         tags: The tags of the elements around it, outermost first, and of its own; xacro's are
-            passed over.
+            ignored.
         attribute: Its name; empty for a text.
         plugin: Class of the plugin around it, its last word.
     """

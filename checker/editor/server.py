@@ -71,7 +71,7 @@ class Server(LanguageServer):
         self.configure(params.initialization_options)
 
     def configure(self, options: Any) -> None:
-        """Take over the user's settings of the editor; what has another form is passed over."""
+        """Read the user's settings of the editor; values of another form are ignored."""
         if isinstance(options, dict):
             self.measures_on_save = options.get("trial") == "save"
             if isinstance(pause := options.get("debounce"), int | float):
@@ -174,7 +174,7 @@ class Server(LanguageServer):
 
 
 def _collect_but_programs() -> None:
-    """Collect what checks have left; modules and rules, most of all there is, are passed over."""
+    """Collect the garbage of checks; modules and rules, which are most objects, are skipped."""
     gc.collect()
     if not gc.get_freeze_count():
         gc.freeze()

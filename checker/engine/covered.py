@@ -63,7 +63,7 @@ def split_covered(said: Sequence[Said]) -> list[Parted]:
 
 
 class _Told:
-    """Places that a rule reports, each with the gravest finding there."""
+    """Places that a rule reports, each with the most severe finding there."""
 
     def __init__(self, findings: Iterable[GradedFinding]) -> None:
         self._main: dict[tuple[str, int, str], GradedFinding] = {}
@@ -75,7 +75,7 @@ class _Told:
                     _keep_gravest(self._around, (place.file, element), finding)
 
     def telling(self, finding: GradedFinding) -> GradedFinding | None:
-        """Return the finding, as grave or graver, that has the places of another rule's."""
+        """Return the finding, at least as severe, that has the places of another rule's."""
         main, *suspects = finding.places
         at_main = self._main.get(_key(main))
         if at_main and at_main.severity.rank <= finding.severity.rank:

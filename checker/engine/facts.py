@@ -52,7 +52,7 @@ def trial_facts(
 
     Args:
         driven: The robot and its trial.
-        outcome: Of the rules.
+        outcome: The outcome of the rules.
         known: All rules.
         alone: Whether all that they said is about this robot.
     """
@@ -142,7 +142,7 @@ def _start(place: Place) -> tuple[str, int, int]:
 def _verdict(
     measurement: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool
 ) -> str:
-    """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
+    """Return the most severe verdict on a figure; `ok` when its rule ran without a finding."""
     judged = verdicts.get(measurement.name, [])
     if measurement.part:
         start = _start(driven.part(measurement.part).span.place())
@@ -309,7 +309,7 @@ def _triangles_of(robot: Robot, shape: Collision | Visual) -> int:
 
 
 def _finite(known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield what JSON can express and somebody can read: finite numbers of few digits."""
+    """Yield what JSON can express and people can read: finite numbers of few digits."""
     for name, value in known.items():
         if isinstance(value, int | str):
             yield name, value

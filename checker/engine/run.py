@@ -70,7 +70,7 @@ def run_rules(
         rules: The rules to choose from; the selected ones run.
         parts: The parts that they need.
         judge: The selection of rules, and the severities of findings.
-        matcher: Tells what does not count.
+        matcher: The matcher of findings that do not count.
         unloaded: Files that nothing loads: what is found in them is information.
         allowance: What each rule may use; the usual when None.
     """

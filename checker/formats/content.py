@@ -18,8 +18,8 @@ class Content(Record, eq=False):
     Attributes:
         robots: The robots that are not part of another one, in the order of the file.
         worlds: The worlds in the order of the file.
-        missing: Why a robot is not among these although the file names it, as a sentence without
-            its full stop; else empty.
+        missing: The reason why a robot that the file names is not among these, as a sentence
+            without its full stop; else empty.
     """
 
     robots: tuple[Robot, ...]

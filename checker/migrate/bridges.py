@@ -28,7 +28,8 @@ class Bridge(Record):
         name: The name of the node.
         ign_topic: The topic in Gazebo.
         ros_topic: The topic below the robot's namespace.
-        args: Of the node: the topic, for all but pictures with the types on both sides.
+        args: The arguments of the node: the topic, for all but pictures with the types on both
+            sides.
         picture: Whether image_bridge passes it on.
         depth: Whether it is a picture of distances.
         info_topic: The topic of camera_info for a colour picture.

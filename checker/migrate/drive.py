@@ -37,7 +37,7 @@ class Drive(Record, eq=False):
         radius: The radius of the wheels, metres.
         max_velocity: m/s.
         max_acceleration: m/s².
-        normal_force: On each wheel of a robot whose wheels slip, N; else None.
+        normal_force: The normal force on each wheel of a robot whose wheels slip, N; else None.
         steering: Left and right steering joint; empty for one that does not steer.
         wheel_base: The distance between front and rear wheels, metres.
         kingpin_width: The distance between the steering joints, metres.

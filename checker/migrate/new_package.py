@@ -175,7 +175,7 @@ def stage_package(destination: Path, package: str) -> Iterator[Staging]:
     A folder that an interrupted run left behind stays hidden and does not count as content.
 
     Args:
-        destination: Folder that the package goes into; made if need be.
+        destination: Folder that the package goes into; created if needed.
         package: Name of the package's folder.
 
     Raises:

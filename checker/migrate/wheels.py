@@ -30,8 +30,8 @@ class Wheels(Record, eq=False):
     """The wheels that turn to drive the robot.
 
     Attributes:
-        left: From front to rear.
-        right: The same on the right.
+        left: The left wheels from front to rear.
+        right: The right wheels from front to rear.
         reason: The way they were found, as the end of a sentence.
         steering: Joints that steer a wheel, driven or not: left, right; empty without.
     """

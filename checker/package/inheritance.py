@@ -76,7 +76,7 @@ class Inherited(Record):
     """A part that comes from a sibling.
 
     Attributes:
-        part: Which one.
+        part: The part.
         package_name: The sibling that holds it, at the end of a chain of siblings.
         how: The text that says so, in the package that inherits.
         at_hand: Whether the sibling could be looked at.

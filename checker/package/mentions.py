@@ -26,7 +26,7 @@ MENTIONS_LIMIT = 100_000
 _NAME_LIMIT = 255
 _NAMING_NOTHING = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".gif", ".stl", ".so")
 _ENDING = re.compile(
-    # Mesh files are full of points with a digit behind: those are passed over at once.
+    # Mesh files are full of points with a digit behind: those are ignored at once.
     rb"\.(?=[A-Za-z])(?:dae|stl|obj|mtl|glb|gltf|bin|fbx|sdf|material"
     rb"|png|jpe?g|tga|tiff?|bmp|gif|dds|hdr)(?![\w.-])",
     re.IGNORECASE,

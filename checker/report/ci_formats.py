@@ -58,7 +58,7 @@ def _unopened(path: str, reason: str) -> ET.Element:
 
 
 def _counted(name: str, cases: Sequence[ET.Element], seconds: float) -> ET.Element:
-    """Return the suite of some cases; each counts for the gravest thing in it."""
+    """Return the suite of some cases; each counts for the most severe thing in it."""
     kinds = [{child.tag for child in case} for case in cases]
     suite = ET.Element("testsuite", name=_xml(name), tests=str(len(cases)))
     suite.set("failures", str(sum("failure" in kind for kind in kinds)))
@@ -125,7 +125,7 @@ _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO:
 
 
 def to_github(report: Report) -> str:
-    """Return one workflow command a line, the gravest first; then counts and verdicts."""
+    """Return one workflow command a line, the most severe first; then counts and verdicts."""
     findings = list(each_once(report))
     lines = [
         _command("error", {"title": "not opened"}, plain(f"{item.path} {item.reason}"))

@@ -37,7 +37,7 @@ class Row(Record):
     Attributes:
         label: What was measured.
         value: The value with its unit; least to greatest of several parts.
-        verdict: The gravest; `ok` only if that goes for all parts.
+        verdict: The most severe verdict; `ok` only if all parts have it.
         limits: The limits of the rule that judges them, in words.
         rule: Its id; empty for figures that only inform.
         parts: The number of parts it was measured for.
@@ -67,7 +67,7 @@ def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
 
 
 def gravest_verdict(verdicts: Iterable[str]) -> str:
-    """Return the gravest of some verdicts; `not judged` of none."""
+    """Return the most severe of some verdicts; `not judged` of none."""
     return min(verdicts, key=_GRAVITY.index, default=NOT_JUDGED)
 
 

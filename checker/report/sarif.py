@@ -174,7 +174,7 @@ def _package(package: PackageReport) -> Json:
 
 
 def _first_by_rule(findings: Sequence[PackageFinding]) -> Mapping[str, ReportedFinding]:
-    """Return the first finding of each rule, which is the gravest that counts."""
+    """Return the first finding of each rule, which is the most severe that counts."""
     rules: dict[str, ReportedFinding] = {}
     for item in findings:
         rules.setdefault(item.finding.rule, item.finding)

@@ -15,7 +15,7 @@ SAMPLE = "1"
 
 
 def empty_arguments(package: Package, candidate: Candidate, given: Collection[str]) -> list[str]:
-    """Return the arguments of a file that are empty unless somebody gives them.
+    """Return the arguments of a file that are empty unless given.
 
     A launch file that loads the file and does not name an argument leaves it empty permanently.
 

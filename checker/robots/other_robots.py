@@ -21,7 +21,7 @@ _OF_THE_USER = (
     *(XacroFaultKind.ARGUMENT, XacroFaultKind.ENVIRONMENT),
     *(XacroFaultKind.RECURSION, XacroFaultKind.LIMIT),
 )
-"""Faults that need not be there when somebody chooses a value."""
+"""Faults that may be absent with another value."""
 
 
 class Made(Record, eq=False):

@@ -37,7 +37,7 @@ class RobotDescription(Record, eq=False):
         param: The parameter.
         files: Files that the command names by `$(find …)` or `$(dirname)`, its program among them
             unless that belongs to another package.
-        arguments: What it hands over as `name:=value`.
+        arguments: The arguments that it passes as `name:=value`.
         uses_xacro: Whether the command runs xacro.
     """
 

@@ -1,6 +1,7 @@
 """Access to the service: the address that it listens on, and what that requires.
 
-What others upload is read in a sandbox (`checker.base.sandbox`), unless somebody takes the risk.
+What others upload is read in a sandbox (`checker.base.sandbox`), unless the operator accepts the
+risk.
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
 
 
 def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]]) -> str:
-    """Return what to say aloud where uploads of others are read without a sandbox; else nothing.
+    """Return a warning where uploads of others are read without a sandbox; else nothing.
 
     Args:
         environment: The variables with the permission to upload and to take the risk.

@@ -108,7 +108,7 @@ class Lines(logging.StreamHandler[TextIO]):
         super().close()
 
     def _tell_repeats(self, now: float) -> None:
-        """Tell of faults that are due; one that has ended is new when it comes again."""
+        """Log the faults that are due; one that has ended is new when it occurs again."""
         due = [each for each in self._known.items() if now - each[1].since >= REPEAT_SECONDS]
         for fault, known in due:
             if not known.number:

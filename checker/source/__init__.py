@@ -3,7 +3,7 @@
 - A `SourceText` is the text of one file; a `Span` is a part of it; a `Located[T]` is a value
   with its span. `stated` is false if the file does not spell the value out (a default).
 - XML is read twice: lxml builds the tree; expat, which knows the byte of each tag, gives the
-  positions; both are joined by document order. Start tags are scanned once more for attributes.
+  positions; both are joined by document order. Start tags are scanned again for attributes.
 - `checker.model` keeps the span of everything that is read. A rule hands a value to
   `finding(…)` and never computes a line.
 - Through the spawner: strings of the evaluator remember, piece by piece, the Ruby that wrote

@@ -40,7 +40,7 @@ class Passage(Record, eq=False):
 
     Attributes:
         kind: Heading, paragraph, or item of a list.
-        level: Of a heading: 1 to 6; of an item: how many lists stand around it; else 0.
+        level: The level of a heading, 1 to 6; for an item, the number of lists around it; else 0.
         text: Visible text, as long as the stretch of the file it was read from.
         span: The stretch.
     """

@@ -118,7 +118,7 @@ def _holds_elements_alone(text: str) -> bool:
 
 
 def _comment_bodies(text: str) -> Iterator[tuple[int, int]]:
-    """Yield where the inside of each comment begins and ends; CDATA is passed over."""
+    """Yield where the inside of each comment begins and ends; CDATA is ignored."""
     at = text.find("<!")
     while at >= 0:
         for opening, closing in (("<!--", "-->"), ("<![CDATA[", "]]>")):

@@ -16,10 +16,10 @@ class TagPosition:
     Attributes:
         tag: Name as written, with its prefix.
         attributes: Values by names as written; declarations of namespaces are none.
-        start: Of the start tag's `<`.
-        start_end: Behind the start tag's `>`.
-        end_start: Of the end tag's `<`; equal to `start_end` for `<a/>`.
-        end: Behind the end tag's `>`.
+        start: The offset of the start tag's `<`.
+        start_end: The offset behind the start tag's `>`.
+        end_start: The offset of the end tag's `<`; equal to `start_end` for `<a/>`.
+        end: The offset behind the end tag's `>`.
     """
 
     tag: str

@@ -57,7 +57,7 @@ class YamlNode(Record, eq=False):
         items: The values of a sequence.
         entries: Keys and values of a mapping, in order; a key may stand there twice.
         size: Number of values in it, aliases counted in full.
-        height: How deep it is nested.
+        height: The depth of its nesting.
     """
 
     kind: str

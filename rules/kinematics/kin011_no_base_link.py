@@ -21,7 +21,7 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
         base: Name that a link of the robot must have; not required if the profile names no Gazebo
             release.
     """
-    # A model that stands still is placed as a whole: no link of it needs to exist.
+    # A static model is placed as a whole: no link of it needs to exist.
     if not robot.is_static:
         yield from _canonical(robot)
     # A file for no simulator may not be a robot, but a barrel.

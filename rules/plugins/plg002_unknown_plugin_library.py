@@ -111,7 +111,7 @@ def _is_told_elsewhere(stem: str, context: Context) -> bool:
 
 
 def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity | None:
-    """Say how grave it is that a library is not available.
+    """Return the severity of an unavailable library.
 
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own. Those of

@@ -52,7 +52,7 @@ def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
 
 
 def _children(element: Element, kind: ElementType, without: Severity) -> Iterator[Finding]:
-    """Report the children of an element; `without` says how grave a missing geometry is."""
+    """Report the children of an element; `without` is the severity of a missing geometry."""
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
     for child in kind.required_children:
         name = child.name

@@ -24,7 +24,7 @@ from checker.source.text import Located
 from checker.source.xml import Element
 
 _ONLY_LOOKS = ("color",)
-"""urdfdom passes over a colour that it cannot read."""
+"""urdfdom ignores a colour that it cannot read."""
 
 
 @rule("URD012", "unreadable-urdf-value", Severity.ERROR, Concern.ROBOT)

@@ -70,7 +70,7 @@ def give_up_rights(kept: int = 0) -> None:
     """Give up what root may do and others may not (capabilities(7)).
 
     Args:
-        kept: Those that stay, one bit each; none is gained.
+        kept: The capabilities that stay, one bit each; none is gained.
     """
     libc = ctypes.CDLL(None, use_errno=True)
     if hasattr(libc, "capset"):

@@ -29,7 +29,7 @@ Content = bytes | NotReadable
 
 
 class Damaged(ValueError):
-    """What was handed over is no message with files; the text ends a sentence."""
+    """The input is not a message with files; the text ends a sentence."""
 
 
 class Files:
@@ -118,7 +118,7 @@ def from_disk(wanted: Iterable[tuple[str, int]]) -> Iterable[tuple[str, Content]
 def read(
     descriptor: int, limit: int, start: int = 0, end: int | None = None
 ) -> tuple[bytes, Files]:
-    """Return the message and the files that somebody has written.
+    """Return the message and the files that another process has written.
 
     Args:
         descriptor: The descriptor of the file they are in; the writer may be hostile.

@@ -51,7 +51,7 @@ def version() -> int:
 
 
 def allow_only(read: Iterable[str], work: Iterable[str] = (), devices: Iterable[str] = ()) -> int:
-    """Leave this process the files below some paths; what does not exist is passed over.
+    """Leave this process the files below some paths; what does not exist is ignored.
 
     It can no longer bind or connect TCP sockets (version 4), nor reach processes outside by
     signals or abstract sockets (version 6).

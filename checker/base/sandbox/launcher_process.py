@@ -141,7 +141,7 @@ class LauncherProcess:
         except ConnectionError:  # closed before all that was said to it was read
             message, descriptors = b"", []
         if message and len(descriptors) >= DESCRIPTORS:
-            # What asks may have been taken over, and the system may have no room for a process.
+            # The caller may be compromised, and the system may have no room for a process.
             with suppress(OSError, ValueError, TypeError):
                 self._start(json.loads(message), descriptors)
                 return True
@@ -216,7 +216,7 @@ def _end(process: int) -> None:
 
 
 def _tell(pipe: int, code: int) -> None:
-    """Write an exit code; the pipe of a process that was taken over may be full."""
+    """Write an exit code; the pipe of a compromised process may be full."""
     with suppress(OSError):
         signal.setitimer(signal.ITIMER_REAL, _TELL_SECONDS)
         try:

@@ -36,7 +36,7 @@ class Sandbox(Record):
     """What to put up around a process.
 
     Attributes:
-        names: Which of `ALL`; others than all are for tests of each alone.
+        names: The layers, of `ALL`; others than all are for tests of each alone.
         wrapped: Whether bubblewrap has made the namespaces already.
         account: User id to take; 0 to stay the same.
         work: Folder that it may write in; empty for none.

@@ -13,11 +13,11 @@ _TRIES, _SECONDS = 20, 0.1
 
 
 def lower_priority(processes: Sequence[int], by: int) -> None:
-    """Lower the priority of all threads of some processes; what has ended is passed over.
+    """Lower the priority of all threads of some processes; what has ended is ignored.
 
     Args:
         processes: Their ids, at least one; all of one session.
-        by: By how much more they are nice.
+        by: The increase of their niceness.
     """
     for process in processes:
         with suppress(OSError):

@@ -43,7 +43,7 @@ def _candidates() -> Iterator[str]:
     # Installed from source, its folder holds what is no part of it.
     yield from (str(root / name) for name in _PARTS)
     named = [os.environ.get(name, "") for name in ("PYTHONPATH", "LD_LIBRARY_PATH")]
-    # The first is the folder that this program was started in: that of somebody's data, perhaps.
+    # The first is the folder that this program was started in: perhaps one with a user's data.
     known = sys.path if sys.flags.safe_path else sys.path[1:]
     folders = (*known, *os.pathsep.join(named).split(os.pathsep))
     yield from (path for path in folders if path and Path(path) != root)

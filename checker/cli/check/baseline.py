@@ -38,7 +38,7 @@ def write_baseline(before: Baseline, report: Report, rules: Collection[str]) -> 
     """Write the findings of a report, and return a sentence about it.
 
     Args:
-        before: As it was; entries of packages that were not checked stay.
+        before: The baseline as it was; entries of packages that were not checked stay.
         report: The report of a check without a baseline.
         rules: Ids of all rules.
 

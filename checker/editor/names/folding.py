@@ -59,7 +59,7 @@ def _regions(text: str) -> Iterator[tuple[int, int, FoldKind]]:
     """Yield the offsets of what may be folded: its first character, and one on its last line.
 
     An end tag closes the innermost element of its name, and all that is open in it; one that
-    closes nothing is passed over.
+    closes nothing is ignored.
     """
     open_tags: list[tuple[str, int]] = []
     names: Counter[str] = Counter()

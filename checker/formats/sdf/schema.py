@@ -176,7 +176,7 @@ def walk(
     """Yield each element with its type, in document order; None for one that has no place there.
 
     The version that the file is read as, `reads`, gives the type where its own does not know one.
-    What stands below an unknown or a free element is passed over, and so are elements with a
+    What stands below an unknown or a free element is ignored, and so are elements with a
     namespace prefix, which SDFormat leaves to others.
     """
     is_sdf = root.tag == "sdf"

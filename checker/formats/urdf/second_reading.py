@@ -75,7 +75,7 @@ def read_again(robots: Sequence[Robot], cache: Cache) -> tuple[SecondReading, ..
 
 
 def _decoded(answer: Any) -> dict[str, Any]:
-    """Return an answer of the child, which may have been taken over, after a look at its types."""
+    """Return an answer of the child, which may be compromised, after a look at its types."""
     if "error" in answer:
         return {"error": str(answer["error"])[:300]}
     links = {

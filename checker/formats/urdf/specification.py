@@ -172,7 +172,7 @@ def _changes_nothing(part: Element) -> bool:
 
 
 def _advice(part: Element, path: str, owner: Element) -> str | None:
-    """Return what to write instead of an element that readers pass over; None if it is unknown."""
+    """Return what to write instead of an element that readers ignore; None if it is unknown."""
     elsewhere = table("urdf_spec")["elsewhere"]
     other: Mapping[str, str] = elsewhere["other"]
     if text := other.get(f"{path}/{part.tag}") or other.get(part.tag):

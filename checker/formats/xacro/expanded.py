@@ -71,7 +71,7 @@ def expanded_document(
     """Return the document that xacro made of a file; None when it cannot be read.
 
     Args:
-        answer: Of the child: the text, and for each element the one it is a copy of.
+        answer: The child's answer: the text, and for each element the one it is a copy of.
         gathered: The texts that were given to the child.
         file: The expanded file, as xacro saw it.
     """

@@ -20,7 +20,7 @@ from checker.package.package import Package
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 
-# What the process that expands xacro files may answer: it may have been taken over.
+# What the process that expands xacro files may answer: it may be compromised.
 
 
 _KINDS = frozenset(kind.value for kind in XacroFaultKind)

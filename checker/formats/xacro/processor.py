@@ -1,6 +1,6 @@
 """Runs xacro over texts, inside the process that may do nothing else.
 
-xacro's ways to reach files, packages and the environment lead to what was handed over. Every
+xacro's ways to reach files, packages and the environment lead to the given texts. Every
 element remembers which element of which text it is a copy of.
 """
 

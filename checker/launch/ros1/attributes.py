@@ -27,7 +27,7 @@ class LaunchTag(Record):
 
     Attributes:
         attributes: Names of its attributes, conditions among them.
-        required: Those without which roslaunch stops.
+        required: The attributes without which roslaunch stops.
         children: Tags that may stand inside.
     """
 

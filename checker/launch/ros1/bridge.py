@@ -59,7 +59,7 @@ class Bridge(Record, eq=False):
         ros_type: Message type, such as `sensor_msgs/Imu`.
         ign_type: Message type, such as `ignition.msgs.IMU`.
         direction: The direction of messages.
-        kind: Which program bridges.
+        kind: The program that bridges.
         node: The node that does it.
         span: The topic within the node's `args`.
     """

@@ -1,7 +1,7 @@
 """Expands launch XML to the launch graph as roslaunch does, without starting anything.
 
 Scoping follows roslaunch: args and remaps of a group end with it, remaps reach into included
-files, args do not unless they are handed over.
+files, args do not unless they are passed.
 """
 
 from __future__ import annotations

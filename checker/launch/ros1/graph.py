@@ -185,7 +185,7 @@ class UnresolvedInclude(Record, eq=False):
     Attributes:
         package: Package of `$(find …)`; empty when the file is named otherwise.
         file: Path within the package, or what the attribute says.
-        arguments: What is handed over, by name.
+        arguments: The passed arguments, by name.
         namespace: The namespace that the nodes of the file would have.
         reason: The reason why it is not available.
         span: The start tag.
@@ -205,7 +205,7 @@ class LaunchGraph(Record, eq=False, dict=True):
     Attributes:
         nodes: The nodes in the order of the files.
         bridges: Topics that the nodes pass between ROS and Gazebo.
-        dormant_bridges: Those of nodes that a condition leaves out.
+        dormant_bridges: The bridges of nodes that a condition leaves out.
         dormant_nodes: Nodes that a condition leaves out.
         params: Parameters set.
         environment: Environment variables set.

@@ -1,4 +1,4 @@
-"""Which launch file is meant, what is handed over to it, and which robots it loads."""
+"""A launch file, the arguments passed to it, and the robots that it loads."""
 
 from __future__ import annotations
 
@@ -177,7 +177,7 @@ class Inclusion(Record, eq=False):
         package: Package of `$(find …)`, else empty.
         path: Path within the package; empty when it is not known before the launch.
         file: The `file` attribute.
-        arguments: All that is handed over.
+        arguments: All passed arguments.
         argument_places: The `<arg>` elements below it, by name.
         passes_all: Whether `pass_all_args` is set.
         span: The start tag.

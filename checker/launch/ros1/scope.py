@@ -23,7 +23,7 @@ class LaunchFile(Record, eq=False):
 
     Attributes:
         document: Its XML.
-        given: Args that the command line or the including file hands over.
+        given: Args that the command line or the including file passes.
         included_at: The `<include>` that names it; None for the entry file.
         overrides_constants: Whether the args came by `pass_all_args`.
         chain: The files around it with what they were given, itself last.

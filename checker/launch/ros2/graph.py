@@ -284,7 +284,7 @@ class Include(Started, eq=False, kw_only=True):
 
     Attributes:
         target: Its path; see `share_path`.
-        arguments: What is handed over, by name.
+        arguments: The passed arguments, by name.
         path: The file as the package lists it; empty when it is not available.
         accepts: Names of arguments that the file, or one that it includes, declares or uses; None
             when that is not known, as of a file that could not be read in full.

@@ -142,7 +142,7 @@ def heredoc_parts(opening: RubyNode) -> list[list[Range] | RubyNode] | None:
     """Return the stretches of a heredoc's body, and the interpolations between them.
 
     Args:
-        opening: Such as `<<~XML`.
+        opening: The opening, such as `<<~XML`.
 
     Returns:
         None when its end was not found.

@@ -19,7 +19,7 @@ class Placed(Record, eq=False):
 
     Attributes:
         pose: The pose of the shape.
-        box: Around the shape; of a mesh, around its hull.
+        box: The bounding box of the shape; of a mesh, that of its hull.
     """
 
     link: Link

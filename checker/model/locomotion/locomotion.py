@@ -252,7 +252,7 @@ class Locomotion(Record, eq=False):
     """All that moves a robot.
 
     Attributes:
-        undriven: Of a robot that no plugin drives, the links that are called wheels and turn
+        undriven: The links of a robot that no plugin drives that are called wheels and turn
             freely about an axis that lies. The side is the one that they stand on; casters are
             steered.
         by_joint: The drive that plugins form together where each turns one wheel, as those of an

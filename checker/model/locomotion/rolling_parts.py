@@ -25,7 +25,7 @@ class RollingPart(Record, eq=False):
         links: All of it; the first is the wheel's or the track's own.
         wheel: None for a track, and for a wheel beside those that a plugin drives.
         is_track: Whether it is a track.
-        box: Around its collisions, in the robot's frame.
+        box: The bounding box of its collisions, in the robot's frame.
         suspended: Whether it hangs on a joint that gives way, beside its own and its steering.
     """
 

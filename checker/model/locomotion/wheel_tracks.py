@@ -19,7 +19,7 @@ class OutOfLine(Record, eq=False):
 
     Attributes:
         wheel: The one farther out.
-        neighbour: In front of it or behind it, on the same side.
+        neighbour: The wheel in front of it or behind it, on the same side.
         step: Metres by which it stands farther out.
         other_step: Metres by which the wheel across it stands farther out than its own neighbour.
     """

@@ -19,8 +19,8 @@ class SensorTypes(Record):
     """Types of sensors as they are written.
 
     Attributes:
-        known: Those that SDFormat reads.
-        lost: Those that it reads and nothing simulates; empty where no release is aimed at.
+        known: The types that SDFormat reads.
+        lost: The types that it reads and nothing simulates; empty where no release is aimed at.
     """
 
     known: frozenset[str]

@@ -15,7 +15,7 @@ class Noise(Record, eq=False):
 
     Attributes:
         type: `none`, `gaussian` or `gaussian_quantized`.
-        mean: Of the white noise.
+        mean: The mean of the white noise.
         stddev: The standard deviation of the white noise.
         bias_mean: The mean of the constant bias.
         bias_stddev: The standard deviation of the constant bias.

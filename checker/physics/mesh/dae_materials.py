@@ -1,6 +1,6 @@
 """The materials of a COLLADA file.
 
-Only diffuse colours, diffuse pictures and transparency are taken over (COLLADA 1.4.1, FX elements
+Only diffuse colours, diffuse pictures and transparency are read (COLLADA 1.4.1, FX elements
 of profile_COMMON): the light of the display is not that of the file.
 """
 

@@ -15,7 +15,8 @@ class RobotTrial(Record, eq=False, dict=True):
     """A robot that was driven, and what was measured.
 
     Attributes:
-        others: Why other robots of the package are not among those; of the first robot only.
+        others: The reason why other robots of the package are not among those; of the first robot
+            only.
     """
 
     robot: Robot

@@ -1,4 +1,4 @@
-"""Findings as the page shows them: the gravest first, as many as one can read."""
+"""Findings as the page shows them: the most severe first, up to a limit."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Entry(Record):
     Attributes:
         link: Address of its page; empty without.
         rank: The rank of its verdict, for sorting; 0 needs most work.
-        counts: Findings by severity, the gravest first.
+        counts: Findings by severity, the most severe first.
         trial: Its result, in words.
     """
 

@@ -39,7 +39,7 @@ From gazebo_ros_pkgs, branch ros2 at d52f7c47, gazebo_plugins/src.
 
 
 class Transform(Record, eq=False):
-    """A transform that somebody publishes.
+    """A published transform.
 
     Attributes:
         parent: The frame that it starts from.

@@ -31,7 +31,7 @@ class Matched(Record):
 def match_entries(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     """Find the entry of each spot.
 
-    An entry represents as many spots of a place as it counts there, and none that is graver
+    An entry represents as many spots of a place as it counts there, and none that is more severe
     than it was.
     """
     left = [dict(entry.places) for entry in entries]
@@ -43,7 +43,7 @@ def match_entries(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Ma
             if entry is not None:
                 taken[at] = entry
     used = set(taken.values())
-    # What is left at a place of an unused entry is graver than that: the fault is not gone.
+    # What is left at a place of an unused entry is more severe than that: the fault is not gone.
     left_over = [spot for at, spot in enumerate(spots) if at not in taken]
     graver = {_key_of(tell, spot) for spot in left_over for tell in _TELLS}
     unused = (at for at in range(len(entries)) if at not in used)
@@ -66,7 +66,7 @@ def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell
 
 
 def _take(spot: Spot, free: _Free, left: Sequence[dict[str, int]], tell: _Tell) -> int | None:
-    """Take a place of an entry that is as grave as the spot, else of a graver one."""
+    """Take a place of an entry that is as severe as the spot, else of a more severe one."""
     for severity in list(Severity)[spot.severity.rank :: -1]:
         waiting = free.get((severity, _key_of(tell, spot)))
         while waiting:

@@ -42,11 +42,11 @@ class StageLimits(Record):
 
     Attributes:
         seconds: Seconds of processor time, for each process.
-        clock_seconds: For all of it, on however busy a machine.
+        clock_seconds: The limit of real time for all of it, also on a busy machine.
         memory: Bytes of address space of the process that checks. Not below what the children of
             the check request themselves: 4 GB for drawing, of which 0.9 GB were ever seen in use.
         file_bytes: Size of one file that it writes.
-        open_files: At a time.
+        open_files: The number of open files at a time.
     """
 
     seconds: float
@@ -147,7 +147,7 @@ _LOOKED_AT = 20_000
 
 
 def settle(place: Path, name: str, files: Files) -> None:
-    """Lay out what was handed over, and work there.
+    """Write the input into a folder, and work there.
 
     Args:
         place: An empty folder.

@@ -102,7 +102,7 @@ class Event(Record):
 
 
 RETENTION_DAYS = 30
-"""After which all of a check is deleted, unless somebody says otherwise."""
+"""Default time after which all of a check is deleted."""
 SILENCE_SECONDS = 60.0
 """Time after which a worker without a sign of life counts as dead."""
 

@@ -101,7 +101,7 @@ class Connection(HttpToolsProtocol):
         self._reader.set(self.reading_seconds)
 
     def resume_writing(self) -> None:
-        """Go on, as the reader has read."""
+        """Continue: the reader has read."""
         super().resume_writing()
         self._reader.call_off()
 

@@ -88,7 +88,7 @@ def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store
     """Yield the warnings about the permission to upload, and its risks.
 
     Raises:
-        CheckerError: It is more than somebody has allowed.
+        CheckerError: It is more than is allowed.
     """
     from checker.service.jobs.sandbox import layers_of_checks
 
@@ -168,7 +168,7 @@ def _served(
 
 
 def _answers(bound: socket.socket) -> bool:
-    """Say whether somebody listens at the socket."""
+    """Say whether a process listens on the socket."""
     return bool(bound.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
 
 

@@ -35,7 +35,7 @@ class Objects(Protocol):
     """
 
     def find(self, kind: Kind, key: str) -> Path | None:
-        """Return where an object is on this machine, brought here if need be; None without."""
+        """Return where an object is on this machine, brought here if needed; None without."""
 
     def names(self, kind: Kind, key: str) -> tuple[str, ...]:
         """Return the names of a folder's files, such as `pkg/robot.glb`; none without it."""

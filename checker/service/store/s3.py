@@ -45,21 +45,21 @@ class S3Objects(Record):
     """Objects in a bucket; see `Objects`.
 
     Attributes:
-        bucket: With the prefix below which all of them lie.
-        copies: On this machine.
+        bucket: The bucket, with the prefix of all objects.
+        copies: The folder of copies on this machine.
     """
 
     bucket: S3Store
     copies: FolderObjects
 
     def find(self, kind: Kind, key: str) -> Path | None:
-        """Return the copy of an object, fetched if need be; None if there is no such object."""
+        """Return the copy of an object, fetched if needed; None if there is no such object."""
         if not self.copies.use(kind, key):
             self._fetch(kind, key)
         return self.copies.find(kind, key)
 
     def names(self, kind: Kind, key: str) -> tuple[str, ...]:
-        """Return the names of the files of a copy, fetched if need be."""
+        """Return the names of the files of a copy, fetched if needed."""
         self.find(kind, key)
         return self.copies.names(kind, key)
 
@@ -215,7 +215,7 @@ def _answers() -> Iterator[None]:
     try:
         yield
     except (BaseError, PermissionError) as error:
-        # What follows its first line are addresses and what the library had in hand.
+        # What follows its first line are addresses and data of the library.
         _LOG.warning(
             "the object store: %s", plain(shortened(str(error).partition("\n")[0], _SHOWN))
         )

@@ -26,8 +26,9 @@ class Config(Record):
         public: Whether everybody may use it on purpose. With neither this nor tokens, it answers
             only under names of this machine, so that no other site can be made to pass for it.
         retention_days: After which uploads and results are deleted.
-        uploads_per_minute: Of one client, by its address; 0 for any number, as on this machine.
-        uploads_at_once: Of all clients; half of them of one client.
+        uploads_per_minute: The uploads of one client, by its address; 0 for any number, as on this
+            machine.
+        uploads_at_once: The uploads of all clients; half of them of one client.
         streams: Watchers of events at once, of all clients.
         streams_per_client: Of them of one client, by its address, which a class may share; on this
             machine, all of them.

@@ -52,7 +52,7 @@ class Metrics:
             method: The HTTP method.
             route: Its template, such as `/checks/{id}`, of which there are few.
             status: The status of the answer; 0 if there was none.
-            seconds: Until its end.
+            seconds: Seconds until its end.
         """
         self._requests.labels(method, route, status).inc()
         self._seconds.labels(route).observe(seconds)

@@ -41,7 +41,7 @@ class Services(Record):
         indexes: Reads those of archives.
         watchers: Follow checks.
         space: Room on the disk for uploads.
-        threads: For uploads that have come whole, to be looked at, kept and ordered.
+        threads: The threads that read, store and order complete uploads.
         lines: Before these threads, one for each sender.
     """
 

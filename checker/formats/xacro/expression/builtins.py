@@ -110,7 +110,7 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
 
     Args:
         budget: The budget to take the steps from.
-        arguments: Those of `dict` or `update`, but for the named ones.
+        arguments: The arguments of `dict` or `update` without the named ones.
         among: The number of keys of the dictionary.
     """
     values = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
@@ -213,7 +213,7 @@ def backwards(budget: Budget, items: Any, /) -> Any:
 
 
 def is_of(budget: Budget, value: Any, kinds: Any, /) -> bool:
-    """Do what `isinstance` does; the call hands over types by the functions of their names."""
+    """Do what `isinstance` does; the call passes types as the functions of their names."""
     budget.spend()
     if type(value) in LAZY:
         raise RefusedExpression(type_label(value))

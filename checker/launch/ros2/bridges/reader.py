@@ -134,7 +134,7 @@ def bridges_without_launch(package: Package, named: Iterable[str]) -> Bridges:
 
     Args:
         package: The package being checked.
-        named: Those that launch files name.
+        named: The files that launch files name.
     """
     from checker.source.yaml import read_yaml
 

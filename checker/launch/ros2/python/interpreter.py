@@ -67,7 +67,7 @@ class Interpreter:
         world: What it may query.
         guards: Conditions around the statement that is being evaluated.
         by_argument: Whether a value that was looked at depends on an argument or a file.
-        notes: What was passed over.
+        notes: What was skipped.
     """
 
     def __init__(self, source: SourceText, allowance: Allowance, world: World) -> None:
@@ -105,7 +105,7 @@ class Interpreter:
         return Unknown(reason, self.span(node))
 
     def unread(self, node: ast.AST, reason: str) -> None:
-        """Note what was passed over."""
+        """Note what was skipped."""
         self.notes.append(self.unknown(node, reason))
 
     def ignored(self, value: Unknown) -> None:

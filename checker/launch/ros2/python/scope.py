@@ -58,7 +58,7 @@ class LocalFunction:
         node: Its definition.
         scope: The scope around it.
         source: The file.
-        defaults: Of its last positional parameters.
+        defaults: The defaults of its last positional parameters.
         named_defaults: The defaults of its keyword-only parameters.
     """
 

@@ -209,7 +209,7 @@ def _with(run: Interpreter, node: ast.With, scope: Scope) -> tuple[Flow, Value]:
 
 
 def _try(run: Interpreter, node: ast.Try, scope: Scope) -> tuple[Flow, Value]:
-    """Run the body; the handlers are passed over."""
+    """Run the body; the handlers are ignored."""
     flow, value = run_block(run, node.body, scope)
     if flow is Flow.ON:
         flow, value = run_block(run, node.orelse, scope)

@@ -206,7 +206,7 @@ def at_rest(robot: Robot, joints: Iterable[str], legs: tuple[Leg, ...]) -> dict[
 def plan_of(robot: Robot) -> Plan:
     """Return the commands of a trial.
 
-    Joints that plugins move otherwise stand still, and of URDF those that have a motor and turn no
+    Joints that plugins move otherwise do not move, and of URDF those that have a motor and turn no
     wheel: some controller holds them.
     """
     plan = _of_kind(robot, robot.locomotion)

@@ -121,7 +121,7 @@ class ContactLog:
         """Return all that was copied, in the frame that the robot had at each time."""
         import numpy as np
 
-        # The same record once more, of columns.
+        # The same record, of columns.
         copied = _Copied._make(zip(*self._copied, strict=True))
         counts = [len(geom) for geom in copied.geoms]
         sample = np.repeat(np.arange(len(counts)), counts)

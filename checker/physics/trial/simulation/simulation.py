@@ -121,7 +121,7 @@ class Run:
     Attributes:
         rig: The rig with the state at the end.
         timestep: Seconds.
-        samples: At the start and every 50 ms.
+        samples: The samples at the start and every 50 ms.
         contacts: The contacts with the ground, sampled more often.
         forces: The forces of the servos in each step, N·m or N (steps × servos).
         hover_effort: Largest share of its greatest thrust that a rotor gives to carry the weight;

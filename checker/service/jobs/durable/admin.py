@@ -94,7 +94,7 @@ class Admin(Record):
         retry_until_answered(lambda: self.checks.retry(replace(first.task, end=None), _FAILED))
 
     def drain(self, names: Sequence[str]) -> Sequence[str]:
-        """Have workers end when what they have in hand is finished, and return their names.
+        """End workers after their running tasks, and return their names.
 
         Args:
             names: The names of workers, with or without what each process adds; none for all.

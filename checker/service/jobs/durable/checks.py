@@ -47,7 +47,7 @@ class Checks(Record):
     """The checks in a database.
 
     Attributes:
-        engine: Of the database.
+        engine: The engine of the database.
         client: Asks DBOS's tables there.
         pauses: Seconds before each further try.
     """
@@ -90,11 +90,11 @@ class Checks(Record):
         self.enter(replace(task, number=task.number + 1, reason=reason), pause)
 
     def hand_back(self, task: Task) -> None:
-        """Have a task that is in hand wait as before, through no fault of its own."""
+        """Put a running task back into the queue, without counting a try."""
         self.client.resume_workflow(task.id, queue_name=task.stage.value)
 
     def recover(self, is_dead: Callable[[str], bool]) -> Sequence[str]:
-        """Have all be tried again that dead workers have in hand, and return their names.
+        """Retry the tasks of dead workers, and return the workers' names.
 
         Of two workers that do so at once, or one that dies at it, no task suffers.
         """
@@ -144,13 +144,13 @@ class Checks(Record):
         self.client.cancel_workflows(ids_of(key))
 
     def forget(self, keys: Iterable[str]) -> None:
-        """Forget checks, wherever they stand; a worker that has one in hand loses it."""
+        """Delete checks in any state; a worker that runs one loses it."""
         ids = ids_of(*keys)
         self.client.cancel_workflows(ids)
         self.client.delete_workflows(ids)
 
     def waiting(self) -> Mapping[str, int]:
-        """Return how many tasks wait, by stage, and how many are in hand by ``""``."""
+        """Return how many tasks wait, by stage, and how many run by ``""``."""
         counted = Counter(
             (each.queue_name or "") if each.status in _WAITING else ""
             for each in self._queued([*_WAITING, "PENDING"], _QUEUES)

@@ -1,4 +1,4 @@
-"""Sees to what dead workers had in hand: DBOS waits for a worker of the same name to come back."""
+"""Returns tasks of dead workers to the queue: DBOS waits for a worker of the same name."""
 
 from __future__ import annotations
 

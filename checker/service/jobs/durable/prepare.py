@@ -36,8 +36,9 @@ def prepare_database(engine: sa.Engine, trials: int = 0) -> Checks:
     """Return the checks of a database, with all tables made; many may do so at once.
 
     Args:
-        engine: Of the database.
-        trials: Of each sender at once on each worker; 0 leaves the queues as they are.
+        engine: The engine of the database.
+        trials: The number of trials of each sender at once on each worker; 0 leaves the queues as
+            they are.
 
     Raises:
         JobsUnreachable: The database does not answer.
@@ -72,7 +73,7 @@ def _drop_others(connection: sa.Connection) -> None:
 def _make_queues(client: DBOSClient, trials: int) -> None:
     """Say how many tasks a worker takes at once, in all and of one sender.
 
-    One place is for other senders: however many long checks somebody sends, the first findings of
+    One place is for other senders: however many long checks one sender sends, the first findings of
     others do not wait for them.
     """
     static, trial = (stage.value for stage in STAGES)

@@ -25,7 +25,7 @@ def watch(engine: sa.Engine) -> None:
     DBOS itself must not use such an engine: it waits for a server to come back.
 
     Args:
-        engine: Of PostgreSQL, without connections so far.
+        engine: The engine of PostgreSQL, without connections so far.
     """
     pulse = _Pulse(engine)
     sa.event.listen(engine, "do_connect", pulse.refuse)
@@ -68,7 +68,7 @@ class _Pulse:
                     self._cut()
 
     def _cut(self) -> None:
-        """End all connections: on some of them somebody waits."""
+        """End all connections: callers wait on some of them."""
         for connection in list(self._connections.values()):
             with (
                 suppress(OSError, self._engine.dialect.loaded_dbapi.Error),

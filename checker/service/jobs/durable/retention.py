@@ -21,7 +21,7 @@ class Retention(Record):
     Attributes:
         checks: The checks in the database.
         store: Uploads and results.
-        grace_seconds: The time that a file without a check is kept.
+        grace_seconds: The time for which a file without a check is kept.
     """
 
     checks: Checks

@@ -37,7 +37,7 @@ class Senders(Record):
     """Senders, as the web processes that share a database know them.
 
     Attributes:
-        engine: Of the database.
+        engine: The engine of the database.
     """
 
     engine: sa.Engine

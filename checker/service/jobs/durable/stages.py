@@ -52,7 +52,7 @@ class Stages(Record):
         checks: The checks in the database.
         store: Uploads and results.
         children: Do the work.
-        hand_back: Set when there is no more time to finish what is in hand.
+        hand_back: Set when there is no more time to finish running tasks.
     """
 
     checks: Checks

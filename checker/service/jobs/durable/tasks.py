@@ -32,7 +32,7 @@ process was killed every three seconds on a machine under load."""
 TRIES = len(PAUSES) + 1
 WORKER_ENDED = "its worker process ended"
 CANCELLED = "cancelled"
-"""Attribute of the first workflow of a check that somebody has cancelled: when, in seconds."""
+"""Attribute of the first workflow of a cancelled check: the time, in seconds."""
 _WAITS = {
     Stage.STATIC: "waiting in the queue",
     Stage.TRIAL: "the static rules are finished; the trial is waiting in the queue",
@@ -65,8 +65,8 @@ class Task(Record):
     Attributes:
         key: The key of the check.
         order: The order, without its sender.
-        created: When it was ordered, seconds since the epoch.
-        expires: When all of the check is deleted.
+        created: The time of the order, seconds since the epoch.
+        expires: The time when all of the check is deleted.
         stage: `STATIC` or `TRIAL`.
         number: The number of the try, from 1; one beyond `TRIES` gives the check up.
         reason: The reason why the try before failed, the beginning of a sentence.
@@ -116,12 +116,12 @@ class Row(Record):
     Attributes:
         task: Its input.
         status: The status as DBOS calls it.
-        created: When it was written, seconds since the epoch.
-        begun: When a worker took it; 0 before.
-        ended: When it was over; 0 before.
+        created: The time when it was written, seconds since the epoch.
+        begun: The time when a worker took it; 0 before.
+        ended: The time when it ended; 0 before.
         executor: Name of the worker that took it last.
         end: What the check came to with it.
-        cancelled: When the check was cancelled, in its first row; 0 if it was not.
+        cancelled: The time when the check was cancelled, in its first row; 0 if it was not.
     """
 
     task: Task

@@ -52,9 +52,10 @@ class WorkerOptions(Record):
         store: Uploads and results.
         name: The name of this worker, of letters, digits and `-`; the process adds what no other
             one has.
-        trials: At once.
-        grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
-        beat_seconds: Between two signs of life.
+        trials: The number of trials at once.
+        grace_seconds: The time to finish running tasks after the signal to stop; then they are
+            returned.
+        beat_seconds: The time between two signs of life.
         silence_seconds: After which other workers take this one for dead.
         cleaning_seconds: The time between two rounds that delete expired files.
         unused_seconds: The time that files without a check are kept.
@@ -76,9 +77,9 @@ class WorkerOptions(Record):
 
 
 def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
-    """Take checks from the queues until `stop` is set, then finish or hand back what is in hand.
+    """Take checks from the queues until `stop` is set, then finish or return running tasks.
 
-    A worker that is drained ends as well: it finishes what it has in hand.
+    A worker that is drained ends as well: it finishes its running tasks.
 
     Threads of what was handed back may outlive it: end the process by `os._exit`, as `work` does.
 
@@ -89,7 +90,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     checks = replace(prepare_database(engine, options.trials), pauses=options.pauses)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
-    # DBOS would take up by itself what a worker of the same name had in hand: no try were counted.
+    # DBOS would resume tasks of a worker of the same name by itself, without counting a try.
     name = f"{options.name}-{secrets.token_hex(4)}"
     workers = Workers(engine, layers)
     children = Children(options.store, options.ahead)
@@ -120,7 +121,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
 def _take_tasks(
     engine: sa.Engine, name: str, run: Callable[[dict[str, Any]], dict[str, Any]]
 ) -> Callable[[float], None]:
-    """Have DBOS run tasks from the queues; return what ends it, given seconds for those in hand."""
+    """Run tasks from the queues by DBOS; return what ends it, given seconds for running ones."""
     from dbos import DBOS, DBOSPortableJSONSerializer
 
     for workflow in (*(stage.value for stage in STAGES), KNOWN):

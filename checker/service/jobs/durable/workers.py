@@ -27,7 +27,7 @@ class Workers(Record):
     """The table of workers.
 
     Attributes:
-        engine: Of the database.
+        engine: The engine of the database.
         layers: The layers of the sandbox in which this worker checks.
     """
 
@@ -46,7 +46,7 @@ class Workers(Record):
         return known is not None and bool(known.drains)
 
     def drain(self, names: Collection[str]) -> None:
-        """Have workers take nothing new, finish what they have in hand, and end."""
+        """Tell workers to take no new task, finish running ones, and end."""
         with self.engine.begin() as connection:
             theirs = sa.update(WORKERS).where(WORKERS.c.name.in_(names))
             connection.execute(theirs.values(drains=True))

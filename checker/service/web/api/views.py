@@ -23,7 +23,7 @@ HIGHEST = 2**31 - 1
 class EventStream(StreamingResponse):
     """The events of a check as they happen (server-sent events of the HTML standard).
 
-    It holds its place as long as somebody reads it.
+    It holds its place as long as a client reads it.
     """
 
     def __init__(self, lines: AsyncIterator[str], place: ExitStack) -> None:

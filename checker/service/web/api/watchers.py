@@ -28,7 +28,7 @@ _LOG = logging.getLogger(LOGGER)
 
 @dataclass(eq=False)
 class Followed:
-    """A check that somebody follows.
+    """A check with followers.
 
     Attributes:
         id: The id of the check.
@@ -83,7 +83,7 @@ class Followed:
 class Watchers:
     """All followers of checks; used by the event loop alone.
 
-    As long as there is somebody, one task looks what is new of all that is followed.
+    As long as there are followers, one task looks up the changes of all their checks.
     """
 
     def __init__(self, jobs: Jobs) -> None:

@@ -28,7 +28,7 @@ class Admission:
     """Lets requests pass or refuses them; used by the event loop alone.
 
     Attributes:
-        uploads_per_minute: Of one client; 0 for any number.
+        uploads_per_minute: The uploads of one client; 0 for any number.
     """
 
     def __init__(self, config: Config) -> None:
@@ -59,7 +59,7 @@ class Admission:
 
     @contextmanager
     def stream(self, request: HTTPConnection) -> Iterator[None]:
-        """Let somebody watch a check as long as it lasts.
+        """Let a client watch a check as long as it lasts.
 
         Raises:
             Refused: Too many watch.

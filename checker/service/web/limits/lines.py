@@ -16,7 +16,7 @@ class Lines:
 
         Args:
             places: The places of all senders.
-            per_sender: Of them for one sender.
+            per_sender: The number for one sender.
         """
         self._free, self._per_sender = places, per_sender
         self._taken: Counter[str] = Counter()
@@ -32,7 +32,7 @@ class Lines:
             await turn
             yield
         finally:
-            # One that was called off has no place; it is passed over when its turn comes.
+            # One that was called off has no place; it is ignored when its turn comes.
             if not turn.cancelled():
                 self._give_back(sender)
 

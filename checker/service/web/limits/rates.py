@@ -83,7 +83,7 @@ class Slots(Record):
 
     Attributes:
         all: Places.
-        per_client: Of them for one client.
+        per_client: The number for one client.
     """
 
     all: int

@@ -55,7 +55,7 @@ class Space:
         """Begin with nothing reserved.
 
         Args:
-            free: Tells how many bytes of the disk are free; raises OSError if it cannot.
+            free: Returns the free bytes of the disk; raises OSError if it cannot.
             kept_free: Bytes of them that are for others than uploads.
             per_client: Bytes of all uploads of one client that are under way.
         """

@@ -19,7 +19,7 @@ from checker.service.store.store import Store
 from checker.service.web.answers.refusal import sentence
 from checker.service.web.api.views import address_of
 
-# What a stored report says at a glance: a verdict for each package, and the gravest findings.
+# What a stored report says at a glance: a verdict for each package, and the most severe findings.
 
 
 SHOWN = 20
@@ -49,7 +49,7 @@ class Glance(Record):
     """The beginning of a report.
 
     Attributes:
-        findings: The gravest, at most `SHOWN`.
+        findings: The most severe ones, at most `SHOWN`.
         more: The number of others.
     """
 

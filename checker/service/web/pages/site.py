@@ -62,7 +62,7 @@ def html(template: str, *, status: int = 200, here: str = "", **values: Any) -> 
     Args:
         template: Its file in `templates/web`.
         status: The status of the answer.
-        here: Which of the links on top leads to this page; empty for none.
+        here: The link on top that leads to this page; empty for none.
         values: What the template shows; every text is escaped.
     """
     from starlette.responses import HTMLResponse

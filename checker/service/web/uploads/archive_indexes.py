@@ -99,7 +99,7 @@ class _Reader:
 
 
 class ArchiveIndexes:
-    """Looks at archives, many at once if need be: each process at one, and then no more."""
+    """Looks at archives, many at once if needed: each process at one, and then no more."""
 
     def __init__(self) -> None:
         """Start nothing yet."""

@@ -157,7 +157,7 @@ class _Patience:
 
     Attributes:
         longest: Seconds that it may last, however fast it comes.
-        started: By the monotonic clock.
+        started: The start time by the monotonic clock.
         received: Bytes so far.
     """
 
