@@ -225,7 +225,7 @@ def away(group: Group, server: str, seconds: float) -> None:
 
 
 def filled(group: Group, seconds: float) -> None:
-    """Have the disk of a service be full for a while, soon."""
+    """Fill the disk of a service for a while, soon."""
     sleep(_SOON)
     with full(group.data):
         sleep(seconds)
@@ -342,7 +342,7 @@ def _listed(counts: Counter[str]) -> str:
 
 
 def main() -> None:
-    """Have everything happen, and print what came of it."""
+    """Cause all faults, and print the results."""
     parser = options_of(__doc__)
     parser.add_argument("--uploads", type=int, default=100)
     parser.add_argument("--kills", type=int, default=40)

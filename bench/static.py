@@ -76,7 +76,7 @@ def show(name: str, value: float) -> None:
 
 
 def keep_bytecode() -> None:
-    """Let the processes that are measured keep compiled sources, as those of users do."""
+    """Make the measured processes keep compiled sources, as those of users do."""
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 

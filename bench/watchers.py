@@ -70,7 +70,7 @@ class Followed:
         self._tasks = deque((id, rows[key][0].task) for id, key in keys.items())
 
     def happen(self) -> None:
-        """Have the check to which nothing happened for longest be tried again, as a worker does."""
+        """Retry the check that has been idle the longest, as a worker does."""
         id, task = self._tasks.popleft()
         self.happened[id, 2 * task.number + 1] = time()
         self._checks.retry(task, "goes on")

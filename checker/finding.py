@@ -104,7 +104,7 @@ class Place(Record):
     message: str = ""
 
     def __str__(self) -> str:
-        """Give the place as editors and terminals understand it."""
+        """Return the place as editors and terminals understand it."""
         return f"{self.file or '.'}:{self.line}:{self.column}"
 
 

@@ -93,7 +93,7 @@ class Background(Generic[T]):
         return not self._unknown
 
     def begin(self) -> None:
-        """Look up what is known, and have a process compute the rest; `results` waits for it."""
+        """Look up what is known, and compute the rest in a process; `results` waits for it."""
         if self._unknown is not None:
             return
         for key in self._work.items:

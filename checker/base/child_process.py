@@ -119,7 +119,7 @@ class Child:
         return not self.ends(0.0)
 
     def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Child:
-        """Bring the request to a process that was started without one; its time begins now."""
+        """Send the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
         handed.write(self._request, request, contents)
         # A dead process reports why when its answer is requested.
@@ -194,7 +194,7 @@ class Child:
 def ask(
     module: str, request: bytes, limits: Limits, contents: Iterable[tuple[str, Content]] = ()
 ) -> bytes | WorkerFailed:
-    """Let a process do the work of a module and wait for the answer; see `Child`."""
+    """Run a module in a process and wait for the answer; see `Child`."""
     return Child(module, request, limits, contents).answer()
 
 

@@ -38,7 +38,7 @@ class _Process(Child):
         self._places: list[tuple[int, int]] = []
 
     def ask(self, request: bytes, contents: Iterable[tuple[str, Content]]) -> Asked:
-        """Bring a request."""
+        """Send a request."""
         start = self._request.seek(0, os.SEEK_END)
         handed.write(self._request, request, contents)
         # A dead process reports why when its answer is requested.
@@ -126,7 +126,7 @@ class Server:
         return self
 
     def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Asked:
-        """Bring a request; it is answered after those before it."""
+        """Send a request; it is answered after those before it."""
         return self._running().ask(request, contents)
 
     def stop(self) -> None:

@@ -57,7 +57,7 @@ class InvalidSettings(CheckerError):
         self.problem = problem
 
     def __str__(self) -> str:
-        """Give the file, if it is one, and the problem."""
+        """Return the file, if it is one, and the problem."""
         return f"{self.path}: {self.problem}" if self.path else self.problem
 
 
@@ -77,7 +77,7 @@ class UnreadableInput(CheckerError):
         self.advice = advice
 
     def __str__(self) -> str:
-        """Give path, reason and advice in one sentence."""
+        """Return path, reason and advice in one sentence."""
         shown = "".join(
             c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(self.path)
         )

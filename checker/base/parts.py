@@ -78,7 +78,7 @@ class Ask(Protocol):
         ...
 
     def beside(self, package: Any) -> AbstractContextManager[Ask]:
-        """Give the parts of another package, to compare with."""
+        """Return the parts of another package, to compare with."""
         ...
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection
 
 
 def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], object]) -> None:
-    """Have something done at the first of some signals, something else at the second, and so on.
+    """Run one function at the first of some signals, another at the second, and so on.
 
     A thread of its own does it, woken by the signal itself. Python runs handlers in the main thread
     alone: that sleeps on where the system gives the signal to another thread, as it does now and

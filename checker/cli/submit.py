@@ -159,7 +159,7 @@ def _explained(finding: ReportedFinding, pages: Mapping[str, Page]) -> ReportedF
 
 
 def submit(options: argparse.Namespace, patience: Patience | None = None) -> Report | None:
-    """Have a service check a package, and print the report as `check` does.
+    """Check a package on a service, and print the report as `check` does.
 
     Args:
         options: The options of the command line.
@@ -277,7 +277,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Have a service check a package, and print the report."""
+    """Check a package on a service, and print the report."""
     SERVICE.require_for("submit")
     report = submit(options)
     return EXIT_CRASH if report is None else exit_code(report)

@@ -208,7 +208,7 @@ def controls_of(mjcf: etree._Element, scene: Scene, plan: Plan, recording: Recor
 
 
 def meshes_apart(mjcf: etree._Element) -> Iterator[tuple[str, str]]:
-    """Let meshes be files instead of corners in the document; yield each file's path and text."""
+    """Write meshes to files instead of into the document; yield each file's path and text."""
     for mesh in mjcf.iter("mesh"):
         corners, faces = mesh.get("vertex"), mesh.get("face")
         if corners is None:

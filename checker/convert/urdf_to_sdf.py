@@ -149,7 +149,7 @@ class _Writer:
                 self.copier.copy(element, joint, link=ends.child, reference=local(name))
 
     def _retie(self, joints: list[etree._Element]) -> None:
-        """Let copied joints tie the links of the result instead of those lumped into them."""
+        """Make copied joints connect the links of the result instead of those lumped into them."""
         lumped = self.lumped()
         for end in (end for joint in joints for end in joint if end.tag in ("parent", "child")):
             name = (end.text or "").strip()

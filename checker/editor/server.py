@@ -85,7 +85,7 @@ class Server(LanguageServer):
         return bool(items and items.snippet_support)
 
     async def read(self, work: Callable[[], T]) -> T:
-        """Have the thread that reads packages do something."""
+        """Run a function in the thread that reads packages."""
         return await asyncio.get_running_loop().run_in_executor(self._reader, work)
 
     async def state_of(self, uri: str) -> tuple[Document, State] | None:
@@ -97,7 +97,7 @@ class Server(LanguageServer):
         return (document, state) if state is not None else None
 
     def check_soon(self) -> None:
-        """Have the packages of open files checked; what has not changed takes no time."""
+        """Check the packages of open files; unchanged ones take no time."""
         self._is_stale = True
         if self._checking is None or self._checking.done():
             self._checking = asyncio.get_running_loop().create_task(self._check())

@@ -244,7 +244,7 @@ class Session:
                     yield path, document
 
     def _renew_processes(self) -> None:
-        """Let a process go that was given much: what it was given stays on disk until then."""
+        """Stop a process with many requests: they stay on disk until then."""
         for server in (self._processes.meshes, self._processes.xacro):
             if server is not None and server.bytes_given > _SERVER_BYTES:
                 server.stop()

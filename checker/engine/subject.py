@@ -143,7 +143,7 @@ class Subject(Record, eq=False):
 
     @contextmanager
     def beside(self, package: Package) -> Iterator[Subject]:
-        """Give the parts of another package, to compare with."""
+        """Return the parts of another package, to compare with."""
         other = Subject(package)
         try:
             yield other

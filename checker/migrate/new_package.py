@@ -168,7 +168,7 @@ class Staging(Record):
 
 @contextmanager
 def stage_package(destination: Path, package: str) -> Iterator[Staging]:
-    """Have a package written beside its final place; it takes that place when all went well.
+    """Write a package beside its final place; it is moved there after success.
 
     The destination may hold other packages: nothing that is there is changed.
 

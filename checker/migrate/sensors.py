@@ -138,7 +138,7 @@ def _form(sensor: etree._Element, kind: str, plugin: etree._Element | None) -> N
 
 
 def _take_range(sensor: etree._Element, plugin: etree._Element) -> None:
-    """Let the range of a lidar's plugin represent that of its rays, which it narrows."""
+    """Use the range of a lidar's plugin, which narrows that of its rays."""
     reach = sensor.find("lidar/range")
     if reach is None:
         return

@@ -51,7 +51,7 @@ def path_of(place: Place, package: PackageReport) -> str:
 
 
 def where_text(place: Place, package: PackageReport) -> str:
-    """Give a place as editors and terminals understand it; a folder has no line."""
+    """Return a place as editors and terminals understand it; a folder has no line."""
     return plain(path_of(place, package)) + (f":{place.line}:{place.column}" if place.file else "/")
 
 

@@ -22,7 +22,7 @@ class TrialVerdict(Record):
     reason: str = ""
 
     def __str__(self) -> str:
-        """Give both in words."""
+        """Return both in words."""
         return f"{self.word}: {self.reason}" if self.reason else self.word
 
 

@@ -45,7 +45,7 @@ class Sentence(Record):
     aside: str
 
     def __str__(self) -> str:
-        """Give the whole sentence."""
+        """Return the whole sentence."""
         text = f"{self.lead}: {self.rest}"
         return f"{text} ({self.aside})" if self.aside else text
 

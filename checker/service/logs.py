@@ -140,7 +140,7 @@ def _without_trace(record: logging.LogRecord) -> logging.LogRecord:
 
 
 def log_to_stderr() -> None:
-    """Have this process log to stderr; the server's own log of addresses, which hold ids, ends."""
+    """Log to stderr; the server's own log of addresses, which contain ids, is switched off."""
     handler = Lines(sys.stderr)
     handler.setFormatter(JsonLines())
     logging.basicConfig(level=logging.WARNING, handlers=[handler])

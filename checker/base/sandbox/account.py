@@ -67,7 +67,7 @@ def switch_user(
 
 
 def give_up_rights(kept: int = 0) -> None:
-    """Give up what root may do and others may not (capabilities(7)).
+    """Drop the capabilities of root (capabilities(7)).
 
     Args:
         kept: The capabilities that stay, one bit each; none is gained.

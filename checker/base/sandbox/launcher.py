@@ -76,7 +76,7 @@ class Started(Record):
 
 
 class Launcher:
-    """Has processes started, by a socket to the one that does it."""
+    """Starts processes by a socket to the launcher process."""
 
     def __init__(self, control: socket.socket) -> None:
         """Take the socket."""
@@ -84,7 +84,7 @@ class Launcher:
         self._lock = threading.Lock()
 
     def start(self, order: Order, request: BinaryIO, answer: BinaryIO, *more: int) -> Started:
-        """Have a process started; it waits for its request.
+        """Start a process; it waits for its request.
 
         Args:
             order: What it does.
@@ -185,7 +185,7 @@ class OwnLauncher(Launcher):
         return usage_below(self._process.pid, folder, most)
 
     def lower_priority(self, by: int) -> None:
-        """Have all that was started stand back further behind others, as `nice` counts it."""
+        """Lower the priority of all started processes, in steps of `nice`."""
         if processes := descendant_ids(self._process.pid):
             lower_priority(processes, by)
 
@@ -213,7 +213,7 @@ def launcher() -> Launcher:
 
 
 def inherit(descriptor: int) -> None:
-    """Have the processes of this one started by the launcher that started it.
+    """Start the processes of this one by the launcher that started it.
 
     Args:
         descriptor: The descriptor of a socket to it.

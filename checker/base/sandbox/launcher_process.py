@@ -45,7 +45,7 @@ class Orphans:
     """Ends orphans, where the system lists them (Linux with CONFIG_PROC_CHILDREN)."""
 
     def __init__(self) -> None:
-        """Have orphans become children of this process; called before files are out of reach."""
+        """Make orphans children of this process; called before files are out of reach."""
         self._list = -1
         with suppress(OSError, AttributeError):
             if ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0) == 0:

@@ -120,7 +120,7 @@ class _Program(ctypes.Structure):
 
 
 def gain_nothing() -> None:
-    """Have no program that this process starts gain rights, such as by setuid (prctl(2)).
+    """Prevent programs that this process starts from gaining rights, such as by setuid (prctl(2)).
 
     Raises:
         NotHeld: The system is not Linux.
@@ -177,7 +177,7 @@ def _machine() -> Architecture:
 
 
 def _hold(machine: Architecture, steps: Iterable[Step]) -> None:
-    """Have the kernel go through steps at each call, and allow what none of them decides."""
+    """Make the kernel run these steps at each call, and allow calls that no step decides."""
     begin: list[Step] = [
         (_LOAD, 0, 0, _ARCH),
         (_EQUAL, 1, 0, machine.audit),

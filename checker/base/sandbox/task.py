@@ -135,7 +135,7 @@ def _speak_to_nobody(input: int) -> None:
 
 
 def end_with_parent() -> None:
-    """Have this process killed when its parent ends, where the system can (Linux: prctl)."""
+    """Kill this process when its parent ends, where the system can (Linux: prctl)."""
     import ctypes
 
     with suppress(OSError, AttributeError):

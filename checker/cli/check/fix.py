@@ -111,7 +111,7 @@ def _temporary_copy(target: Path, content: bytes) -> Path:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Have the folder's new entry reach the disk, where folders can be synchronised."""
+    """Write the folder's new entry to the disk, where folders can be synchronised."""
     with suppress(OSError):
         number = os.open(folder, os.O_RDONLY)
         try:

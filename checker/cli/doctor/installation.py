@@ -55,7 +55,7 @@ class Result(Record):
     advice: str = ""
 
     def __str__(self) -> str:
-        """Give it in a line."""
+        """Return it as a line."""
         return f"{self.state:<8}{self.what}" + (f"; {self.advice}" if self.advice else "")
 
 

@@ -59,7 +59,7 @@ def second_readings(
 
 
 def read_again(robots: Sequence[Robot], cache: Cache) -> tuple[SecondReading, ...] | WorkerFailed:
-    """Have a child process read robots with yourdfpy, and compare."""
+    """Read robots with yourdfpy in a child process, and compare."""
     texts = [robot.document.source.text for robot in robots]
     keys = [work_key([text], ["formats/urdf/yourdfpy_worker.py"], ["yourdfpy"]) for text in texts]
     items = {key: {"urdf": text} for key, text in zip(keys, texts, strict=True)}

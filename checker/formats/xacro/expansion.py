@@ -155,7 +155,7 @@ class Expansions:
         self._begun.stop()
 
     def _begin(self) -> Background[dict[str, Any]]:
-        """Look up each job, and have a child do those that are not known."""
+        """Look up each job, and run unknown ones in a child process."""
         common = self._gathered.request
         texts = json.dumps(common, sort_keys=True)
         self._basis = work_key([texts], ["formats/xacro"], ["xacro", "pyyaml"])

@@ -100,7 +100,7 @@ class SpanningTree(Record, eq=False):
 
 
 def spanning_tree_of(robot: Robot) -> SpanningTree:
-    """Let each link hang by its first tie; a circle opens above its link that stands first."""
+    """Connect each link by its first tie; a circle opens above its link that stands first."""
     tree = robot.tree
     by = {name: ties[0] for name, ties in tree.ties_above.items()}
     number = {name: position for position, name in enumerate(tree.links)}

@@ -30,7 +30,7 @@ class Server(Record):
     base: str = ""
 
     def __str__(self) -> str:
-        """Give the address as a browser shows it."""
+        """Return the address as a browser shows it."""
         host = f"[{self.host}]" if ":" in self.host else self.host
         port = "" if self.port == _PORTS[self.scheme] else f":{self.port}"
         return f"{self.scheme}://{host}{port}{self.base}"

@@ -85,7 +85,7 @@ class _Counted(io.FileIO):
 
 @contextmanager
 def file_to_send(path: Path, say: Say) -> Iterator[Path]:
-    """Give an archive or a model file as it is, a folder packed.
+    """Yield an archive or a model file as it is, a folder packed.
 
     Args:
         path: The path of a package.

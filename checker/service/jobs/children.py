@@ -91,7 +91,7 @@ class _Place:
 
 
 class Children:
-    """Has processes check, each of them once."""
+    """Runs checks in processes, each of them once."""
 
     def __init__(self, store: Store, ahead: bool = True) -> None:
         """Start nothing yet.
@@ -113,7 +113,7 @@ class Children:
         cancelled: Callable[[], bool],
         niceness: int = 0,
     ) -> Iterator[Ended]:
-        """Have a process check an upload; at the end none of its processes is left.
+        """Check an upload in a process; at the end none of its processes is left.
 
         Args:
             request: See `checker.service.jobs.check_child`.

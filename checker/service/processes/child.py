@@ -31,7 +31,7 @@ from checker.service.web.limits.rates import network_of
 
 @dataclass
 class Deadline:
-    """Has something done after a while, unless it is called off before."""
+    """Runs a function after a while, unless cancelled."""
 
     do: Callable[[], None]
     _timer: asyncio.TimerHandle | None = field(default=None, repr=False)
@@ -178,7 +178,7 @@ def web(descriptor: int, proxies: str) -> None:
 
 
 def _allow_open_files() -> None:
-    """Have room for all connections and what they send: 1024 is what many systems begin with."""
+    """Raise the limit of open files for all connections: many systems start with 1024."""
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)

@@ -12,7 +12,7 @@ DATABASE = "jobs.sqlite"
 
 
 def choose(data: str, store: str) -> None:
-    """Have this process, and those that it starts, use a folder and a bucket; empty for as it is.
+    """Make this process, and those that it starts, use a folder and a bucket; empty for no change.
 
     Args:
         data: The folder, for `SUBT_CHECK_DATA`.

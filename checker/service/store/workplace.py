@@ -85,7 +85,7 @@ class Incoming:
 
 
 def settle(path: Path) -> None:
-    """Have a file or folder written to the disk."""
+    """Write a file or folder to the disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
@@ -94,7 +94,7 @@ def settle(path: Path) -> None:
 
 
 def settle_below(folder: Path) -> None:
-    """Have a folder written to the disk with all that it holds."""
+    """Write a folder to the disk with its content."""
     for place, _, names in os.walk(folder):
         for name in names:
             settle(Path(place, name))
@@ -102,7 +102,7 @@ def settle_below(folder: Path) -> None:
 
 
 def move(source: Path, target: Path) -> None:
-    """Give a file or folder, already settled, its final name; folders above are made as needed.
+    """Rename a file or folder on the disk to its final name; folders above are made as needed.
 
     A file of that name is replaced; a folder is not.
 
@@ -120,7 +120,7 @@ def rename(source: Path, target: Path) -> None:
 
 
 def settle_name(target: Path) -> None:
-    """Have a name written to the disk, and that of its folder, which may be new."""
+    """Write a name to the disk, and that of its folder, which may be new."""
     settle(target.parent)
     settle(target.parent.parent)
 

@@ -39,7 +39,7 @@ def key_of(request: Request) -> str:
 
 
 def give(response: Response, receipt: Receipt, request: Request, services: Services) -> None:
-    """Have a browser keep the secret of a check, for the page of this check alone."""
+    """Make a browser keep the secret of a check, for the page of this check alone."""
     response.set_cookie(
         _COOKIE,
         receipt.secret,
@@ -57,7 +57,7 @@ def stored_secret(request: Request) -> str:
 
 
 def take(response: Response, id: str) -> None:
-    """Have a browser forget the secret of a check."""
+    """Make a browser delete the secret of a check."""
     response.delete_cookie(_COOKIE, path=f"/checks/{id}", httponly=True, samesite="strict")
 
 

@@ -30,12 +30,12 @@ class Draft:
         self.changes.append((span.start, span.end, text))
 
     def name(self, named: Located[str] | None, new: str) -> None:
-        """Have another name stand where one is written."""
+        """Replace a name."""
         if named is not None and named.stated and named.value != new:
             self.put(named.span, escape_xml(new))
 
     def attribute(self, element: Element, name: str, value: str) -> None:
-        """Give an element an attribute, or another value of it."""
+        """Set an attribute of an element."""
         if element.attribute(name) is not None:
             self.name(element.attribute(name), value)
             return
@@ -48,7 +48,7 @@ class Draft:
         self.put(element.whole_attribute_span(name), "")
 
     def insert(self, parent: Element, line: str) -> None:
-        """Have an element stand first in another one."""
+        """Insert an element as the first of another one."""
         span, text = insertion(parent, [line])
         self.put(span, text)
 
@@ -120,7 +120,7 @@ class Holder(Record):
         return name if name == "world" else self.prefix + name.removesuffix(f"::{MODEL_FRAME}")
 
     def rename(self, draft: Draft, part: Element, names: FlatNames) -> None:
-        """Have a part, and what it names, stand under their new names."""
+        """Rename a part, and the parts that it names."""
         name = part.attribute("name")
         if name is not None:
             draft.name(name, names.changed.get(self.scoped(name.value), name.value))

@@ -58,7 +58,7 @@ class Checks(Record):
     _writing: Lock = field(default_factory=Lock)
 
     def enter(self, task: Task, pause: float = 0.0) -> None:
-        """Have a task wait in the queue of its stage, unless it was entered before.
+        """Put a task into the queue of its stage, unless it was entered before.
 
         Args:
             task: The task.
@@ -85,7 +85,7 @@ class Checks(Record):
             self.client.enqueue_in_transaction(connection, options, to_builtins(task))
 
     def retry(self, task: Task, reason: str) -> None:
-        """Have a task tried again later, or given up."""
+        """Retry a task later, or give it up."""
         pause = 0.0 if task.number >= TRIES else self.pauses[task.number - 1]
         self.enter(replace(task, number=task.number + 1, reason=reason), pause)
 

@@ -127,7 +127,7 @@ def client_of(engine: sa.Engine) -> DBOSClient:
 
 
 def configure_logging() -> None:
-    """Have DBOS log by the handlers of this process, and what is amiss alone."""
+    """Make DBOS log by the handlers of this process, warnings and errors only."""
     logger = logging.getLogger("dbos")
     logger.setLevel(logging.WARNING)
     if not logger.handlers:  # else it makes one of its own

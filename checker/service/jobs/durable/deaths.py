@@ -17,7 +17,7 @@ _KNOWN_SILENCES = 60
 
 
 class Deaths:
-    """Shows that this worker lives, and has what is in the hands of the dead tried again.
+    """Shows that this worker lives, and retries the tasks of dead workers.
 
     The lock of a file shows at once that a worker on this machine has ended; silence shows that
     those on others, or hanging ones, have.
@@ -41,7 +41,7 @@ class Deaths:
         self.drained = threading.Event()
 
     def look(self) -> None:
-        """Show a sign of life, and have what is in the hands of the dead wait again.
+        """Show a sign of life, and put the tasks of dead workers back into the queue.
 
         `drained` is set once an operator has drained this worker.
 

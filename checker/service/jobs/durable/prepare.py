@@ -119,7 +119,7 @@ def _task_of(row: Any) -> Task:
 
 
 def _lock(connection: sa.Connection) -> None:
-    """Have others wait until the end of this transaction."""
+    """Block others until the end of this transaction."""
     if connection.dialect.name == "sqlite":
         connection.exec_driver_sql("BEGIN IMMEDIATE")
     else:

@@ -58,12 +58,12 @@ class Workers(Record):
             return set(connection.execute(sa.select(WORKERS.c.name).where(fresh)).scalars())
 
     def strike(self, worker: str) -> None:
-        """Strike a worker out, which is not one any more."""
+        """Remove a worker that has ended."""
         with self.engine.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(WORKERS.c.name == worker))
 
     def strike_silent(self, silence: float) -> None:
-        """Strike those out that have been silent for `silence` seconds."""
+        """Remove those that have been silent for `silence` seconds."""
         silent = WORKERS.c.beat <= now(self.engine) - silence
         with self.engine.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(silent))

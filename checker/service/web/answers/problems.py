@@ -61,7 +61,7 @@ def _is_read_by_people(request: Request) -> bool:
 
 
 def install_error_handlers(app: FastAPI) -> None:
-    """Have an application answer by this module whatever goes wrong."""
+    """Make an application answer all errors by this module."""
     from fastapi.exceptions import RequestValidationError
 
     async def say_no(request: Request, error: Exception) -> Response:

@@ -42,7 +42,7 @@ class Admission:
 
     @contextmanager
     def upload(self, request: HTTPConnection) -> Iterator[None]:
-        """Let an upload in as long as it lasts.
+        """Admit an upload as long as it lasts.
 
         Raises:
             Refused: The client sends too many, too many are under way, or its token is wrong.

@@ -37,7 +37,7 @@ class Lines:
                 self._give_back(sender)
 
     def _call(self) -> None:
-        """Let in those that may come next, one of each line after the other."""
+        """Admit those that may come next, one of each line after the other."""
         while self._free and (sender := self._next()) is not None:
             turn = self._lines[sender].popleft()
             self._lines.move_to_end(sender)

@@ -84,7 +84,7 @@ class Space:
             self._claims.remove(claim)
 
     def extend(self, claim: Claim, size: int) -> None:
-        """Have room for so many bytes of an upload, and for some that follow.
+        """Reserve room for so many bytes of an upload, and for some that follow.
 
         Args:
             claim: The claim of the upload.

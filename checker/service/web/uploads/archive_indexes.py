@@ -1,4 +1,4 @@
-"""Has the indexes of archives read by processes that have nothing of the service."""
+"""Reads the indexes of archives in processes without access to the service."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ class ArchiveIndexes:
             reader.stop()
 
     def _begin_anew(self) -> None:
-        """Let those go that wait: whatever killed one may have killed them all."""
+        """Discard waiting processes: the cause of one death may have killed them all."""
         with self._lock:
             while self._waiting:
                 self._waiting.pop().stop()

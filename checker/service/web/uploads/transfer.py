@@ -83,7 +83,7 @@ async def _count(request: Request, services: Services) -> None:
 async def _received(
     request: Request, services: Services, incoming: Incoming, claim: Claim
 ) -> Receipt:
-    """Read the form, and have a check of its file ordered; see `new_check`."""
+    """Read the form, and order a check of its file; see `new_check`."""
     key, admit = key_of(request), services.admission.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
     async for piece in _pieces(request, services.config, claim.size):
