@@ -23,7 +23,7 @@ from stat import S_ISFIFO
 from time import monotonic, process_time, sleep
 from checker.base.parts import WorkerFailed
 from checker.base import forked_work
-from checker.base.forked_work import forks_time, in_fork, in_forks
+from checker.base.forked_work import forks_time, run_all_in_forks, run_in_fork
 
 def say(data):
     descriptors = [int(name) for name in os.listdir("/dev/fd") if os.path.exists(f"/dev/fd/{name}")]
@@ -41,7 +41,7 @@ def run(body: str) -> list[str]:
 @pytest.mark.parametrize("how", DIES)
 def test_work_may_die(how: str) -> None:
     body = f"def work():\n    {DIES[how]}\n"
-    body += "print(type(in_fork(work, 1)).__name__, in_fork(lambda: b'well', 1))"
+    body += "print(type(run_in_fork(work, 1)).__name__, run_in_fork(lambda: b'well', 1))"
     assert run(body) == ["WorkerFailed b'well'"]
 
 
@@ -50,7 +50,8 @@ def test_one_of_several_may_die(how: str) -> None:
     body = f"""
 def dies():
     {DIES[how]}
-first, *others = in_forks([lambda: b"1", dies, dies, lambda: b"", os.getcwdb], 1, 1e9, "late")
+works = [lambda: b"1", dies, dies, lambda: b"", os.getcwdb]
+first, *others = run_all_in_forks(works, 1, 1e9, "late")
 print(first, type(others[0]).__name__, type(others[1]).__name__, others[2:] == [b"", os.getcwdb()])
 """
     assert run(body) == ["b'1' WorkerFailed WorkerFailed True"]
@@ -64,7 +65,7 @@ def full():
     raise OSError(28, "No space left on device")
 def spins():
     [0 for _ in iter(int, 1)]
-print(*(in_fork(work, 1).momentary for work in (killed, full, spins)))
+print(*(run_in_fork(work, 1).momentary for work in (killed, full, spins)))
 """
     assert run(body) == ["True True False"]
 
@@ -75,7 +76,7 @@ def dies():
     raise ValueError
 def who():
     return str(os.getpid()).encode()
-a, b, bad, c, d = in_forks([who, who, dies, who, who], 5, 1e9, "late")
+a, b, bad, c, d = run_all_in_forks([who, who, dies, who, who], 5, 1e9, "late")
 print(a == b, isinstance(bad, WorkerFailed), c == d, a == c, a == who())
 """
     assert run(body) == ["True True True False False"]
@@ -89,7 +90,7 @@ kept = []
 def large():
     kept.append(bytearray(150_000_000))
     return str(len(kept)).encode()
-print(*in_forks([large] * 7, 5, 1e9, "late"))
+print(*run_all_in_forks([large] * 7, 5, 1e9, "late"))
 """
     counts = [int(count[2:-1]) for count in run(body)[0].split(" ")]
     assert counts == [1] * 7
@@ -103,7 +104,7 @@ def first_only():
     if len(begun) > 1:
         raise ValueError
     return b"done"
-print(*in_forks([first_only] * 4, 5, 1e9, "late"))
+print(*run_all_in_forks([first_only] * 4, 5, 1e9, "late"))
 """
     assert run(body) == [" ".join(["b'done'"] * 4)]
 
@@ -116,7 +117,7 @@ def cycle():
     node = Node()
     node.self, node.data = node, bytearray(60_000_000)
     return str(os.getpid()).encode()
-print(len(set(in_forks([cycle] * 8, 5, 1e9, "late"))))
+print(len(set(run_all_in_forks([cycle] * 8, 5, 1e9, "late"))))
 """
     assert run(body) == ["1"]
 
@@ -129,7 +130,7 @@ def works():
     while process_time() < until:
         pass
     return b"done"
-print(*in_forks([works] * 4, 2, 1e9, "late"))
+print(*run_all_in_forks([works] * 4, 2, 1e9, "late"))
 """
     assert run(body) == [" ".join(["b'done'"] * 4)]
 
@@ -141,7 +142,7 @@ def works():
     while process_time() < until:
         pass
     return b"done"
-print(in_forks([works] * 4, 5, forks_time() + 1.5, "came too late"))
+print(run_all_in_forks([works] * 4, 5, forks_time() + 1.5, "came too late"))
 """
     late = "WorkerFailed(reason='came too late', momentary=False)"
     assert run(body) == [f"[b'done', {late}, {late}, {late}]"]
@@ -153,7 +154,7 @@ def test_a_clock_that_runs_on_makes_nothing_too_late() -> None:
 def waits():
     sleep(0.4)
     return b"done"
-print(*in_forks([waits] * 4, 5, forks_time() + 1.1, "came too late"))
+print(*run_all_in_forks([waits] * 4, 5, forks_time() + 1.1, "came too late"))
 """
     assert run(body) == [" ".join(["b'done'"] * 4)]
 
@@ -166,7 +167,7 @@ def long():
         pass
     return b"long"
 forked_work._BRIEF = 1
-print(*in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 3.9, "came too late"))
+print(*run_all_in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 3.9, "came too late"))
 """
     (line,) = run(body)
     assert line.startswith("WorkerFailed")
@@ -176,6 +177,6 @@ print(*in_forks([long, lambda: b"1", lambda: b"2"], 4, forks_time() + 3.9, "came
 def test_limits_that_there_are_stay() -> None:
     body = """
 resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
-print(in_fork(lambda: str(resource.getrlimit(resource.RLIMIT_CPU)).encode(), 20))
+print(run_in_fork(lambda: str(resource.getrlimit(resource.RLIMIT_CPU)).encode(), 20))
 """
     assert run(body) == ["b'(3, 3)'"]

@@ -11,8 +11,8 @@ from checker.service.store.locks import dead_processes, forget, hold_lock
 LIVES = """
 import sys, time
 from pathlib import Path
-from checker.service.store.locks import living
-with living(Path(sys.argv[1]), sys.argv[2]):
+from checker.service.store.locks import hold_lock
+with hold_lock(Path(sys.argv[1]), sys.argv[2]):
     print("lives", flush=True)
     time.sleep(600)
 """
