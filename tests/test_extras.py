@@ -145,8 +145,7 @@ def test_doctor_names_the_remedy(
 @pytest.mark.parametrize("extra", [PHYSICS, SERVICE], ids=lambda extra: extra.name)
 def test_modules_are_those_of_the_extra(extra: Extra) -> None:
     listed = {_name(each) for each in PROJECT["optional-dependencies"][extra.name]}
-    # Not on Windows; uvicorn uses it where it is.
-    modules = {module_of(each) for each in listed - {"uvloop"}}
+    modules = {module_of(each) for each in listed}
     assert modules == set(extra.modules)
 
 

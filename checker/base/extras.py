@@ -79,7 +79,7 @@ PHYSICS = Extra(
 SERVICE = Extra(
     "service",
     (
-        *("blake3", "dbos", "fastapi", "httptools", "httpx", "multipart"),
+        *("blake3", "dbos", "fastapi", "httpx", "multipart"),
         *("prometheus_client", "psycopg", "sqlalchemy", "uvicorn"),
     ),
 )

@@ -17,7 +17,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from checker.base.errors import CheckerError
 from checker.base.files import UMASK
@@ -52,7 +52,7 @@ class Deadline:
         self.do()
 
 
-class Connection(HttpToolsProtocol):
+class Connection(H11Protocol):
     """HTTP/1.1 as the server speaks it, with an end to its patience.
 
     The server waits for ever for the rest of a request's head, and for a client that does not read
