@@ -10,7 +10,7 @@ from checker.engine.subject import Subject
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
-from checker.package.formats import model_suffixes
+from checker.package.formats import robot_suffixes
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.report.report import ROBOT, Cause, NotChecked
@@ -58,7 +58,7 @@ def _of_launch_files(subject: Subject) -> Iterator[str]:
 def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
     """Yield what a launch file takes from packages that are not available."""
     for named in named_paths(graph):
-        concerns = named.needed and (named.include or named.path.path.endswith(model_suffixes()))
+        concerns = named.needed and (named.include or named.path.path.endswith(robot_suffixes()))
         if concerns and (why := unavailable(package, named.path.package)):
             what = "includes" if named.include else "takes the robot from"
             yield f"{graph.file} {what} {named.path}: {why}"

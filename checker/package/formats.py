@@ -23,7 +23,8 @@ class Format(Record):
 
     Attributes:
         name: The name, such as `sdf`.
-        suffixes: Ends of the names of its files, in lower case; the first one is that of robots.
+        suffixes: Ends of the names of its files of robots, in lower case.
+        world_suffixes: Ends of the names of its files of worlds.
         roots: Root elements of its files.
         reader: Module and name of the function that returns what a file contains
             (`checker.formats.content.Reader`), such as `acme.toy:read`.
@@ -35,6 +36,7 @@ class Format(Record):
     suffixes: tuple[str, ...]
     roots: tuple[str, ...]
     reader: str = ""
+    world_suffixes: tuple[str, ...] = ()
     is_grouped: bool = False
 
 
@@ -51,9 +53,16 @@ def format_of(root: str) -> Format:
 
 
 @cache
-def model_suffixes() -> tuple[str, ...]:
-    """Return the ends of the names of files in any format."""
+def robot_suffixes() -> tuple[str, ...]:
+    """Return the ends of the names of files of robots in any format."""
     return tuple(suffix for each in formats() for suffix in each.suffixes)
+
+
+@cache
+def model_suffixes() -> tuple[str, ...]:
+    """Return the ends of the names of files of robots and worlds in any format."""
+    worlds = (suffix for each in formats() for suffix in each.world_suffixes)
+    return (*robot_suffixes(), *worlds)
 
 
 @cache
@@ -70,5 +79,10 @@ def single_file_suffixes() -> tuple[str, ...]:
 
 def is_checked_by_itself(name: str) -> bool:
     """Say whether a file outside of packages is checked by itself."""
-    suffixes = [suffix for each in formats() if not each.is_grouped for suffix in each.suffixes]
-    return name.lower().endswith(tuple(suffixes))
+    return name.lower().endswith(_single_suffixes())
+
+
+@cache
+def _single_suffixes() -> tuple[str, ...]:
+    single = [each for each in formats() if not each.is_grouped]
+    return tuple(it for each in single for it in (*each.suffixes, *each.world_suffixes))

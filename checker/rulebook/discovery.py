@@ -47,10 +47,12 @@ def rules_in(package: str) -> tuple[Rule, ...]:
 
 def _registered_rules() -> Iterator[Rule]:
     for module in load_entry_points("rules"):
+        package = cast("ModuleType", module)
         try:
-            yield from list(_rules_below(cast("ModuleType", module)))
+            yield from list(_rules_below(package))
         except Exception as error:
-            raise CheckerError(f"the rules of {module} cannot be loaded: {error}") from error
+            problem = f"the rules of {package.__name__} cannot be loaded: {error}"
+            raise CheckerError(problem) from error
 
 
 def _rules_below(package: ModuleType) -> Iterator[Rule]:

@@ -86,6 +86,16 @@ def test_a_distribution_that_cannot_be_loaded_is_named(distribution: Path) -> No
     assert "no_such_module" in done.stderr
 
 
+def test_a_module_of_a_distribution_that_cannot_be_loaded_is_named_alike(
+    distribution: Path,
+) -> None:
+    (distribution / "cheese_rules/che001_wheel.py").write_text("import no_such_module\n")
+    done = command(distribution, "rules")
+    assert done.returncode == 2
+    assert done.stderr.startswith("subt-check: the rules of cheese_rules cannot be loaded: ")
+    assert "no_such_module" in done.stderr
+
+
 def test_rules_are_sorted_and_their_files_bear_their_ids() -> None:
     ids = [rule.id for rule in all_rules()]
     assert ids == sorted(ids)

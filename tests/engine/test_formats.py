@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.package.formats import model_suffixes, robot_suffixes
 from tests.engine.test_discovery import command
 
 TOY = """
@@ -89,3 +90,9 @@ def test_without_the_distribution_the_file_is_refused(tmp_path: Path) -> None:
     done = command(tmp_path, str(tmp_path / "duck.toy"))
     assert done.returncode == 2
     assert "is not a package, archive or model file" in done.stderr
+
+
+def test_a_world_is_no_file_of_a_robot() -> None:
+    assert "arm.sdf.xacro".endswith(robot_suffixes())
+    assert not "yard.world".endswith(robot_suffixes())
+    assert "yard.world".endswith(model_suffixes())

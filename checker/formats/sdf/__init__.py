@@ -4,7 +4,8 @@ from checker.package.formats import Format
 
 FORMAT = Format(
     "sdf",
-    (".sdf", ".world", ".sdf.xacro", ".world.xacro"),
+    (".sdf", ".sdf.xacro"),
     ("sdf", "world", "model"),
     reader=f"{__name__}.content:read",
+    world_suffixes=(".world", ".world.xacro"),
 )
