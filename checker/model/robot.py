@@ -114,8 +114,7 @@ class Robot(Part, dict=True):
     def is_for_gazebo(self) -> bool:
         """Whether it is written for Gazebo: by its format, or by an element with settings of it."""
         tag = self.conventions.extension_tag
-        marked = bool(tag) and self.element.child(tag) is not None
-        return marked or self.conventions.read_by_gazebo
+        return self.conventions.read_by_gazebo or bool(tag and self.element.child(tag))
 
     @property
     def is_static(self) -> bool:

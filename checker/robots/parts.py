@@ -100,8 +100,11 @@ def _document(package: Package, path: str, expander: Expander) -> XmlDocument | 
 
 
 @part
-def content(package: Package, model: ModelFile) -> Content:
-    """Return what the model file contains."""
+def content(package: Package, model: ModelFile) -> Content | NotAvailable:
+    """Return what the model file contains; robots of a grouped format have their own parts."""
+    if model.format.is_grouped:
+        reason = f"the model is a {model.format.name.upper()} file"
+        return NotAvailable(reason, applicable=False)
     read: Reader = resolve_name(model.format.reader)
     return read(model.document, package)
 
@@ -116,16 +119,11 @@ def sdf(model: ModelFile) -> SdfDocument | NotAvailable:
 
 
 @part
-def worlds(
-    package: Package, model: ModelFile | NotAvailable, ask: Ask
-) -> tuple[World, ...] | NotAvailable:
+def worlds(package: Package, content: Content | NotAvailable) -> tuple[World, ...] | NotAvailable:
     """Return the worlds of the model file."""
-    if isinstance(model, NotAvailable):
-        return NotAvailable(model.reason, applicable=package.kind is PackageKind.WORLD)
-    read = Content(()) if model.format.is_grouped else ask.one(Content)
-    if isinstance(read, NotAvailable):
-        return read
-    return read.worlds or NotAvailable("the file contains no world", applicable=False)
+    if isinstance(content, NotAvailable):
+        return NotAvailable(content.reason, applicable=package.kind is PackageKind.WORLD)
+    return content.worlds or NotAvailable("the file contains no world", applicable=False)
 
 
 @part

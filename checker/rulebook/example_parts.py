@@ -72,6 +72,12 @@ def rover(
 """
 
 
+def rover_with(parts: str, mark: str) -> dict[str, object]:
+    """Return an example: the rover of `@robot` with further parts, marked at its `<model>`."""
+    marked = {'sensor_config_1">': f'sensor_config_1">{mark}'}
+    return {"@robot": "rover", "@change": {**marked, "</model>": f"{parts}</model>"}}
+
+
 def rover_with_spring(stiffness: float, reference: float, mark: str = "") -> dict[str, object]:
     """Return an example: the rover of `@robot` with a mast on a spring (N/m, metres)."""
     added = f"""
@@ -89,11 +95,8 @@ def rover_with_spring(stiffness: float, reference: float, mark: str = "") -> dic
     </dynamics>
   </axis>
 </joint>
-</model>"""
-    return {
-        "@robot": "rover",
-        "@change": {'sensor_config_1">': f'sensor_config_1">{mark}', "</model>": added},
-    }
+"""
+    return rover_with(added, mark)
 
 
 def ros2_control(joint: str = SHOULDER, hardware: str = MOCK) -> str:

@@ -11,6 +11,7 @@ m.
 
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import rover_with
 
 
 @rule("TRI017", "gains-energy", Severity.WARNING, Concern.ROBOT, judges=("energy_gain",))
@@ -45,11 +46,8 @@ def _arm(lower: float, mark: str = "") -> dict[str, object]:
   <parent>base_link</parent><child>arm</child>
   <axis><xyz>0 -1 0</xyz><limit><lower>{lower}</lower><upper>1.5</upper></limit></axis>
 </joint>
-</model>"""
-    return {
-        "@robot": "rover",
-        "@change": {'sensor_config_1">': f'sensor_config_1">{mark}', "</model>": added},
-    }
+"""
+    return rover_with(added, mark)
 
 
 GOOD = [_arm(-0.5)]

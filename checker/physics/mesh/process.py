@@ -19,6 +19,7 @@ from checker.base.files import read_bytes
 from checker.base.record import Record
 from checker.package.index import FileEntry
 from checker.package.package import Package
+from checker.physics.mesh.trimesh_files import SUFFIXES as TRIMESH_SUFFIXES
 
 _MODULE = f"{__package__}.worker"
 SIZE_LIMIT = 100_000_000
@@ -31,7 +32,7 @@ MEMORY = 1_000_000_000
 """Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""
 
 _LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
-_SUFFIXES = (".dae", ".stl", ".obj", ".glb", ".ply", ".off", ".3mf")
+_SUFFIXES = (".dae", ".stl", ".obj", *(f".{suffix}" for suffix in TRIMESH_SUFFIXES))
 _LOOKED_AT = 20
 """Files; where none of these is known, the package is taken for one that is new."""
 

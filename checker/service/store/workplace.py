@@ -199,7 +199,7 @@ def _remove(file: Path) -> None:
 
 
 def _remove_all(place: Path) -> None:
-    """Remove a folder, whatever a compromised process has made of it.
+    """Remove a folder, even if a compromised process has changed it.
 
     Folders in folders are moved to the top before they are removed: `rm` takes the longer for each,
     the deeper it lies, so that a million of them would take days.
