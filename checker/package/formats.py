@@ -61,8 +61,7 @@ def robot_suffixes() -> tuple[str, ...]:
 @cache
 def model_suffixes() -> tuple[str, ...]:
     """Return the ends of the names of files of robots and worlds in any format."""
-    worlds = (suffix for each in formats() for suffix in each.world_suffixes)
-    return (*robot_suffixes(), *worlds)
+    return tuple(it for each in formats() for it in (*each.suffixes, *each.world_suffixes))
 
 
 @cache
@@ -85,4 +84,5 @@ def is_checked_by_itself(name: str) -> bool:
 @cache
 def _single_suffixes() -> tuple[str, ...]:
     single = [each for each in formats() if not each.is_grouped]
-    return tuple(it for each in single for it in (*each.suffixes, *each.world_suffixes))
+    suffixes = [it for each in single for it in (*each.suffixes, *each.world_suffixes)]
+    return (*suffixes, *(f"{suffix}.xacro" for suffix in suffixes))

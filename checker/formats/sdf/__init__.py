@@ -4,8 +4,8 @@ from checker.package.formats import Format
 
 FORMAT = Format(
     "sdf",
-    (".sdf", ".sdf.xacro"),
+    (".sdf",),
     ("sdf", "world", "model"),
     reader=f"{__name__}.content:read",
-    world_suffixes=(".world", ".world.xacro"),
+    world_suffixes=(".world",),
 )
