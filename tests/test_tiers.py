@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import socket
 import subprocess
+from collections.abc import Callable
 
 import pytest
 
 from tests.each import of_each
-from tests.effort import grows_linearly, limited, seconds
+from tests.effort import grows_linearly, limited
 from tests.tiers import BY_PLACE, SMOKE, TESTS
 
 
@@ -46,20 +47,26 @@ def test_each_value_that_fails_is_named() -> None:
         is_small(most=3)
 
 
-def test_work_is_limited() -> None:
-    def work() -> None:
-        sum(range(3_000_000))
+@pytest.fixture
+def work(monkeypatch: pytest.MonkeyPatch) -> Callable[[float], None]:
+    """Return work that takes so many seconds by a clock that nothing else moves."""
+    taken = 0.0
 
-    most = seconds(work)
-    with limited(20 * most):
-        work()
-    with pytest.raises(AssertionError, match="of work"), limited(most / 1000):
-        work()
+    def add(seconds: float) -> None:
+        nonlocal taken
+        taken += seconds
+
+    monkeypatch.setattr("time.process_time", lambda: taken)
+    return add
 
 
-def test_a_square_is_told_from_linear_growth() -> None:
-    def work(steps: int) -> None:
-        sum(range(steps))
+def test_work_is_limited(work: Callable[[float], None]) -> None:
+    with limited(2.0):
+        work(2.0)
+    with pytest.raises(AssertionError, match=r"3\.00 s of work, 2\.00 allowed"), limited(2.0):
+        work(3.0)
 
-    assert grows_linearly(lambda: work(1_000_000), lambda: work(4_000_000))
-    assert not grows_linearly(lambda: work(3_000**2), lambda: work(12_000**2))
+
+def test_a_square_is_told_from_linear_growth(work: Callable[[float], None]) -> None:
+    assert grows_linearly(lambda: work(1.0), lambda: work(4.0))
+    assert not grows_linearly(lambda: work(1.0), lambda: work(16.0))
