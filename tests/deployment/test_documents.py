@@ -18,7 +18,7 @@ from tests.each import of_each
 
 SERVICE = (ROOT / "docs/service.md").read_text("utf-8")
 SECURITY = (ROOT / "docs/security.md").read_text("utf-8")
-EVALUATED = SECURITY.partition("## Where a stranger's text is evaluated")[2].partition("\n## ")[0]
+EVALUATED = SECURITY.partition("## Evaluation of untrusted text")[2].partition("\n## ")[0]
 SANDBOX = SECURITY.partition("## The sandbox")[2].partition("\n## ")[0]
 NAMED_TESTS = re.findall(r"`(tests/[\w/.]+)::(\w+)`", SECURITY)
 
@@ -34,7 +34,7 @@ def rows(document: str) -> list[list[str]]:
     """Return the cells of all tables, without heads."""
     lines = [line for line in document.splitlines() if line.startswith("| ")]
     cells = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
-    heads = {"threat", "variable", "what", "address", "place"}
+    heads = {"threat", "variable", "what", "address", "metric", "place"}
     return [row for row in cells if row[0] not in heads]
 
 
@@ -100,7 +100,7 @@ def test_limits_are_those_of_the_code() -> None:
         f"{index.unpacked_bytes / 1e6:g} MB unpacked, {index.ratio} times its packed size; "
         f"{PROCESSOR_SECONDS} s of a processor and {SECONDS:g} s to read its index"
     )
-    assert told["archives that are looked at"].startswith(
+    assert told["archive indexes"].startswith(
         f"{AT_ONCE} at once, {OF_ONE} of them from one token or address"
     )
     assert told["static check"] == (

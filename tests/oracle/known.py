@@ -23,7 +23,7 @@ class Known:
 REFUSED_BY_US: Sequence[Known] = (
     Known("versions that do not exist", ("SDF002 ",)),
     Known(
-        "numbers that go on as something else",
+        "numbers followed by other text",
         (r"SDF006 <\w+> contains '", r"SDF006 <\w+> is '?[\w.,+-]*.*', expected a whole number"),
     ),
     Known("values that the specification excludes", (r"SDF006 .* is .*, expected",)),
@@ -36,7 +36,7 @@ REFUSED_BY_US: Sequence[Known] = (
     Known("names that are truth values", (r"KIN\d+ .*'(\w+::)*(true|false)'",)),
     Known("joints in nested models", (r"KIN00[12] joint 'wrist' (has (no )?parent|connects)",)),
     Known(
-        "required parts that are not asked for",
+        "required parts that are not checked",
         ("SDF005 <mesh> lacks <uri>", "SDF005 <use_parent_model_frame> of <axis> is empty"),
     ),
 )
