@@ -70,13 +70,12 @@ def _unknown_message(gz: Located[str], ros: str) -> Finding:
     )
 
 
+_BETWEEN = "- topic_name: a\n  ros_type_name: {}\n  gz_type_name: {}"
+
+
 def _entry(ros: str, gz: str, mark: str = "") -> dict[str, object]:
-    lines = ("- topic_name: a", f"  ros_type_name: {ros}", f"  gz_type_name: {gz}")
-    return {
-        "@bridge": "\n".join(lines).replace(mark, f"{mark}  # ^ BRG002")
-        if mark
-        else "\n".join(lines)
-    }
+    text = _BETWEEN.format(ros, gz)
+    return {"@bridge": text.replace(mark, f"{mark}  # ^ BRG002") if mark else text}
 
 
 GOOD = [
@@ -84,6 +83,22 @@ GOOD = [
     _entry("sensor_msgs/msg/Imu", "gz.msgs.IMU"),
     _entry("sensor_msgs/msg/Imu", "ignition.msgs.IMU"),
     _entry("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist"),
+    {
+        # A file of another package is reported there.
+        "@bridge": True,
+        "@launch": {
+            'os.path.join(HERE, "config", "bridge.yaml")': (
+                'get_package_share_directory("acme_bridges") + "/config/bridge.yaml"'
+            )
+        },
+        "../acme_bridges/package.xml": "<package><name>acme_bridges</name></package>",
+        "../acme_bridges/CMakeLists.txt": (
+            "project(acme_bridges)\ninstall(DIRECTORY config DESTINATION share/acme_bridges)\n"
+        ),
+        "../acme_bridges/config/bridge.yaml": _BETWEEN.format(
+            "std_msgs/msg/float64", "gz.msgs.Double"
+        ),
+    },
 ]
 BAD = [
     _entry("std_msgs/JointState", "gz.msgs.Model", "std_msgs/JointState"),

@@ -142,6 +142,12 @@ def test_ray_0_of_a_lidar_stays_where_it_is(profile: str, safety: str, tmp_path:
     assert safeties(lidar, "SEN003", tmp_path, profile) == [safety]
 
 
+def test_angles_that_the_file_does_not_state_have_no_fix(tmp_path: Path) -> None:
+    lidar = """<sensor name="s" type="gpu_lidar"><lidar><scan><horizontal><samples>360</samples>
+      <min_angle>-6.3</min_angle></horizontal></scan></lidar></sensor>"""
+    assert safeties(lidar, "SEN003", tmp_path) == ["none"]
+
+
 def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
     build = "project(a)\ninstall(DIRECTORY model launch DESTINATION share/a)\n"
     with open_input(write_example({"CMakeLists.txt": build}, tmp_path)) as opened:
