@@ -73,7 +73,7 @@ def worker(number: int, data: Path, url: str) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Taken:
-    """What a batch took until the last report was there.
+    """Resources that a batch used until its last report was there.
 
     Attributes:
         seconds: Seconds of real time from the start of the workers.

@@ -233,15 +233,15 @@ def filled(group: Group, seconds: float) -> None:
 
 @dataclass
 class Trouble:
-    """What went wrong in all.
+    """Faults of a run, with the counts of kills and results.
 
     Attributes:
         kills: The number of kills of each kind of process.
         ends: The number of checks with each result.
         faults: What is wrong with them.
         extra: Checks that were not ordered, or that are missing.
-        left: Files that are left at work.
-        seconds: Seconds until all ended.
+        left: Working files that were not deleted.
+        seconds: Seconds until all checks ended.
     """
 
     kills: Counter[str]
@@ -253,7 +253,7 @@ class Trouble:
 
     @property
     def is_none(self) -> bool:
-        """Whether all went well."""
+        """True if there is no fault."""
         well = self.ends.keys() <= {"done"}
         return well and not (self.faults or self.extra or self.left)
 

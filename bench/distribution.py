@@ -54,7 +54,7 @@ class Distribution:
 
     @cached_property
     def _place(self) -> Callable[[float], float]:
-        """What turns a value into pixels from the left."""
+        """Function from a value to pixels from the left edge."""
         linear = self.measure.linear
         known = [value.number for value in self.values] + list(self.numbers.values())
         positive = [number for number in known if number > 0.0]

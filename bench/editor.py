@@ -1,4 +1,4 @@
-"""How soon an editor shows what a change comes to, and what the server needs: real packages.
+"""Measure how soon an editor shows the findings of a change, and what the server uses.
 
 `python -m bench.editor`, with SUBT_CHECK_CORPUS and SUBT_CHECK_MODERN. A real language server is
 sent one change after the other, each of another number; the time is measured until its findings
@@ -83,7 +83,7 @@ class Editor:
 
     @property
     def megabytes(self) -> tuple[float, float]:
-        """What the server holds, and with all the processes that it has started."""
+        """Memory of the server, alone and with all processes that it has started."""
         server = self._client._server
         assert server is not None
         every = [server.pid, *_descendants(server.pid)]

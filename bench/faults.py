@@ -66,7 +66,7 @@ class Robot:
 
     @property
     def origin(self) -> Path | None:
-        """Where its package lies; None where it is not there."""
+        """Folder of its package; None if it does not exist."""
         root = folder_of(self.source)
         return root / self.folder if root and (root / self.folder).is_dir() else None
 
@@ -110,7 +110,7 @@ ROBOTS = (
 
 @dataclass(frozen=True)
 class Result:
-    """What became of a planted fault.
+    """Result of a planted fault.
 
     Attributes:
         robot: Name of the robot.

@@ -1,9 +1,9 @@
-"""How soon an idle service shows the first findings of an upload, package by package.
+"""Measure how soon an idle service shows the first findings of an upload, for each package.
 
 From the answer to the upload until a client that follows the events sees that there are static
-findings. Each package is new to the service, its meshes as well. Run with
-`python -m bench.first_findings` from the top folder, as `make bench` does; SUBT_CHECK_CORPUS names
-the folder of real packages. Machines differ and are shared: see the load that is printed.
+findings. Each package and its meshes are new to the service. Run with `python -m
+bench.first_findings` from the top folder, as `make bench` does; SUBT_CHECK_CORPUS names the folder
+of real packages. Machines differ and are shared: see the load that is printed.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""How much is installed, and how long it takes to the first finding: `python -m bench.install`.
+"""Measure the size of an installation and the time to its first finding.
 
-Builds the wheel and installs it into new virtual environments, first without extras, then with
-physics. What pip fetches counts: run it twice, so that its cache holds all.
+Run with `python -m bench.install`. Builds the wheel and installs it into new virtual environments,
+first without extras, then with physics. What pip fetches counts: run it twice, so that its cache
+holds all.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How much of the machine there is at the moment: others may use the same processors.
+"""Measure the load of the machine: others may use the same processors.
 
 What the host gives to others while something is measured says nothing of the program: such a figure
 is measured again. The speed of the processors differs as well, by two from hour to hour, as `pace`

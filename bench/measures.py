@@ -1,4 +1,4 @@
-"""How the value that a rule compares with a number is read from its messages."""
+"""Readers of the values that rules compare with a number, from their messages."""
 
 from __future__ import annotations
 

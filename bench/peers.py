@@ -1,9 +1,10 @@
-"""How long a check takes beside its peers, in pairs on one machine: `make bench` prints the ratios.
+"""Compare the time of a check with that of similar tools, in pairs on one machine.
 
-Peers: `ign sdf -k` (Debian's ignition-tools), which loads one SDF file; catkin_lint, which reads
-the papers of a package; and simcheck, which drops a URDF robot in MuJoCo and PyBullet. They take
-turns, so that a machine which slows down slows both; what is quoted is the median of the ratios, by
-processor time of the processes that each waits for and by the clock.
+`make bench` prints the ratios. Peers: `ign sdf -k` (Debian's ignition-tools), which loads one SDF
+file; catkin_lint, which reads the papers of a package; and simcheck, which drops a URDF robot in
+MuJoCo and PyBullet. They take turns, so that a machine which slows down slows both; what is quoted
+is the median of the ratios, by processor time of the processes that each waits for and by the
+clock.
 """
 
 from __future__ import annotations

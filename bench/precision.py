@@ -1,8 +1,8 @@
-"""How many findings on real packages are true, by rule and source.
+"""Count how many findings on real packages are true, by rule and source.
 
 Run with `python -m bench.precision [--with-trial]` from the top folder. The variables
 SUBT_CHECK_CORPUS and SUBT_CHECK_MODERN name folders of packages; the URDF files come with PyPI's
-example-robot-data. What is judged stands in `support/judged/`.
+example-robot-data. The judgements are in `support/judged/`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""What a report costs: time on top of the check, size, and how long a browser takes to open it.
+"""Measure the cost of a report: added time, size, and how long a browser takes to open it.
 
 Run with `python -m bench.report` from the top folder, as `make bench` does; SUBT_CHECK_CORPUS names
-the folder of real packages, the samples stand in where there is none; arguments choose some by
-name. Each figure is the median of three runs. Machines differ and are shared: compare ratios, not
+the folder of real packages, without it, the samples are used; arguments choose some by name. Each
+figure is the median of three runs. Machines differ and are shared: compare ratios, not
 milliseconds.
 """
 

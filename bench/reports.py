@@ -1,4 +1,4 @@
-"""How many reports a second the web process sends, to clients that take gzip and to others.
+"""Measure how many reports a second the web process sends, with and without gzip.
 
 A robot is checked by a service of its own; then eight clients fetch its report again and again,
 each over one connection, then its page. Run with `python -m bench.reports [--postgres]` from the

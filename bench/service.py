@@ -1,4 +1,4 @@
-"""What the benches of the service share: packages to upload, a client, and a look at memory."""
+"""Code that the benches of the service share: packages to upload, a client, memory figures."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _POLL_SECONDS = 1.0
 
 @dataclass(frozen=True)
 class Upload:
-    """How an upload went.
+    """Result of an upload.
 
     Attributes:
         status: The status of the answer.

@@ -1,4 +1,4 @@
-"""How long after its start the service has taken a first upload.
+"""Measure the time from the start of the service to its first accepted upload.
 
 `subt-check serve` is started with two workers, several times on data of its own and once more on
 data that is there; a small archive is uploaded as soon as its address is printed. Run with

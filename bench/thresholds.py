@@ -1,4 +1,4 @@
-"""Where the numbers of rules stand among the values of real robots.
+"""Compare the numbers in rules with the values of real robots.
 
 Run with `python -m bench.thresholds FOLDER [--only RULE,…]` from the top folder. Each rule that
 compares a value with a number is run with options that make it report every value; the values are

@@ -1,4 +1,4 @@
-"""What is said about a package: places in files, severities, fixes."""
+"""Findings, and what they consist of: places in files, severities, fixes."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Severity(enum.StrEnum):
 
 
 class Concern(enum.StrEnum):
-    """What a finding is about.
+    """Concern of a finding.
 
     `ROBOT`: what is simulated. `INTERFACE`: sensors, plugins, launch files and topics, by which it
     is used. `PAPERWORK`: files, sheets, names and installation. `PORTABILITY`: other releases and
@@ -73,7 +73,7 @@ class Concern(enum.StrEnum):
 
     @property
     def label(self) -> str:
-        """What a sentence calls it."""
+        """The concern in words."""
         return str(self) if self is Concern.PORTABILITY else f"the {self}"
 
 
@@ -109,7 +109,7 @@ class Place(Record):
 
 
 class Safety(enum.StrEnum):
-    """Whether a fix keeps the meaning (`SAFE`) or changes behaviour (`UNSAFE`)."""
+    """Safety of a fix: it keeps the meaning (`SAFE`) or changes behaviour (`UNSAFE`)."""
 
     SAFE = "safe"
     UNSAFE = "unsafe"

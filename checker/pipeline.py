@@ -82,7 +82,7 @@ _PROBLEM_LIMIT = 600
 
 
 class Task(Record):
-    """What one process does at a time: one package, or an archive with all that it holds.
+    """Work of one process at a time: one package, or an archive with all that it contains.
 
     Attributes:
         path: The path as the user gave it.
@@ -90,8 +90,8 @@ class Task(Record):
         settings: The settings to judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Called with a message when a long step starts.
-        mesh_server: Starts what reads the meshes of a package, if it is not to be started as usual.
-        result: Known from the start, as of what cannot be opened.
+        mesh_server: Starts the reader of the meshes of a package, if not the usual one.
+        result: The result, if it is known from the start: the input cannot be opened.
         opening: Seconds that it took to open the folder of the package.
     """
 

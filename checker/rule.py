@@ -1,4 +1,4 @@
-"""What a rule author reads: `@rule`, `finding`, severities and fixes, and no more."""
+"""Interface for authors of rules: `@rule`, `finding`, severities and fixes."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ Where = HasSpan | Place
 
 
 class Finding(Record):
-    """What a rule says about one place; the engine adds the rule, its severity and its page.
+    """Finding of a rule at one place; the engine adds the rule, its severity and its page.
 
     Attributes:
         places: The main place first, then related ones.
-        message: Names the thing and its value, and what was expected.
+        message: The thing and its value, and what was expected.
         severity: The severity, if it differs from the rule's own.
         key: Findings of one rule with one key are one fault in many places.
-        fix: Text edits that mend it.
+        fix: Text edits that correct it.
         covered_by: Ids of more precise rules: where one of them reports the same place, or all
             related places, at least as severely, it is the same fault and reported once.
     """
@@ -71,7 +71,7 @@ class Unchecked(Record):
 
 
 Findings = Iterator[Finding | Unchecked]
-"""What a rule yields."""
+"""Results that a rule yields."""
 
 
 def unchecked(reason: str) -> Unchecked:
@@ -115,15 +115,15 @@ def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE)
 
 
 class Context(Record):
-    """What a rule may ask about the check itself.
+    """Facts about the check that a rule may use.
 
     Attributes:
         profile: Name of the profile that judges the package (`subt`, `sdf`, …).
         release: Gazebo release that the profile aims at (`dome`, `harmonic`, `classic`).
         sdf_version: SDF version that the profile requires; empty when the file's own counts.
-        reads: Newest SDF version that the target knows: it turns older files into that one, so
-            that what is new in it counts in them too.
-        distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile that is about none.
+        reads: Newest SDF version that the target knows: it converts older files to that one, so
+            that its new elements count in them too.
+        distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile without one.
     """
 
     profile: str = "subt"
@@ -134,17 +134,17 @@ class Context(Record):
 
     @property
     def of_submissions(self) -> bool:
-        """Whether every model is a robot of SubT that drives by itself."""
+        """True if every model is a robot of SubT that drives by itself."""
         return self.release == "dome"
 
     @property
     def of_gazebo_sim(self) -> bool:
-        """Whether the target is a release of Gazebo later than the one of SubT."""
+        """True if the target is a release of Gazebo later than the one of SubT."""
         return self.release in ("fortress", "harmonic", "ionic", "jetty")
 
     @property
     def of_classic(self) -> bool:
-        """Whether the target is Gazebo Classic with ROS 2."""
+        """True if the target is Gazebo Classic with ROS 2."""
         return self.release == "classic" and bool(self.distro)
 
 
@@ -188,7 +188,7 @@ class Rule(Record, dict=True):
 
     @property
     def selectors(self) -> tuple[str, ...]:
-        """What `--select` and `--ignore` may say to mean it, alone or with others."""
+        """Words for `--select` and `--ignore` that include the rule, alone or with others."""
         return *self.names, self.group, f"concern:{self.concern}"
 
     @cached_property

@@ -42,7 +42,7 @@ DEVICES_LIMIT = 100
 
 
 class Settings(Record):
-    """What to check and how strictly.
+    """Scope and strictness of a check.
 
     Attributes:
         profile: Name of the profile that judges.
@@ -54,7 +54,7 @@ class Settings(Record):
         severity: Severity by rule id, where the user wants another.
         options: Options by rule id.
         source: The file they were read from; None for the defaults.
-        commanded: Fields that the command line sets, and no file.
+        commanded: Fields that the command line sets, not a file.
         trial: Whether robots are driven.
         thorough: Whether they are driven again at half the time step, and URDF is read by a second
             library.
@@ -66,7 +66,7 @@ class Settings(Record):
         suppress: Findings that do not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
-        target_reason: What of the package's content chose profile or distribution.
+        target_reason: Reason for the profile or distribution, from the package's content.
     """
 
     profile: str = DEFAULT_PROFILE
@@ -91,12 +91,12 @@ class Settings(Record):
     target_reason: str = ""
 
     def selects(self, rule: Rule) -> bool:
-        """Whether the user wants this rule to run."""
+        """Return whether the user wants this rule to run."""
         chosen = not self.select or _names(self.select, rule)
         return chosen and not _names(self.ignore, rule)
 
     def names(self, rule: Rule) -> bool:
-        """Whether the user selects this rule itself, not only its group or concern."""
+        """Return whether the user selects this rule itself, not only its group or concern."""
         return any(name in self.select for name in rule.names)
 
     def overridden(self, **changes: Any) -> Settings:
@@ -142,7 +142,7 @@ class Settings(Record):
 
     @property
     def description(self) -> str:
-        """What a settings file changes, in words; empty for the defaults and the command line."""
+        """Changes of a settings file, in words; empty for the defaults and the command line."""
         if self.source is None:
             return ""
         changes = [f"profile {self.profile}"]
@@ -267,7 +267,7 @@ def parse_settings(content: object, path: Path) -> Settings:
 
 
 def _is_huge(content: object) -> bool:
-    """Whether a number is in it that neither a float holds nor a message shows."""
+    """Return whether a number is in it that is too large for a float or for a message."""
     waiting = [content]
     while waiting:
         value = waiting.pop()

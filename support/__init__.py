@@ -1,1 +1,1 @@
-"""What tests and benches both use: servers, browsers, real packages and judged findings."""
+"""Code for tests and benches: servers, browsers, real packages and judged findings."""

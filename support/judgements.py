@@ -26,7 +26,7 @@ _RANK = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
 
 @dataclass(frozen=True)
 class Place:
-    """Where a rule reports something."""
+    """Place at which a rule reports something."""
 
     rule: str
     file: str
@@ -57,7 +57,7 @@ class Judgement:
 
     @property
     def expected(self) -> bool | None:
-        """Whether the rules must report it; None where undecided."""
+        """True if the rules must report it; None if undecided."""
         if self.verdict == "arguable":
             return None
         return self.verdict == "true" or self.still_reported

@@ -1,1 +1,1 @@
-"""What everything else stands on: errors, the cache, words, processes and their sandbox."""
+"""Code that all other packages use: errors, the cache, words, processes and their sandbox."""

@@ -1,4 +1,4 @@
-"""What one piece of work within this process may use: processor time and memory.
+"""Limits of processor time and memory for one piece of work within this process.
 
 Children have limits of their own (`checker.base.child_process`). This process cannot be ended for
 one piece, so that a timer interrupts the piece and what comes after it continues.
@@ -45,7 +45,7 @@ class Exceeded(BaseException):
 
 
 class Allowance:
-    """What the pieces of work for one package may use, each of them and together."""
+    """Limits for the pieces of work of one package, each of them and together."""
 
     def __init__(
         self,

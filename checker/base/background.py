@@ -88,7 +88,7 @@ class Background(Generic[T]):
 
     @property
     def known(self) -> bool:
-        """Whether no process is needed, nor waited for."""
+        """True if no process is needed, nor waited for."""
         self.begin()
         return not self._unknown
 

@@ -25,7 +25,7 @@ SIZE_LIMIT = 300_000_000
 """Bytes on disk; the entries that were used least recently go first."""
 _ENTRY = re.compile(r"[0-9a-f]{64}\.json")
 _PRUNING = "00"
-"""How keys begin that have the size looked at: one in 256."""
+"""Beginning of the keys whose use checks the size of the cache: one key in 256."""
 
 
 def cache_folder() -> Path:
@@ -98,12 +98,12 @@ class Cache(Record):
 
     @property
     def is_whole(self) -> bool:
-        """Whether all results so far would be the same the next time."""
+        """True if all results so far would be the same the next time."""
         return not self._passing
 
     @property
     def disturbed(self) -> str:
-        """Why the first of some results is missing that may be there the next time; else empty."""
+        """Reason why the first missing result may be there the next time; else empty."""
         return self._disturbances[0] if self._disturbances else ""
 
     def get(self, kind: str, key: str) -> Any:

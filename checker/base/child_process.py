@@ -38,11 +38,11 @@ _CODE_LIMIT = 16
 
 
 class Limits(Record):
-    """What a process may use.
+    """Resource limits of a process.
 
     Attributes:
         seconds: Seconds of processor time. By the clock it may take far longer (`clock_seconds`),
-            since a machine that does other things is not to decide what is checked.
+            so that the load of the machine does not decide what is checked.
         memory: Bytes of address space.
         draws: Whether it may use graphics cards.
     """
@@ -53,7 +53,7 @@ class Limits(Record):
 
     @property
     def clock_seconds(self) -> float:
-        """How long the process may take by the clock."""
+        """Limit of real time, in seconds."""
         return _CLOCK * self.seconds + _STARTUP_SECONDS
 
 
@@ -115,7 +115,7 @@ class Child:
 
     @property
     def alive(self) -> bool:
-        """Whether it has not ended."""
+        """True if it has not ended."""
         return not self.ends(0.0)
 
     def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Child:
@@ -199,7 +199,7 @@ def ask(
 
 
 NONSENSE = (AttributeError, IndexError, KeyError, TypeError, ValueError)
-"""What reading an answer of another form than requested raises."""
+"""Exceptions that reading an answer in an unexpected form may raise."""
 
 
 def from_json(answer: bytes) -> Any:

@@ -112,7 +112,7 @@ class Server:
 
     @property
     def alive(self) -> bool:
-        """Whether its process waits for requests, or works at one."""
+        """True if its process waits for a request or handles one."""
         return self._process is not None and self._process.alive
 
     @property

@@ -1,4 +1,4 @@
-"""What other distributions add to the checker, by the entry points that they declare."""
+"""Additions of other distributions to the checker, found by their entry points."""
 
 from __future__ import annotations
 

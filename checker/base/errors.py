@@ -1,7 +1,6 @@
-"""What the user gave on the command line and the checker cannot read at all.
+"""Exceptions for command-line input that the checker cannot read at all.
 
-Faults inside a package are findings; these exceptions are for input that holds no package to
-find anything in.
+Faults inside a package are findings; these exceptions are for input that contains no package.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Why a process that worked for us has ended without an answer, by its exit code."""
+"""Reasons why a child process ended without an answer, by its exit code."""
 
 from __future__ import annotations
 

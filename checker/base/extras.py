@@ -1,6 +1,6 @@
-"""What may be installed beside the static rules: physics, the service, and the language server.
+"""Optional extras: physics, the service, and the language server.
 
-Here alone is decided whether an extra of `pyproject.toml` is there. Nothing is imported for it.
+Only this module decides whether an extra of `pyproject.toml` is installed, without importing it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Extra(Record):
 
     @property
     def is_installed(self) -> bool:
-        """Whether all its modules can be found."""
+        """True if all its modules can be found."""
         return all(map(_is_found, self.modules))
 
     @property

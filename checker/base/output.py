@@ -1,4 +1,4 @@
-"""Where results and progress go: standard output, files, and the exit code."""
+"""Output of results and progress: standard output, files, and the exit code."""
 
 from __future__ import annotations
 

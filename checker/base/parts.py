@@ -47,7 +47,7 @@ class WorkerFailed(Record):
 
     @property
     def entry(self) -> dict[str, object]:
-        """How a process says it in place of one of its results (`checker.base.background`)."""
+        """Form in which a process returns it in place of a result (`checker.base.background`)."""
         return {"failed": {"reason": self.reason, "momentary": self.momentary}}
 
 
@@ -117,7 +117,7 @@ class Provider(Record, dict=True):
 
     @cached_property
     def needs(self) -> Mapping[str, Need]:
-        """What it needs, by parameter."""
+        """Parts that the provider or rule needs, by parameter."""
         hints = get_type_hints(self.function)
         return {name: need_of(hints[name]) for name in inspect.signature(self.function).parameters}
 

@@ -15,7 +15,7 @@ _BAR = 20
 
 
 class ProgressLine:
-    """How far a run is and what it does; nothing where standard error is no terminal.
+    """Progress of a run on one line of a terminal; no output if standard error is no terminal.
 
     Attributes:
         total: Things to do; the bar is shown when there are several.

@@ -1,4 +1,4 @@
-"""What comes with the checker beside its code: tables of facts (`checker/data`), and templates."""
+"""Data files of the checker: tables of facts (`checker/data`), and templates."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import Any
 
 LIBRARIES = ("mujoco", "pin")
-"""What drives the robot and weighs it: figures may differ between versions."""
+"""Libraries of the trial and the masses: figures may differ between their versions."""
 UNKNOWN = "unknown"
 PACKAGE = __name__.partition(".")[0]
-"""What this code is imported as: `checker` in a checkout, `subt_check` as the wheel installs it."""
+"""Import name of this code: `checker` in a checkout, `subt_check` in an installed wheel."""
 _IS_INSTALLED = PACKAGE == "subt_check"
 RULES = f"{PACKAGE}.rules" if _IS_INSTALLED else "rules"
 """The package of our rules."""
 OWN_CODE = ("",) if _IS_INSTALLED else ("", "../rules")
-"""Where the code of the checker and of its rules lies, relative to its package."""
+"""Folders with the code of the checker and of its rules, relative to its package."""
 _CHECKER = Path(__file__).parents[1]
 
 

@@ -30,7 +30,7 @@ COMMANDS = {
     "rules": "list all rules",
     "completion": "print the completion script for bash, zsh or fish",
 }
-"""What each command does; its module has the same name."""
+"""Help text of each command; its module has the same name."""
 _MODULES = {"check": "check.command", "doctor": "doctor.command"}
 _PRODUCTS = {
     "migrate": "migrate",

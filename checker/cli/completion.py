@@ -11,7 +11,7 @@ from checker.rulebook.discovery import all_rules
 SHELLS = ("bash", "zsh", "fish")
 _FOLDERS = ("DEST", "DIR", "FOLDER")
 _FILES = ("FILE", "PACKAGE", "PATH", "SOURCE")
-"""What arguments are called that name files."""
+"""Names of arguments that are files."""
 _SHORT_FORM = {
     "bash": [("complete -o bashdefault ", "complete -o bashdefault -o default ")],
     "zsh": [
@@ -28,8 +28,8 @@ _SHORT_FORM = {
         )
     ],
 }
-"""What is changed in a script: `subt-check PATH` is short for `subt-check check PATH`: what is not
-a command may be a file."""
+"""Changes to a completion script: `subt-check PATH` is short for `subt-check check PATH`, so a word
+that is no command may be a file."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

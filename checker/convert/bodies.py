@@ -124,7 +124,7 @@ _PLACES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
 class JoinedInertial(Record):
-    """What a body weighs.
+    """Mass, centre of mass and inertia of a body.
 
     Attributes:
         mass: Kilograms.

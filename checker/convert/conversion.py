@@ -1,4 +1,4 @@
-"""What comes out of a conversion: a document, and what a person ought to know about it."""
+"""Result of a conversion: a document, and notes for its author."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Placed(Protocol):
 
     @property
     def span(self) -> Span:
-        """Where."""
+        """Place in the source."""
         ...
 
 

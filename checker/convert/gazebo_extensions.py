@@ -24,7 +24,7 @@ _POSED = COPIED - {"plugin", "audio_sink"}
 
 
 class CarriedFrom(Record):
-    """What `CarriedPlugin` says of the place of a plugin."""
+    """Comment of `CarriedPlugin` about the place of a plugin."""
 
     link: str
     sensor: str

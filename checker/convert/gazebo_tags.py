@@ -1,4 +1,4 @@
-"""What `<gazebo reference=…>` tags say, by what they are about."""
+"""Content of `<gazebo reference=…>` tags, by the link or joint to which they refer."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Setting(Record, eq=False):
 
 @dataclass
 class GazeboSettings:
-    """What tags say about one link, joint, or the whole robot.
+    """Settings of `<gazebo>` tags for one link, joint, or the whole robot.
 
     Attributes:
         link: The content for the link itself.

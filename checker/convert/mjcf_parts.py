@@ -1,4 +1,4 @@
-"""What a scene of MuJoCo shows and measures beside what it collides: visuals, sensors, rotors."""
+"""Visuals, sensors and rotors of a scene for MuJoCo: all but the collisions."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ _BLANKS = " \t\r\n"
 
 
 class Naming(Record):
-    """What goes in front of names in the source.
+    """Prefix of the names in the source.
 
     Attributes:
         prefix: The prefix with its slash; empty for none.

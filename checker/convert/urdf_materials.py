@@ -23,7 +23,7 @@ _COLOURS = ("ambient", "diffuse", "specular", "emissive")
 
 
 class Paint(Record):
-    """How a visual looks.
+    """Appearance of a visual.
 
     Attributes:
         colours: `ambient`, `diffuse`, `specular`, `emissive`: red, green, blue, alpha.

@@ -1,4 +1,4 @@
-"""How converted documents are written: numbers, poses, elements, indentation of two blanks."""
+"""Writer of converted documents: numbers, poses, elements, indentation of two blanks."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:
 
 
 def _has_six_numbers(stated: Pose) -> bool:
-    """Whether a pose is stated as it is written here; one of a URDF may not be stated at all."""
+    """Return whether a pose is stated with six numbers; one of a URDF may not be stated at all."""
     return stated.in_radians and len(stated.numbers) == 6
 
 

@@ -47,7 +47,7 @@ def code_actions(
 
 
 class _Offer:
-    """What can be done in one file."""
+    """Actions that are available in one file."""
 
     def __init__(self, server: Server, document: Document, state: State, checked: Checked) -> None:
         self._server, self._document = server, document

@@ -26,13 +26,13 @@ MEASURED = TRIALS.union(map(type_name, (MassProperties, SensorViews)))
 
 
 class Checked:
-    """What is known of a package in one state of its texts.
+    """Results of a check of a package in one state of its texts.
 
     Attributes:
         package: The package in this state.
         subject: Its parts, each read on the first request.
         settings: The settings of the check.
-        outcome: What the rules said.
+        outcome: The results of the rules.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Checked:
 
     @property
     def findings(self) -> tuple[ReportedFinding, ...]:
-        """What the rules found."""
+        """Findings of the rules."""
         return self.outcome.findings
 
     @cached_property
@@ -76,5 +76,5 @@ class Checked:
 
 
 def is_measured(rule: Rule) -> bool:
-    """Whether a rule needs what takes long."""
+    """Return whether a rule needs slow parts."""
     return not MEASURED.isdisjoint(rule.needs.values())

@@ -40,7 +40,7 @@ class Document(Record, eq=False, dict=True):
 
     @property
     def is_xml(self) -> bool:
-        """Whether the file is XML, by its name or else by its first characters."""
+        """True if the file is XML, by its name or else by its first characters."""
         name = self.path.name.lower()
         return name.endswith(xml_suffixes()) or self.text.lstrip("\ufeff \t\r\n").startswith("<")
 

@@ -1,4 +1,4 @@
-"""What the language server answers: each feature of the protocol, and its function."""
+"""Features of the language server protocol, and the function for each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which language an XML file is written in, and where in it an element stands."""
+"""Language of an XML file, and the path of an element in it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _MODEL = ("sdf", "model")
 
 
 class Place(Record):
-    """Where an element stands.
+    """Path of an element in a language.
 
     Attributes:
         language: `sdf`, `urdf`, or empty for others.

@@ -1,4 +1,4 @@
-"""What elements and attributes mean, by the table `xml_meanings.json`; the words to choose from."""
+"""Meanings and allowed words of elements and attributes, from the table `xml_meanings.json`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _BOOLEANS = ("true", "false")
 
 
 class Meaning(Record):
-    """What an element or attribute means.
+    """Meaning of an element or attribute.
 
     Attributes:
         unit: Empty for none.

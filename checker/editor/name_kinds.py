@@ -1,4 +1,4 @@
-"""Where XML names a part of the robot: a link, a joint, a frame, a sensor."""
+"""Elements and attributes of XML that name a part of the robot: link, joint, frame, sensor."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from checker.editor.xacro_names import PREFIX
 
 
 class NameKind(StrEnum):
-    """What a name represents. A frame is a named frame or a nested model."""
+    """Kind of thing that a name represents. A frame is a named frame or a nested model."""
 
     LINK = "link"
     JOINT = "joint"

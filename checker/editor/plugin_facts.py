@@ -1,4 +1,4 @@
-"""What is known of a plugin: its library, the releases that have it, its parameters."""
+"""Facts about a plugin: its library, the releases that have it, its parameters."""
 
 from __future__ import annotations
 
@@ -45,15 +45,15 @@ class Parameter(Record):
 
 
 class PluginFacts(Record):
-    """What is known of a plugin.
+    """Facts about a plugin.
 
     Attributes:
         library: File name as plugins usually write it.
         classes: Names that `name` may have.
-        title: What it belongs to: `Gazebo Harmonic`.
-        releases: What messages call the releases that have it.
+        title: The project it belongs to: `Gazebo Harmonic`.
+        releases: The releases that have it, as in messages.
         parameters: The parameters by path; none where they are not known.
-        note: What else there is to know.
+        note: Further information.
     """
 
     library: str

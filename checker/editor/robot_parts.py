@@ -1,4 +1,4 @@
-"""Which parts of which robots an element of a file describes, and parts by their names."""
+"""Parts of robots that an element of a file describes, and parts by their names."""
 
 from __future__ import annotations
 

@@ -37,10 +37,10 @@ _CHECKS_LEFT = 25
 
 
 class Server(LanguageServer):
-    """What serves one editor.
+    """Language server for one editor.
 
     Attributes:
-        session: What is known of the packages.
+        session: The state of the packages.
         columns: The client's unit of columns.
         measures_on_save: Whether weights are taken and the trial is run when a file is saved.
         measuring: Running checks with weights and trial, by what they check.
@@ -79,7 +79,7 @@ class Server(LanguageServer):
 
     @property
     def takes_snippets(self) -> bool:
-        """Whether the client can fill in places of a text that it completes."""
+        """True if the client can fill in places of a text that it completes."""
         document = self.client_capabilities.text_document
         items = document.completion.completion_item if document and document.completion else None
         return bool(items and items.snippet_support)

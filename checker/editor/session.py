@@ -39,7 +39,7 @@ _SERVER_BYTES = 50_000_000
 
 
 class Problem(Record):
-    """Why a package is not checked.
+    """Reason why a package is not checked.
 
     Attributes:
         message: A sentence.
@@ -51,7 +51,7 @@ class Problem(Record):
 
 
 class State(Record, eq=False, dict=True):
-    """What is known of a unit.
+    """State of a unit.
 
     Attributes:
         unit: The unit as it is on disk.
@@ -74,7 +74,7 @@ class State(Record, eq=False, dict=True):
         return (*self.checked.findings, *measured)
 
     def is_of(self, document: Document) -> bool:
-        """Whether the text of an open file was checked, or cannot be."""
+        """Return whether the text of an open file was checked, or cannot be checked."""
         if self.checked is None:
             return True
         text = self.checked.package.workspace.overlay.texts.get(document.path)
@@ -117,7 +117,7 @@ class Session:
 
     @property
     def states(self) -> tuple[State, ...]:
-        """What is known of all units with open files."""
+        """States of all units with open files."""
         return tuple(self._states.values())
 
     def check_all(self) -> None:

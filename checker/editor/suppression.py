@@ -1,4 +1,4 @@
-"""What sets findings aside: a comment with a reason, and rules that the settings leave out."""
+"""Suppressions: a comment with a reason, and rules that the settings leave out."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def reason_comment(source: SourceText, rule: str, line: int) -> Insertion | None
 def _counts(
     source: SourceText, insertion: Insertion, rule: str, line: int, *, is_xml: bool
 ) -> bool:
-    """Whether a comment is about the line, and leaves the file what it is."""
+    """Return whether a comment applies to the line and does not change the meaning of the file."""
     text = source.text
     edited = SourceText(
         source.file, text[: insertion.at] + insertion.text + text[insertion.at :], source.encoding

@@ -1,4 +1,4 @@
-"""Which package, model or world an open file belongs to."""
+"""Package, model or world to which an open file belongs."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from checker.package.package import Package
 
 
 class Unit(Record, eq=False):
-    """What is checked by itself, as it is on disk.
+    """Smallest thing that is checked alone, as it is on disk.
 
     Attributes:
-        path: What was opened: a folder of the editor's, else the package or file.
+        path: The folder that is open in the editor, or else the package or file.
         package: The package with its siblings, read from disk.
     """
 

@@ -1,4 +1,4 @@
-"""What xacro files define: macros with their parameters, properties and arguments."""
+"""Names that xacro files define: macros with their parameters, properties and arguments."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Argument(Record, eq=False):
 
 
 class XacroNames(Record, eq=False, dict=True):
-    """What a file and those around it define; the file's own first, then what it includes.
+    """Names that a file and those around it define; its own first, then those it includes.
 
     Attributes:
         documents: The files, the likeliest first.

@@ -1,7 +1,8 @@
-"""Where in an XML text a caret stands, though the text may not be well-formed at the moment.
+"""Position of a caret in an XML text, which may not be well-formed at the moment.
 
-The text is read once from its beginning to the caret: no tree is built, nothing is refused. A start
-tag that the next `<` cuts off opens nothing; an end tag closes what is open by its name, if any is.
+The text is read once from its start to the caret, without building a tree or refusing anything. A
+start tag that the next `<` cuts off opens nothing; an end tag closes what is open by its name, if
+any is.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ _OTHER = (("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">"))
 
 
 class Where(StrEnum):
-    """What is around a caret."""
+    """Kind of text around a caret."""
 
     TEXT = "text"
     TAG = "tag"
@@ -59,14 +60,14 @@ class OpenElement(Record):
 
 
 class Context(Record):
-    """What is around a caret.
+    """Surroundings of a caret.
 
     Attributes:
         where: Kind of place.
         around: Elements around it, outermost first; a tag that it is in is none of them.
-        tag: Name of the start or end tag that it stands in.
+        tag: Name of the start or end tag around it.
         attributes: The attributes of that start tag, by name.
-        attribute: Name of the attribute in whose value it stands.
+        attribute: Name of the attribute with this value.
         typed: What is between the start of the word and the caret.
         start: Offset of the word: a name, a value, a text of one line.
         end: Offset behind it.

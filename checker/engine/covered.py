@@ -20,11 +20,11 @@ Cover = tuple[str, GradedFinding]
 
 
 class Parted(Record):
-    """What a rule found.
+    """Findings of a rule, without and with those that a more precise rule reports.
 
     Attributes:
         told: The findings that it reports.
-        covered: What a more precise rule reports, each with what that rule says.
+        covered: The findings that repeat one of a more precise rule, each with that one.
     """
 
     rule: Rule

@@ -17,7 +17,7 @@ TEXT_LIMIT = 1000
 ALIKE = 5
 """So many findings whose messages differ in names and numbers alone are one in many places."""
 _NAME = re.compile(r"'[^']*'|\S*[\d_/<>]\S*")
-"""What a message says of one case: quoted, or with a letter that plain words do not have."""
+"""Words of a message that differ between cases: quoted, or with characters of no plain word."""
 
 
 def group_findings(findings: Iterable[GradedFinding]) -> list[list[GradedFinding]]:

@@ -1,4 +1,4 @@
-"""Which rules run over a package, and how severe their findings are."""
+"""Selection of the rules to run over a package, and the severity of their findings."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class GradedFinding(Finding):
 
 
 class Judge(Record):
-    """What a profile and the user's settings say about rules."""
+    """Selection and severities of rules, from a profile and the user's settings."""
 
     profile: Profile
     settings: Settings

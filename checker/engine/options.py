@@ -1,4 +1,4 @@
-"""What settings say about rules, compared with the rules."""
+"""Validation of the rules and options in settings."""
 
 from __future__ import annotations
 

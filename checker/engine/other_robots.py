@@ -1,4 +1,4 @@
-"""What is found in robots that other values of xacro's arguments make."""
+"""Findings in the robots that other values of xacro's arguments make."""
 
 from __future__ import annotations
 

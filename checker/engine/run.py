@@ -40,11 +40,11 @@ from checker.rulebook.suppression.matcher import SuppressionMatcher, split_suppr
 
 
 class Outcome(Record):
-    """What the rules said, and which of them could not look.
+    """Findings of the rules, and the rules that could not run.
 
     Attributes:
         looked: Ids of the rules that ran on complete data, each with the options it used.
-        suppressed: What they said and does not count.
+        suppressed: Findings that do not count.
         covered: Findings that repeat one of a more precise rule.
     """
 

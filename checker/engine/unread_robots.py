@@ -1,4 +1,4 @@
-"""Why a package's robot was not read: a verdict needs a robot."""
+"""Reasons why a package's robot was not read: a verdict needs a robot."""
 
 from __future__ import annotations
 

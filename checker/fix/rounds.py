@@ -29,7 +29,7 @@ class Stretch:
     replacement: str
 
     def collides(self, other: Stretch) -> bool:
-        """Whether both cannot be replaced at once; two insertions at one point have no order."""
+        """Return whether only one can be replaced; two insertions at one point have no order."""
         if self.start == other.start:
             return True
         first, second = sorted((self, other))
@@ -53,7 +53,7 @@ class EditedText:
         return None if offsets is None else Stretch(*offsets, edit.replacement)
 
     def accepts(self, stretch: Stretch) -> bool:
-        """Whether a stretch is free; one that is to become the same text already is."""
+        """Return whether a stretch is free, or already becomes the same text."""
         beside = self._neighbours(stretch)
         return stretch in beside or not any(map(stretch.collides, beside))
 
@@ -94,7 +94,7 @@ def take(fix: Fix, texts: Mapping[str, EditedText]) -> bool:
 
 
 def _collide(wanted: Iterable[tuple[EditedText, Stretch]]) -> bool:
-    """Whether edits of one fix are at odds with each other."""
+    """Return whether edits of one fix contradict each other."""
     ordered = sorted({(text.source.file, stretch) for text, stretch in wanted})
     return any(a[0] == b[0] and a[1].collides(b[1]) for a, b in pairwise(ordered))
 
@@ -114,7 +114,7 @@ class FixedFile(Record):
 
 
 class Fixed(Record):
-    """What fixing comes to.
+    """Result of fixing.
 
     Attributes:
         files: The files that change.

@@ -1,8 +1,8 @@
-"""Which files git could not bring back as they are: a fix would mix with their author's changes.
+"""Files that git could not restore, so that a fix would mix with their author's changes.
 
 A repository may be hostile: its configuration and attributes name programs that git starts (file
 system monitors, hooks, filters, commands that fetch missing objects). So git is only used for the
-ids of committed files and for what is ignored, with monitor, hooks, transports and writing off.
+ids of committed files and for the ignored files, with monitors, hooks, transports and writing off.
 These commands apply no filter and no textconv, and enter no submodule. The files are compared here.
 """
 
@@ -107,7 +107,7 @@ def _failed(folder: Path, reason: str) -> GitFailed:
 
 
 def _is_same(file: Path, id: str) -> bool:
-    """Whether a file has the content with this id, or had it before its line ends were changed."""
+    """Return whether a file has the content with this id, or had it with other line ends."""
     with suppress(OSError):
         data = file.read_bytes()
         make = hashlib.sha1 if len(id) == _SHA1_DIGITS else hashlib.sha256

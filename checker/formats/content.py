@@ -1,4 +1,4 @@
-"""What a file contains, whatever its format."""
+"""Content of a file of any format."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the spawner of a package emits, and what its launch files start."""
+"""Parts of launch: what the spawner of a package emits, and what its launch files start."""
 
 from __future__ import annotations
 

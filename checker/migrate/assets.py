@@ -23,7 +23,7 @@ _WHOLE_LIMIT = 1_000_000_000
 """Bytes of all files together."""
 _FILES_LIMIT = 2_000
 _UNFIT = re.compile(r"[^\w./+-]")
-"""What URIs, xacro or shells read in their own way, such as blanks, `%20` and `${`."""
+"""Characters that URIs, xacro or shells interpret, such as blanks, `%20` and `${`."""
 
 
 @dataclass(eq=False)

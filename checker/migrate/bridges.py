@@ -45,7 +45,7 @@ class Bridge(Record):
 
     @property
     def optical_topic(self) -> str:
-        """Where the picture goes in its optical frame: `front/optical/image_raw`."""
+        """Topic of the image in its optical frame: `front/optical/image_raw`."""
         return _optical(self.ros_topic)
 
     @property
@@ -55,11 +55,11 @@ class Bridge(Record):
 
 
 class SensorBridges(Record):
-    """What is passed on of one sensor.
+    """Bridges of one sensor.
 
     Attributes:
         sensor: Its name.
-        kind: What it is, for a comment.
+        kind: Its kind, for a comment.
         bridges: One for each topic.
         rate_topic: The topic below which its rate can be set; empty for sensors without pictures.
     """

@@ -1,4 +1,4 @@
-"""What is written into the drive plugin: distances from the geometry, limits from the joints."""
+"""Content of the drive plugin: distances from the geometry, limits from the joints."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the new model says of itself, measured: for the sheet, the spawner and the example world."""
+"""Measured facts about the new model, for the sheet, the spawner and the example world."""
 
 from __future__ import annotations
 

@@ -110,11 +110,11 @@ _ENDING = re.compile(r"(?:_(?:description|gazebo|urdf|model|sensor_config_\d+))+
 
 
 class Names(Record):
-    """What things are called in the new package.
+    """Names in the new package.
 
     Attributes:
         organization: Lower case, `_` between words.
-        robot: Likewise.
+        robot: Lower case, `_` between words.
         config: Number of the sensor configuration.
     """
 

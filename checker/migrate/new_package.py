@@ -1,4 +1,4 @@
-"""Where the new package goes: a whole package under its final name, or none."""
+"""Creation of the new package: a whole package under its final name, or none."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _TARGETS = {
     "vehicle_topics.launch": "launch/vehicle_topics.launch",
     "example.sdf": "worlds/example.sdf",
 }
-"""Where each template's text goes."""
+"""Path of the file that each template makes."""
 _PLAIN = (".rb.j2", ".md.j2", ".txt.j2")
 _LIMITS = (
     *("min_velocity", "max_velocity", "min_acceleration", "max_acceleration"),
@@ -53,15 +53,15 @@ _LIMITS = (
 
 
 class Known(Record, eq=False):
-    """What the files are written from.
+    """Facts from which the files are written.
 
     Attributes:
         names: The names of the package and robot.
         papers: The authors and the licence.
-        facts: What was measured.
+        facts: The measured facts.
         drive: None for a robot without wheels.
         servos: Joints that are held at a position.
-        sensors: What is bridged.
+        sensors: The sensors that are bridged.
         folders: The folders of the package, to be installed.
     """
 

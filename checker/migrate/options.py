@@ -1,4 +1,4 @@
-"""What the author asks of a migration, and the exception for one that cannot be done."""
+"""Options of a migration, and the exception for one that is not possible."""
 
 from __future__ import annotations
 

@@ -96,11 +96,11 @@ _BODY_TAGS = ("frameId", "frameName", "frame_id", "bodyName", "body_name", "link
 
 @dataclass
 class Judged:
-    """What became of the plugins.
+    """Results of the migration of plugins.
 
     Attributes:
         notes: Sentences, each with the file and line of the plugin.
-        open_points: What the author has to put in their place.
+        open_points: The replacements that the author has to add.
         drives: Plugins that drove the robot, for what they say of its wheels.
     """
 

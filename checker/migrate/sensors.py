@@ -20,7 +20,7 @@ _BY_TYPE = {
     **{kind: kind for kind in ("imu", "magnetometer", "air_pressure", "altimeter", "contact")},
     "logical_camera": "logical_camera",
 }
-"""What takes the place of each type; of those that are missing nothing does."""
+"""Replacements of sensor types; types that are missing have none."""
 _FORMS: Mapping[str, Callable[[etree._Element], None]] = {
     "camera": forms.as_camera,
     "gpu_lidar": forms.as_lidar,
@@ -29,7 +29,7 @@ _FORMS: Mapping[str, Callable[[etree._Element], None]] = {
     "air_pressure": forms.as_air_pressure,
 }
 _UNFIT = re.compile(r"[^\w.+-]")
-"""What names of topics and launch files cannot hold."""
+"""Characters that are not allowed in names of topics and launch files."""
 _NAME_LIMIT = 100
 _CONE = 0.26
 """Radians, of a sonar that does not say."""

@@ -1,4 +1,4 @@
-"""What is migrated: the one URDF description of a package."""
+"""Source of a migration: the only URDF description of a package."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ class Visual(Part, dict=True):
 
     @cached_property
     def is_see_through(self) -> bool:
-        """Whether something behind it can be seen: it says so, or its colour does."""
+        """True if objects behind it can be seen, by its transparency or its colour."""
         diffuse = self.material.colours.get("diffuse", ()) if self.material is not None else ()
         clear = len(diffuse) == _WITH_ALPHA and diffuse[-1].value < 1.0
         return clear or ValueReader().number(self.element, "transparency", 0.0).value > 0.0
@@ -121,7 +121,7 @@ class Plugin(Part):
 
     @property
     def label(self) -> str:
-        """What a message calls it: its class, or its library where the name is free to choose."""
+        """Name in messages: its class, or its library if the name is free to choose."""
         library = "" if "::" in self.name.value else library_stem(self.filename.value)
         return library or self.class_name
 
@@ -166,22 +166,22 @@ class Sensor(Part, dict=True):
 
     @cached_property
     def kind(self) -> SensorType:
-        """What its type means, whichever release spells it."""
+        """Kind of sensor, independent of the spelling of its type."""
         return sensor_type(self.type.value)
 
     @cached_property
     def camera(self) -> Camera | None:
-        """What its `<camera>` says; None when it has none."""
+        """Settings of its `<camera>`; None if it has none."""
         return read_camera(self.element)
 
     @cached_property
     def lidar(self) -> Lidar | None:
-        """What its `<lidar>` or `<ray>` says; None when it has none."""
+        """Settings of its `<lidar>` or `<ray>`; None if it has none."""
         return read_lidar(self.element)
 
     @cached_property
     def imu(self) -> Imu | None:
-        """What its `<imu>` says; None when it has none."""
+        """Settings of its `<imu>`; None if it has none."""
         return read_imu(self.element)
 
     @cached_property
@@ -199,7 +199,7 @@ class Light(Part, dict=True):
 
     @cached_property
     def attenuation(self) -> Attenuation | None:
-        """How it grows weaker with distance; None when it does not say."""
+        """Attenuation of the light with distance; None if it is not stated."""
         return read_attenuation(self.element)
 
     @cached_property
@@ -209,7 +209,7 @@ class Light(Part, dict=True):
 
     @cached_property
     def casts_shadows(self) -> bool:
-        """Whether what is in its way darkens what lies behind."""
+        """True if objects in its way darken what is behind them."""
         return ValueReader().boolean(self.element, "cast_shadows", False).value
 
 
@@ -290,7 +290,7 @@ class Joint(Part):
 
     @property
     def immovable(self) -> str:
-        """Why it cannot move, as a clause; empty for a joint that can."""
+        """Reason why it cannot move, as a clause; empty for a joint that can."""
         if self.type.value == "fixed":
             return "it is fixed"
         if self.type.value not in ("revolute", "prismatic") or len(self.axes) != 1:
@@ -301,7 +301,7 @@ class Joint(Part):
 
     @property
     def starts_outside(self) -> bool:
-        """Whether 0, where a trial starts it, is outside its limits: they push it from there."""
+        """True if 0, where a trial starts it, is outside its limits, which push it back."""
         return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in self.axes)
 
     @property

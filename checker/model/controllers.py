@@ -42,7 +42,7 @@ class Controller(Record, eq=False):
 
     @property
     def label(self) -> str:
-        """What a message calls it."""
+        """Name in messages."""
         return f"controller {self.name!r}"
 
     @property

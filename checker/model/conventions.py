@@ -1,4 +1,4 @@
-"""What the formats of robots state and what they leave to others."""
+"""Conventions of robot formats: the facts that each format states."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from checker.source.text import Span
 
 
 class FaultKind(enum.Enum):
-    """What sort of fault a reader met."""
+    """Kind of a fault that a reader found."""
 
     VALUE = "a value is not of its type"
     FRAME = "a frame is unknown or depends on itself"

@@ -1,4 +1,4 @@
-"""How a light grows weaker with distance, and where it shines."""
+"""Attenuation of a light with distance, and the directions in which it shines."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Attenuation(Record, eq=False):
 
     @property
     def is_stated(self) -> bool:
-        """Whether the file spells out how the light weakens, and not only how far it shines."""
+        """True if the file states how the light weakens, and not only how far it shines."""
         return any(factor.stated for factor in (self.constant, self.linear, self.quadratic))
 
     def divisor(self, distance: float) -> float:

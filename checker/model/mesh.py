@@ -1,4 +1,4 @@
-"""What a mesh file holds, and where a robot's meshes are had from."""
+"""Content of a mesh file, and the source of a robot's meshes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class MeshTrouble(enum.StrEnum):
-    """Why a mesh is not known."""
+    """Reason why a mesh is not known."""
 
     MISSING = "missing"
     """Its URI leads to no file (REF rules say so)."""
@@ -55,7 +55,7 @@ class MeshFault(Record):
 
 
 class Mesh(Record, dict=True):
-    """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
+    """Content of a mesh file in metres: its own unit is applied, the model's `<scale>` is not.
 
     Attributes:
         path: The path of the file, relative to the package.
@@ -65,14 +65,14 @@ class Mesh(Record, dict=True):
         high: Greatest.
         metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
         hull: Corners of the convex hull, metres; none where all points are in a plane.
-        volume: The volume of the surface as it stands, m³; negative when inside out, None when not
-            watertight or when neighbours disagree on which side is outside.
+        volume: The volume of the surface as it is, m³; negative if inside out, None if not
+            watertight or if adjacent triangles disagree on which side is outside.
         hull_volume: m³.
         watertight: Whether each edge joins two triangles, once equal corners are joined.
         degenerate: Number of triangles without area.
         textures: Picture files as named inside, and in the material files that it names.
         materials: Material files as named inside (`mtllib` of OBJ).
-        defects: What is not valid for the format though loaders cope, as clauses.
+        defects: What is not valid for the format although programs read it, as clauses.
         parts: Names of the parts inside, which SDF's `<submesh>` picks.
         picks: Those parts that the robot picks, each by itself.
     """
@@ -179,12 +179,12 @@ class MeshUse(Record, eq=False):
 
     @property
     def is_collision(self) -> bool:
-        """Whether it touches things; else it is only seen."""
+        """True if it can touch other shapes; otherwise it is only visible."""
         return self.shape.element.tag == "collision"
 
     @property
     def mesh(self) -> Mesh | None:
-        """What the shape takes of the file; None when that is not known."""
+        """The part of the file that the shape uses; None if it is not known."""
         used = _as_used(self.shape.geometry, self.file)
         return used if isinstance(used, Mesh) else None
 
@@ -195,7 +195,7 @@ class MeshUse(Record, eq=False):
 
     @property
     def reason_unseen(self) -> str:
-        """Why the checker does not know the file though Gazebo may; empty when it does."""
+        """Reason why the checker does not know the file although Gazebo may; else empty."""
         known = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
         if isinstance(self.file, Mesh) or self.file.trouble in known:
             return ""

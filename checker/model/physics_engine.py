@@ -1,4 +1,4 @@
-"""Which physics engine Gazebo Sim loads for a world, and what it makes of a model."""
+"""Physics engine that Gazebo Sim loads for a world, and its support of a model."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class PhysicsEngine(Record):
     is_default: bool
 
     def has_mimic(self, release: str) -> bool:
-        """Whether `<mimic>` couples joints in a Gazebo release."""
+        """Return whether `<mimic>` couples joints in a Gazebo release."""
         return release in _engines()[self.key]["mimic"]
 
     @property
     def lacks(self) -> Mapping[str, Any]:
-        """What it cannot simulate, by kind."""
+        """Elements that it cannot simulate, by kind."""
         lacking: Mapping[str, Any] = _engines()[self.key]["lacks"]
         return lacking
 

@@ -1,4 +1,4 @@
-"""What loads plugins: a model, or a world."""
+"""Hosts that load plugins: a model, or a world."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def newer_name(name: str) -> str:
 
 
 def is_of_gazebo(stem: str) -> bool:
-    """Whether a library bears the name of Gazebo's own systems, of whichever release."""
+    """Return whether a library has a name of Gazebo's own systems, of any release."""
     return _OF_GAZEBO.fullmatch(stem) is not None
 
 

@@ -112,18 +112,18 @@ class Robot(Part, dict=True):
 
     @property
     def is_for_gazebo(self) -> bool:
-        """Whether it is written for Gazebo: by its format, or by an element with settings of it."""
+        """True if it is written for Gazebo: by its format, or by an element for Gazebo."""
         tag = self.conventions.extension_tag
         return self.conventions.read_by_gazebo or bool(tag and self.element.child(tag))
 
     @property
     def is_static(self) -> bool:
-        """Whether the model says that nothing moves it."""
+        """True if the model states that it is static."""
         return states_static(self.element)
 
     @cached_property
     def is_prop(self) -> bool:
-        """Whether it has no joint to move, sensor or plugin: a barrel, not a robot."""
+        """True if it has no moving joint, sensor or plugin: a barrel, not a robot."""
         jointed = any(joint.type.value != "fixed" for joint in self.joints)
         return not (jointed or self.sensors or self.plugins)
 
@@ -149,14 +149,14 @@ class Robot(Part, dict=True):
 
     @cached_property
     def locomotion(self) -> Locomotion:
-        """What its drive plugins move, and within which limits."""
+        """Parts that its drive plugins move, and their limits."""
         return read_locomotion(self)
 
     @cached_property
     def stands_alone(self) -> bool:
-        """Whether it stands on the ground by what its file says.
+        """True if it stands on the ground according to its file.
 
-        Where the format does not say so (URDF), arms and hands are mounted on something, and legs
+        If the format does not state this (URDF), arms and hands are mounted on something, and legs
         fall without their controllers. So it needs wheels, or a plugin that drives it.
         """
         return self.conventions.states_start or self.drives
@@ -167,18 +167,18 @@ class Robot(Part, dict=True):
 
     @cached_property
     def drives(self) -> bool:
-        """Whether it has wheels, or a plugin that drives it."""
+        """True if it has wheels, or a plugin that drives it."""
         return bool(self.wheels) or self.locomotion.kind is not DriveKind.NONE
 
     @cached_property
     def flies(self) -> bool:
-        """Whether rotors or wings carry it."""
+        """True if rotors or wings carry it."""
         wings = any(plugin.class_name in WING_CLASSES for plugin in self.plugins)
         return wings or bool(self.locomotion.rotors)
 
     @cached_property
     def tree(self) -> LinkTree:
-        """Which links hang on which."""
+        """Tree of its links."""
         return link_tree(self)
 
     @cached_property
@@ -205,28 +205,28 @@ class Robot(Part, dict=True):
 
     @property
     def missing_parts(self) -> str:
-        """Why parts of the robot are not known, as the end of a sentence; empty when all are."""
+        """Reason why parts of the robot are not known, as the end of a sentence; else empty."""
         uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
         return f"{uris[0]} is included, but not available" if uris else ""
 
     @cached_property
     def loose_parts(self) -> LooseParts:
-        """What no joint connects to the robot."""
+        """Parts that no joint connects to the robot."""
         return loose_parts(self)
 
     @cached_property
     def unplaced_part(self) -> str:
-        """Why a part has no place on the robot, as the end of a sentence; empty when all have."""
+        """Reason why a part has no place on the robot, as the end of a sentence; else empty."""
         return unplaced_part(self)
 
     @cached_property
     def bare_wheel(self) -> str:
-        """Which driven wheel or track touches nothing, as a sentence; empty if none does."""
+        """Driven wheel or track without collision, as a sentence; empty if there is none."""
         return bare_wheel(self)
 
     @cached_property
     def stuck_wheel(self) -> str:
-        """Which joint of a driven wheel cannot turn, as a sentence; empty if all can."""
+        """Joint of a driven wheel that cannot turn, as a sentence; empty if all can."""
         return stuck_wheel(self)
 
     @cached_property
@@ -236,11 +236,11 @@ class Robot(Part, dict=True):
 
     @property
     def unweighed(self) -> str:
-        """Why the mass of the whole is not known, as the end of a sentence; empty when it is."""
+        """Reason why the total mass is not known, as the end of a sentence; empty if it is."""
         return self.missing_parts or next(iter(self.unknown_masses.values()), "")
 
     def may_be_included(self, name: str) -> bool:
-        """Whether a part of this name could come from an include that is not available."""
+        """Return whether a part of this name could come from an include that is not available."""
         known = not name or not self.unresolved_includes
         return not known and (self.merges_unknown or "::" in name)
 
@@ -361,7 +361,7 @@ class Robot(Part, dict=True):
 
     @cached_property
     def scaled_meshes(self) -> ScaledMeshes:
-        """What its mesh files hold, without those whose unit is wrong."""
+        """Content of its mesh files, without those in a wrong unit."""
         return ScaledMeshes(self)
 
     @cached_property
@@ -378,7 +378,7 @@ class Robot(Part, dict=True):
 
     @cached_property
     def unseen_meshes(self) -> tuple[str, ...]:
-        """Why some mesh files are not known though Gazebo may read them, one reason a file."""
+        """Reasons why mesh files are not known although Gazebo may read them, one for each."""
         reasons = (use.reason_unseen for use in self.mesh_uses)
         return tuple(dict.fromkeys(reason for reason in reasons if reason))
 

@@ -75,7 +75,7 @@ class Parameter(Record, eq=False):
 
     @property
     def is_known(self) -> bool:
-        """Whether its value is known before launch."""
+        """True if its value is known before launch."""
         return "$(" not in self.span.text
 
 

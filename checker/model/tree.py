@@ -1,4 +1,4 @@
-"""Which links hang on which: the joints of a robot as a graph of its links."""
+"""Tree of links: the joints of a robot as a graph of its links."""
 
 from __future__ import annotations
 

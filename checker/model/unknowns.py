@@ -1,4 +1,4 @@
-"""What of a robot is not known because of a fault that one rule reports: others step back."""
+"""Unknown parts of a robot because of a fault that one rule reports, for the other rules."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ class LooseGroup(Record):
 
 
 class LooseParts(Record):
-    """What no joint connects to the robot.
+    """Parts that no joint connects to the robot.
 
     Attributes:
-        main: The link that the rest of the robot hangs on; empty without any.
+        main: The root link of the rest of the robot; empty without any.
         groups: The groups in the order of the file.
     """
 

@@ -14,9 +14,9 @@ from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 DEFAULT_SYSTEMS = frozenset({"physics", "user-commands", "scene-broadcaster"})
-"""What Gazebo loads into a world that names no plugin: its server.config."""
+"""Plugins that Gazebo loads into a world without plugins, from its server.config."""
 EMPTY_SYSTEMS = DEFAULT_SYSTEMS | {"contact"}
-"""What `empty.sdf` loads, Gazebo's own world; from memory."""
+"""Plugins of `empty.sdf`, Gazebo's own world; from memory."""
 _WITH_POLICIES = ("ionic", "jetty")
 _POLICIES = ("gz:policies", "ignition:policies")
 
@@ -48,25 +48,25 @@ class World(Record, eq=False, dict=True):
 
     @cached_property
     def systems(self) -> frozenset[str]:
-        """What its plugins, and those of its models, load: `sensors`, `physics`, `imu`."""
+        """Systems that its plugins and those of its models load: `sensors`, `physics`, `imu`."""
         plugins = (*self.plugins, *(plugin for model in self.models for plugin in model.plugins))
         return frozenset(name for plugin in plugins for name in systems_of(plugin))
 
     def all_systems(self, release: str) -> frozenset[str]:
-        """What runs in it: what it names, and what Gazebo loads by itself."""
+        """Return the systems that run in it: its own, and those that Gazebo loads by itself."""
         asked = release in _WITH_POLICIES and self.takes_server_plugins
         return self.systems | (DEFAULT_SYSTEMS if asked or not self.plugins else frozenset())
 
     @property
     def takes_server_plugins(self) -> bool:
-        """Whether it loads the server's own plugins beside its own; from Ionic on."""
+        """True if it loads the server's own plugins in addition to its own; from Ionic on."""
         policies = (self.element.child(name) for name in _POLICIES)
         said = (it.child("include_server_config_plugins") for it in policies if it is not None)
         return any(it is not None and it.text.value.lower() in ("1", "true") for it in said)
 
     @cached_property
     def is_settled(self) -> bool:
-        """Whether all that it loads is known.
+        """True if all that it loads is known.
 
         It names plugins, so that Gazebo adds none; they are Gazebo's own; its models are available.
         """
@@ -82,7 +82,7 @@ class World(Record, eq=False, dict=True):
 
 
 def holds(systems: Collection[str], system: str) -> bool:
-    """Whether a system is among some, which are called by library or by class."""
+    """Return whether a system is among others, which are named by library or by class."""
     return system in systems or system.replace("-", "") in systems
 
 

@@ -1,4 +1,4 @@
-"""Which other packages a package uses: in its spawner, its launch files and its models."""
+"""Other packages that a package uses: in its spawner, its launch files and its models."""
 
 from __future__ import annotations
 
@@ -232,7 +232,7 @@ def _place_of(element: Element, text: str) -> Place:
 
 
 def _is_foreign(package: Package, name: str) -> bool:
-    """Whether a package is of another robot, and not used on purpose."""
+    """Return whether a package is of another robot, and not used on purpose."""
     if is_same_robot(name, package.name) or (package.base and package.base.package_name == name):
         return False
     same_team = name.casefold().split("_")[0] == package.name.casefold().split("_")[0]

@@ -37,7 +37,7 @@ _OF_ROS_2 = re.compile(
     rf"<ros2_control\b|gazebo_ros2_control\b"
     rf"|{_DESCRIPTION[IGNITION].pattern}|{_DESCRIPTION[GZ].pattern}"
 )
-"""What only a URDF for ROS 2 or for Gazebo after Classic holds."""
+"""Elements that are only in a URDF for ROS 2 or for Gazebo after Classic."""
 _DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
 _MANIFEST = {
     CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
@@ -52,12 +52,12 @@ _SIGNS = (
 
 
 class DetectedTarget(Record):
-    """What a package is made for, where its content says it.
+    """Target of a package, as far as its content shows it.
 
     Attributes:
-        of_classic: Whether that is Gazebo Classic.
+        of_classic: Whether the simulator is Gazebo Classic.
         distro: ROS 2 distribution; empty where unknown.
-        reason: What decided, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
+        reason: The reason, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
     """
 
     of_classic: bool = False

@@ -1,4 +1,4 @@
-"""Which ROS 2 distribution the container files, CI files and README of a package name."""
+"""ROS 2 distribution in the container files, CI files and README of a package."""
 
 from __future__ import annotations
 

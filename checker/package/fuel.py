@@ -21,7 +21,7 @@ _MODEL = re.compile(
 
 
 class FuelUri(Record):
-    """What a URI of Fuel names.
+    """Model or world, and file, in a URI of Fuel.
 
     Attributes:
         model: Name of the model or world.

@@ -1,4 +1,4 @@
-"""What a folder holds: every file, folder and link, by its path."""
+"""Index of a folder: every file, folder and link, by its path."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from checker.base.record import Record
 
 
 class EntryKind(StrEnum):
-    """What an entry is; `SPECIAL` are devices, pipes and sockets, which are never opened."""
+    """Kind of an entry; `SPECIAL` are devices, pipes and sockets, which are never opened."""
 
     FILE = "file"
     FOLDER = "folder"
@@ -20,7 +20,7 @@ class EntryKind(StrEnum):
 
 
 class LinkState(StrEnum):
-    """Where a symbolic link leads.
+    """Target of a symbolic link.
 
     `OK`: within the package. `SIBLING`: into another package of the workspace. Both are followed.
     `OUTSIDE`, `DANGLING` and `LOOP` (also: to a folder around the link) are not.
@@ -58,33 +58,33 @@ class FileEntry(Record):
 
     @property
     def is_file(self) -> bool:
-        """Whether it can be read as a file."""
+        """True if it can be read as a file."""
         return self.content is EntryKind.FILE
 
     @property
     def is_folder(self) -> bool:
-        """Whether it is a folder, or a followed link to one."""
+        """True if it is a folder, or a followed link to one."""
         return self.content is EntryKind.FOLDER
 
     @property
     def is_of_tests(self) -> bool:
-        """Whether it is in a folder of tests, which may be about another robot."""
+        """True if it is in a folder of tests, which may be about another robot."""
         return not {"test", "tests"}.isdisjoint(self.path.split("/")[:-1])
 
 
 class IndexFault(Record):
-    """What of a folder could not be indexed or read, and why."""
+    """Part of a folder that could not be indexed or read, and the reason."""
 
     path: str
     reason: str
 
 
 class FileIndex(Record, eq=False, dict=True):
-    """What a folder holds.
+    """Index of the content of a folder.
 
     Attributes:
         entries: The entries by path, sorted.
-        faults: What could not be looked at: unreadable files and folders, limits exceeded.
+        faults: What could not be read: unreadable files and folders, limits exceeded.
     """
 
     entries: dict[str, FileEntry]

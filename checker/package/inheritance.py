@@ -41,11 +41,12 @@ class Part(StrEnum):
 
 
 class Found(Record):
-    """Where a part is.
+    """Location of a part.
 
     Attributes:
-        package: The package that holds it.
-        path: The path from the package that asked: `model.sdf`, or `../<sibling>/model.sdf`.
+        package: The package that contains it.
+        path: The path relative to the package that uses it: `model.sdf`, or
+            `../<sibling>/model.sdf`.
     """
 
     package: Package
@@ -53,7 +54,7 @@ class Found(Record):
 
     @property
     def is_inherited(self) -> bool:
-        """Whether a sibling holds it."""
+        """True if it is in a sibling."""
         return self.path.startswith("../")
 
 

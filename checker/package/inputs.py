@@ -40,12 +40,12 @@ class Skipped(Record):
 
 
 class Opened(Record):
-    """What the user gave, ready to be checked.
+    """Packages of the user's input, ready to be checked.
 
     Attributes:
         workspace: The workspace in which siblings are looked up.
         packages: The requested packages, by name.
-        skipped: Subfolders beside them that are no packages, or links.
+        skipped: Other subfolders that are no packages, or links.
     """
 
     workspace: Workspace

@@ -1,4 +1,4 @@
-"""Where files that a build installs come from: tools look them up as they are installed."""
+"""Sources of the files that a build installs: tools look them up as they are installed."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def _left_out_folder(package: Package, path: str) -> str:
 
 
 def _tells_all(package: Package) -> bool:
-    """Whether CMakeLists.txt, or setup.py, says in plain words all that is installed."""
+    """Return whether CMakeLists.txt or setup.py lists all that is installed as literals."""
     build = package.build
     if build is None:
         return package.setup is not None and package.setup.complete and bool(package.installed)
@@ -142,7 +142,7 @@ def _tells_all(package: Package) -> bool:
 
 
 def may_be_made(package: Package, path: str) -> bool:
-    """Whether the build may make a file: it names it, or makes files whose names are not read."""
+    """Return whether the build may make a file: it names it, or makes files of unknown names."""
     stem = posixpath.basename(path).partition(".")[0]
     for file in ("CMakeLists.txt", "setup.py"):
         source = package.read(file)

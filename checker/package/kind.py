@@ -1,4 +1,4 @@
-"""What kind of package it is, and which packages changed files belong to."""
+"""Kind of a package, and the packages to which changed files belong."""
 
 from __future__ import annotations
 
@@ -70,12 +70,12 @@ _ADD_LIBRARY = re.compile(r"^[ \t]{0,80}add_library[ \t]{0,8}\(", re.MULTILINE |
 
 
 class PackageKind(StrEnum):
-    """What a package is meant to be.
+    """Kind of a package.
 
-    `ROBOT`: a submission with a model of its own (or that ought to have one). `CONFIGURATION`: a
+    `ROBOT`: a submission with its own model (or that should have one). `CONFIGURATION`: a
     submission whose model is a sibling's. `PLUGIN`: libraries only. `BASE_MODEL`: a model that
     others build on, without a spawner. `URDF_DESCRIPTION`: URDF or xacro without an SDF model.
-    `WORLD`: a single file that holds a world.
+    `WORLD`: a single file with a world.
     """
 
     ROBOT = "robot"

@@ -45,7 +45,7 @@ class Dependency(Record, eq=False):
 
     @property
     def at_run_time(self) -> bool:
-        """Whether the package is there when the robot runs."""
+        """True if the package is available when the robot runs."""
         return self.kind in {"depend", "exec_depend", "run_depend"}
 
 
@@ -79,7 +79,7 @@ class PackageManifest(Record, eq=False):
     span: Span
 
     def depends_on(self, package: str) -> bool:
-        """Whether any dependency names the package."""
+        """Return whether any dependency names the package."""
         return any(dependency.package.value == package for dependency in self.dependencies)
 
 
@@ -196,7 +196,7 @@ def _description(root: Element) -> Located[str]:
 
 
 class Paperwork(Record, eq=False, dict=True):
-    """What a package's own paperwork says; nothing here is inherited."""
+    """Content of a package's own paperwork, without inherited parts."""
 
     package: Package
 

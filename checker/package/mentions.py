@@ -1,7 +1,7 @@
-"""Which file names the files of a package mention, whatever their format.
+"""File names that the files of a package mention, of any format.
 
-The search is by text alone, so a name in a comment counts: what is not among the names is surely
-named nowhere.
+The search is by text alone, so a name in a comment counts: a file that is not among the names is
+certainly not named anywhere.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which file of a package is its model."""
+"""File of a package that is its model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people give in place of a package, and what to give instead."""
+"""Input that is no package, and advice what to pass instead."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
     ),
     _CAD: ("a CAD file", "export the robot as URDF or SDF, and give that with its meshes"),
 }
-"""What files are by the ends of their names, the kind that explains most first."""
+"""Kinds of files by the ends of their names, the kind that explains most first."""
 WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
 
 
 class Instead(Record):
-    """What was found in place of a package.
+    """File or folder that was passed instead of a package.
 
     Attributes:
-        kind: What it is: `a mesh`.
-        advice: What to give, in the imperative.
+        kind: Its kind: `a mesh`.
+        advice: What to pass, in the imperative.
         name: The name of the file.
     """
 

@@ -169,17 +169,17 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def kind(self) -> PackageKind:
-        """What the package is meant to be."""
+        """Kind of the package."""
         return kind_of(self)
 
     @cached_property
     def simulator_signs(self) -> Mapping[str, str]:
-        """Which simulators its files name, each with the first place that does."""
+        """Simulators that its files name, each with the first place."""
         return simulator_signs(self)
 
     @cached_property
     def distribution_sign(self) -> DistributionSign | None:
-        """Which ROS 2 distribution its files, or those around it, name."""
+        """ROS 2 distribution that its files, or those around it, name."""
         return distribution_sign(self)
 
     @cached_property
@@ -192,7 +192,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def is_urdf(self) -> bool:
-        """Whether its robot is described in URDF alone, as packages and files of ROS are."""
+        """True if its robot is described in URDF alone, as packages and files of ROS are."""
         if not self.only:
             return self.kind is PackageKind.URDF_DESCRIPTION
         document = self.xml(self.only)
@@ -322,7 +322,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def installed(self) -> tuple[tuple[str, str], ...]:
-        """Where CMake or setup.py installs files and folders, and where they come from."""
+        """Targets of the files and folders that CMake or setup.py installs, and their sources."""
         of_setup = data_file_items(self.setup, self.index) if self.setup else ()
         return (*(installed_items(self.build) if self.build else ()), *of_setup)
 

@@ -1,4 +1,4 @@
-"""Which other packages a package names: in its spawner's text and in its package.xml.
+"""Other packages that a package names: in its spawner's text and in its package.xml.
 
 Text patterns find the names without evaluating any Ruby; what the spawner really emits is
 found elsewhere.
@@ -61,7 +61,7 @@ RUN_TIME_TAGS = frozenset({"exec_depend", "run_depend", "depend"})
 
 
 class ReferenceKind(StrEnum):
-    """How another package is named."""
+    """Way in which another package is named."""
 
     ROSLAUNCH = "roslaunch"
     REQUIRE = "require"

@@ -17,7 +17,7 @@ def distributions_with(name: str) -> tuple[str, ...]:
 
 
 def is_of_system(name: str) -> bool:
-    """Whether rosdep installs something of the operating system by this name."""
+    """Return whether rosdep installs a package of the operating system by this name."""
     return name in _system()
 
 
@@ -28,7 +28,7 @@ _PREFIX = 3
 
 
 class ReleasedNames:
-    """What a dependency may name in a distribution; misspelt names are looked up in it."""
+    """Names that a dependency may have in a distribution; misspelt names are looked up in it."""
 
     def __init__(self, distro: str) -> None:
         self._distro = distro

@@ -89,7 +89,7 @@ def _words_with(text: str, name: str) -> Iterator[re.Match[str]]:
 
 
 def _means_package(source: SourceText, start: int, name: str) -> bool:
-    """Whether a mention is of the package: by its form, or since the name is more than one word."""
+    """Return whether a mention is of the package: by its form, or by `_` or `-` in the name."""
     if "_" in name or "-" in name:
         return True
     before = source.text[max(0, start - _LOOK_BACK) : start]
@@ -99,7 +99,7 @@ def _means_package(source: SourceText, start: int, name: str) -> bool:
 
 
 def _is_used_beside(package: Package, name: str) -> bool:
-    """Whether a sibling bears the name or mentions it."""
+    """Return whether a sibling has the name or mentions it."""
     named = (name in (other.root.name, other.declared_name) for other in package.other_packages)
     return any(named) or is_mentioned_beside(package, [name])
 

@@ -1,4 +1,4 @@
-"""What a folder holds that can be checked: packages, model folders and loose model files."""
+"""Content of a folder that can be checked: packages, model folders and single model files."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _URDF_FOLDER = "urdf"
 
 
 class Unit(Record):
-    """What is checked by itself.
+    """Smallest thing that is checked alone.
 
     Attributes:
-        folder: The folder of a package or model, or that of a loose file; links resolved.
-        only: Name of the loose file; empty for a folder.
+        folder: The folder of a package or model, or of a single file; links resolved.
+        only: Name of the single file; empty for a folder.
     """
 
     folder: Path

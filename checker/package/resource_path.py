@@ -1,4 +1,4 @@
-"""What a package puts on the path that Gazebo searches for meshes and models.
+"""Paths that a package adds to the search path of Gazebo for meshes and models.
 
 Environment hooks do so in each shell that sources the workspace; `<gazebo_ros>` in package.xml, in
 what `gz_sim.launch.py` of ros_gz_sim and `gzserver.launch.py` of gazebo_ros start.
@@ -40,7 +40,7 @@ def _variables(classic: bool) -> re.Pattern[str]:
 
 
 def sets_path(variable: str, *, classic: bool = False) -> bool:
-    """Whether a variable is the resource path, or searched like it.
+    """Return whether a variable is the resource path, or searched like it.
 
     Args:
         variable: Its name.
@@ -145,7 +145,7 @@ def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
 
 
 def names_plugin_path(package: Package) -> bool:
-    """Whether anything in a package names the path on which Gazebo searches plugins."""
+    """Return whether anything in a package names the path on which Gazebo searches plugins."""
     texts = (package.read(file.path) for file in package.index.with_suffix(*_TEXTS))
     found = (text.text for text in texts if isinstance(text, SourceText))
     return any(_PLUGINS_NAMED.search(text) for text in found)

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 SUBMISSION, ROS_1, ROS_2, MODEL, ANY_SDF = "subt", "urdf", "ros2", "gazebo-harmonic", "sdf"
 _OF_ROS_2 = ("ament_", "rclcpp", "rclpy", "ros_gz", "rosidl_", "launch_ros", "ros2")
-"""How the names of packages begin that only ROS 2 has."""
+"""Beginnings of names of packages that only ROS 2 has."""
 _OF_SUBT = re.compile(r"(?<![a-z])subt(?![a-z]|-check)", re.IGNORECASE)
-"""How files name the challenge: `subt_ros`, `subt::`, `SubT`."""
+"""Names of the challenge in files: `subt_ros`, `subt::`, `SubT`."""
 _NAMING = (".xml", ".sdf", ".launch", ".md", ".rb", "cmakelists.txt")
 _LEVELS = 6
 _SUBMISSIONS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)

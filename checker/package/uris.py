@@ -1,4 +1,4 @@
-"""Where the URI of a mesh, texture or model leads among the available packages."""
+"""Target of the URI of a mesh, texture or model among the available packages."""
 
 from __future__ import annotations
 

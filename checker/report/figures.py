@@ -1,4 +1,4 @@
-"""What is known of a robot, in words: figures with units, parts counted."""
+"""Figures of a robot in words: numbers with units, counts of parts."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Row(Record):
 
     @property
     def is_fault(self) -> bool:
-        """Whether a rule objects."""
+        """True if a rule reports it."""
         return self.verdict in _SEVERITIES
 
 

@@ -1,4 +1,4 @@
-"""Which findings to mend first."""
+"""Order of findings by importance."""
 
 from __future__ import annotations
 

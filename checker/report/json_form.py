@@ -65,7 +65,7 @@ class FixJson(Record):
 
 
 class RepeatJson(Record):
-    """What another rule says of the same fault."""
+    """Finding of another rule about the same fault."""
 
     rule: RuleId
     name: Word
@@ -140,7 +140,7 @@ class MeasurementJson(TypedDict):
 
 
 class RepairJson(TypedDict):
-    """What was changed so that the trial could run."""
+    """Change without which the trial could not run."""
 
     part: str
     what: str
@@ -148,7 +148,7 @@ class RepairJson(TypedDict):
 
 
 class TrialJson(TypedDict):
-    """What was driven and measured."""
+    """Course and results of a trial."""
 
     robot: NotRequired[
         Annotated[
@@ -258,7 +258,7 @@ class PackageJson(Record, kw_only=True):
 
 
 class NotOpenedJson(Record):
-    """What was given, or is below it, and was not checked at all."""
+    """Input, or something below it, that was not checked at all."""
 
     path: str
     reason: str
@@ -268,7 +268,7 @@ class NotOpenedJson(Record):
 
 
 class ToolJson(Record, kw_only=True):
-    """What wrote the report."""
+    """Program that wrote the report."""
 
     name: str = "subt-check"
     versions: Mapping[str, str]

@@ -33,12 +33,12 @@ class LaunchedTransform(Record):
 
 
 class Launched(Record):
-    """What a launch file starts with the defaults of its arguments, as far as it is known.
+    """Nodes that a launch file starts with the defaults of its arguments, as far as known.
 
     Attributes:
         file: The launch file.
         files: All files that it is read from.
-        nodes: And what else has topics.
+        nodes: The nodes, and everything else with topics.
         topics: The topics by name.
         transforms: Those of the robot's joints among them.
         unknown: The reason why there may be more; empty where all is known.

@@ -47,11 +47,11 @@ def foreign_findings(package: PackageReport) -> Iterator[ReportedFinding]:
 
 
 class Share(Record):
-    """What is said about one package.
+    """Findings for one package.
 
     Attributes:
-        own: Findings to be said here.
-        elsewhere: Counts of findings that are said about other packages, by their names.
+        own: Findings to report for this package.
+        elsewhere: Counts of findings that are reported for other packages, by their names.
     """
 
     own: tuple[ReportedFinding, ...]

@@ -1,4 +1,4 @@
-"""What renderers need to know besides the report: colours of a terminal, and addresses."""
+"""Settings of renderers: colours of a terminal, and addresses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What comes out of a check: verdicts, findings, and what was not checked and why."""
+"""Results of a check: verdicts, findings, and rules that were not checked, with the reasons."""
 
 from __future__ import annotations
 
@@ -16,20 +16,21 @@ from checker.report.launched import Launched
 SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
 NO_TRIAL = "trial not run (--no-trial)"
-"""Why rules about the trial did not look when the user wants none."""
+"""Reason why rules about the trial are not checked if the user switches it off."""
 FILES = "files"
-"""What `NotChecked.rule` says where files or folders could not be read."""
+"""Value of `NotChecked.rule` if files or folders could not be read."""
 ROBOT = "robot"
-"""What `NotChecked.rule` says where a robot could not be read."""
+"""Value of `NotChecked.rule` if a robot could not be read."""
 NO_PHYSICS = PHYSICS.missing_message
-"""Why rules that need it did not look; like what the user switched off, it hides no error."""
+"""Reason why rules that need it are not checked; like what the user switched off, it hides no
+error."""
 
 
 class VerdictKind(enum.StrEnum):
-    """What a maintainer wants to know first.
+    """Verdict for a package.
 
     `READY`: no error. `PAPERWORK`: errors of the paperwork alone. `NOT_READY`: others.
-    `INCOMPLETE`: no other error, but one may be where a rule should have looked and could not.
+    `INCOMPLETE`: no other error, but a rule that may find one was not checked.
     """
 
     READY = "ready"
@@ -52,10 +53,10 @@ _LEADS = {
 
 
 class Cause(enum.StrEnum):
-    """Why a rule did not look.
+    """Cause why a rule is not checked.
 
-    `NOT_AT_HAND` and `CRASHED` keep a package from being ready; what was switched off or has
-    nothing to look at does not.
+    `NOT_AT_HAND` and `CRASHED` keep a package from being ready; what was switched off or is not
+    applicable does not.
     """
 
     NOT_AT_HAND = "not_at_hand"
@@ -82,7 +83,7 @@ class NotChecked(Record):
 
     @property
     def may_hide_error(self) -> bool:
-        """Whether an error may be what was missed."""
+        """True if the rule might have found an error."""
         return self.severity in (Severity.ERROR, None)
 
 
@@ -148,7 +149,7 @@ class InheritedPart(Record):
 
 
 class SuppressedBy(enum.StrEnum):
-    """What said that a finding does not count: a comment, a settings file, or the baseline."""
+    """Source of a suppression: a comment, a settings file, or the baseline."""
 
     COMMENT = "comment"
     SETTINGS = "settings"
@@ -254,7 +255,7 @@ class PackageReport(Record):
 
     @property
     def verdict(self) -> VerdictKind:
-        """Whether the package can be accepted."""
+        """Verdict for the package."""
         concerns = {finding.concern for finding in self.errors}
         if concerns - {Concern.PAPERWORK}:
             return VerdictKind.NOT_READY
@@ -277,12 +278,12 @@ class PackageReport(Record):
 
     @property
     def crashed(self) -> bool:
-        """Whether a rule could not run because of the checker itself."""
+        """True if a rule could not run because of the checker itself."""
         return any(n.cause is Cause.CRASHED for n in self.not_checked)
 
     @property
     def failed(self) -> bool:
-        """Whether there is a finding at or above the severity that makes the run fail."""
+        """True if there is a finding at or above the severity that makes the run fail."""
         return any(finding.severity.rank <= self.fail_on.rank for finding in self.findings)
 
     def count(self, severity: Severity) -> int:

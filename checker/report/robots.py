@@ -41,7 +41,7 @@ class ReportedRobot(Record):
 
     @property
     def name(self) -> str:
-        """What the robot is called."""
+        """Name of the robot."""
         return str(self.facts.get("robot", ""))
 
     @property

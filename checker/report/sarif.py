@@ -39,17 +39,17 @@ class PackageFinding(Record):
 
     @property
     def in_baseline(self) -> bool:
-        """Whether it was there before."""
+        """True if it is in the baseline."""
         return self.suppressed is not None and self.suppressed.by is SuppressedBy.BASELINE
 
     @property
     def set_aside(self) -> bool:
-        """Whether a comment or settings say that it does not count."""
+        """True if a comment or settings suppress it."""
         return self.suppressed is not None and not self.in_baseline
 
 
 class Marks(Record):
-    """Which marks all results of a run carry as soon as one does, as SARIF asks."""
+    """Properties that all results of a run have as soon as one does, as SARIF requires."""
 
     baseline: bool
     suppressions: bool

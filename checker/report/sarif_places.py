@@ -12,7 +12,7 @@ from checker.report.finding_text import path_of
 from checker.report.report import PackageReport
 
 BASE = "%SRCROOT%"
-"""What paths are relative to; code hosts put the root of the repository there."""
+"""Base of paths; code hosts replace it with the root of the repository."""
 
 EDITS_LIMIT = 500
 """Edits of one fix; those with more are for the command `--fix`."""

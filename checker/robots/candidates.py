@@ -1,4 +1,4 @@
-"""Which files of a package are its URDF descriptions, and which may be and are not read."""
+"""Files of a package that are its URDF descriptions, and files that may be and are not read."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Candidate(Record):
 
 
 class StartedLoad(Record):
-    """What a launch file loads; see `Candidate`."""
+    """File that a launch file loads; see `Candidate`."""
 
     load: Load
     missing: Mapping[str, str] = field(default_factory=dict)

@@ -89,12 +89,12 @@ class PackageDescriptions:
 
     @property
     def applicable(self) -> bool:
-        """Whether there is a file that ought to hold a robot, or may."""
+        """True if there is a file that should contain a robot, or may."""
         return bool(self._candidates) or may_hold_description(self._package)
 
     @cached_property
     def files(self) -> UrdfFiles:
-        """What became of the files; the first call waits for their expansion."""
+        """Results of the files; the first call waits for their expansion."""
         expanded = self._expanded
         unread, assumed = self._choose(expanded)
         old = self._expand_as_melodic(expanded)
@@ -210,7 +210,7 @@ class PackageDescriptions:
 
     @property
     def _expanded(self) -> dict[str, Outcome]:
-        """What became of the files that xacro reads, by path."""
+        """Results of the files that xacro reads, by path."""
         outcomes = self._expansions.outcomes() if self._expansions is not None else []
         return dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
 

@@ -1,4 +1,4 @@
-"""Which simulator a xacro's robot is for, where an argument chooses it."""
+"""Simulator that an argument of a xacro file selects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which robots launch files load: those of the package, and those of others that name it."""
+"""Robots that launch files load: those of the package, and those of others that name it."""
 
 from __future__ import annotations
 

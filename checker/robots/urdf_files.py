@@ -12,16 +12,17 @@ from checker.formats.xacro.fault import XacroFault
 
 
 class UrdfFiles(Record, eq=False):
-    """What became of the URDF files of a package.
+    """Results of reading the URDF files of a package.
 
     Attributes:
-        descriptions: The descriptions of the files that hold a robot.
-        faults: The faults of files that hold none because something is wrong with them.
-        unread: The reasons why files could not be looked at, each the end of a sentence.
+        descriptions: The descriptions of the files with a robot.
+        faults: The faults because of which files have no robot.
+        unread: The reasons why files could not be read, each the end of a sentence.
         set_aside: The same of files beside an SDF model that no launch file loads.
-        old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
+        old: Files that only newer releases of xacro refuse; the descriptions are those of
+            Melodic's.
         assumed: Arguments that are not given, with the choice that is taken, by file.
-        others: The files that make another robot with another value of an argument.
+        others: The files that give another robot with another value of an argument.
     """
 
     descriptions: tuple[UrdfDescription, ...] = ()

@@ -1,4 +1,4 @@
-"""What URDF files describe."""
+"""Descriptions in URDF files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which models each physics engine of Gazebo Sim is given: by worlds, and by launch files."""
+"""Models that each physics engine of Gazebo Sim simulates, from worlds and launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What controls the robots, and what launch files simulate and connect."""
+"""Parts of ROS: control of robots, and the simulations and connections of launch files."""
 
 from __future__ import annotations
 

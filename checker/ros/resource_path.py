@@ -42,7 +42,7 @@ class ResourcePath(Record, eq=False):
 
     @property
     def holds_packages(self) -> bool:
-        """Whether packages are found by their names, or may be."""
+        """True if packages are found by their names, or may be."""
         return not self.complete or any(folder.folder == "" for folder in self.folders)
 
     def inside(self, name: str) -> SearchedFolder | None:
@@ -71,7 +71,7 @@ def resource_path(package: Package, graph: LaunchGraph, *, classic: bool = False
 
 
 def _is_read(graph: LaunchGraph) -> bool:
-    """Whether all was read that may set a variable: a part of a node does not."""
+    """Return whether everything was read that may set a variable: a part of a node does not."""
     of_nodes = {_place(unread) for node in graph.nodes for unread in node.unread}
     if any(_place(unread) not in of_nodes for unread in graph.unread):
         return False
@@ -105,7 +105,7 @@ def _others_name_it(
     holder: Package,
     mentioned: list[Span],
 ) -> bool:
-    """Whether something else in a package names the path: users may set it.
+    """Return whether something else in a package names the path: users may set it.
 
     Launch files do, as far as their actions show. Other launch files of the checked package do not
     count, since none of them includes this one; those of another package may.

@@ -15,7 +15,7 @@ from checker.source.xml import Element, XmlDocument
 NAME = "robot_description"
 _WORD = re.compile(r"""'([^']*)'|"([^"]*)"|((?:\$\([^()]*\)|[^\s'"])+)""")
 _COMPUTED = re.compile(r"\$\([^()]*\)/?|\$\{[^{}]*\}/")
-"""What a name may begin with: `$(arg prefix)`, `${name}/`; `${side}_wheel` is computed whole."""
+"""Possible start of a name: `$(arg prefix)`, `${name}/`; `${side}_wheel` is computed whole."""
 
 
 class DescriptionFile(Record):
@@ -53,7 +53,7 @@ class RobotDescription(Record, eq=False):
 
     @property
     def namespace(self) -> str:
-        """What is before `robot_description`: `/X1`, or `/`."""
+        """Namespace before `robot_description`: `/X1`, or `/`."""
         return posixpath.dirname(self.param.name)
 
 

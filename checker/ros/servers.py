@@ -80,17 +80,17 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
 
 
 def is_gazebo(process: Process) -> bool:
-    """Whether a command starts Gazebo."""
+    """Return whether a command starts Gazebo."""
     return tuple(word.value for word in process.words[:2]) in _COMMANDS
 
 
 def is_gazebo_include(include: Include) -> bool:
-    """Whether an include is one of the launch files that start Gazebo."""
+    """Return whether an include is one of the launch files that start Gazebo."""
     return _file(include).startswith((*_STARTS_SERVER, _STARTS_WINDOW))
 
 
 def starts_classic(graph: LaunchGraph) -> bool:
-    """Whether a launch file starts Gazebo Classic for certain."""
+    """Return whether a launch file certainly starts Gazebo Classic."""
     commands = (each for each in graph.processes if each.words[:1] and each.starts is True)
     return includes_classic(graph) or any(
         process.words[0].value in _CLASSIC_COMMANDS for process in commands
@@ -98,7 +98,7 @@ def starts_classic(graph: LaunchGraph) -> bool:
 
 
 def includes_classic(graph: LaunchGraph) -> bool:
-    """Whether a launch file of gazebo_ros starts it, which reads `<gazebo_ros>` of manifests."""
+    """Return whether a launch file of gazebo_ros starts it, which reads `<gazebo_ros>`."""
     started = (share_path(it.target.value) for it in graph.includes if it.starts is True)
     return any(
         found.package == CLASSIC_PACKAGE

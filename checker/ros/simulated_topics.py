@@ -78,7 +78,7 @@ def unknown_owner(robot: Robot) -> str:
 
 
 def is_silent(plugin: Plugin) -> bool:
-    """Whether a plugin is known to have no topics but those of sensors and of the world."""
+    """Return whether a plugin is known to have only topics of sensors and of the world."""
     return plugin.class_name in table("simulated_topics")["silent"]
 
 

@@ -1,4 +1,4 @@
-"""What a ROS 2 launch file simulates: robots and world in Gazebo, and the bridges to ROS."""
+"""Simulation of a ROS 2 launch file: robots and world in Gazebo, and the bridges to ROS."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ from checker.ros.unread import unread_parts
 
 
 class Simulation(Record, eq=False, dict=True):
-    """What one launch file simulates and bridges.
+    """Robots, worlds and bridges of one launch file.
 
     Attributes:
         graph: The graph of the launch file; None for files of bridges that no launch file names.
-        bridges: What is passed.
+        bridges: The topics and services that are passed.
         robots: The robots that it spawns.
         unknown_robots: The reasons why some that it spawns are not among them.
-        servers: Gazebo, as often as it starts it.
+        servers: Each start of Gazebo.
         classic_robots: The robots that it spawns into Gazebo Classic, if it starts that.
     """
 
@@ -60,17 +60,17 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def unknown_worlds(self) -> tuple[str, ...]:
-        """Why the world is not known; empty where no Gazebo is started as well."""
+        """Reasons why the world is not known; empty if no Gazebo is started."""
         return tuple(server.unknown for server in self.servers if server.unknown)
 
     @property
     def starts_gazebo(self) -> bool:
-        """Whether it starts Gazebo for certain."""
+        """True if it certainly starts Gazebo."""
         return any(server.starts for server in self.servers)
 
     @property
     def reads_exports(self) -> bool:
-        """Whether Gazebo gets `<gazebo_ros>` of package.xml: its own launch files pass it."""
+        """True if Gazebo gets `<gazebo_ros>` of package.xml: its own launch files pass it."""
         if self.graph is None:
             return False
         own = (include for include in self.graph.includes if is_gazebo_include(include))
@@ -93,7 +93,7 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def is_whole(self) -> bool:
-        """Whether it starts Gazebo, and all that it starts was read."""
+        """True if it starts Gazebo, and all that it starts was read."""
         return self.starts_gazebo and not self.unread
 
     @property
@@ -116,7 +116,7 @@ class Simulation(Record, eq=False, dict=True):
 
     @cached_property
     def unknown_topics(self) -> str:
-        """Why models may have more topics than those that are known; empty where all are."""
+        """Reason why models may have more topics than those that are known; else empty."""
         reasons = [*self.unknown_robots, *self.unknown_worlds]
         reasons += filter(None, map(unknown_owner, self.models))
         reasons += [
@@ -126,26 +126,26 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def knows_systems(self) -> bool:
-        """Whether the systems of the world itself have no topics but the usual ones."""
+        """True if the systems of the world itself have only the usual topics."""
         plugins = (plugin for world in self.worlds for plugin in world.plugins)
         return all(is_silent(plugin) for plugin in plugins)
 
     @cached_property
     def spawned_systems(self) -> frozenset[str]:
-        """What the robots that it spawns load: `sensors`, `imu`."""
+        """Systems that the robots that it spawns load: `sensors`, `imu`."""
         plugins = (plugin for spawned in self.robots for plugin in spawned.robot.plugins)
         return frozenset(name for plugin in plugins for name in systems_of(plugin))
 
     @cached_property
     def unread(self) -> str:
-        """Why it may start more than is known; empty where all was read."""
+        """Reason why it may start more than is known; empty if all was read."""
         if self.graph is None:
             return "no launch file names it"
         return next(iter((*self.bridges.unread, *unread_parts(self.graph))), "")
 
 
 class Simulations(Record, eq=False):
-    """What the launch files of a package simulate, and the files of bridges that none names."""
+    """Simulations of the launch files of a package, and the bridge files that none names."""
 
     launched: tuple[Simulation, ...]
     loose: Simulation

@@ -1,4 +1,4 @@
-"""What a robot publishes and listens to in Gazebo, and what a bridge to ROS must say of it.
+"""Topics of a robot in Gazebo, and the bridges to ROS that they need.
 
 The table `gazebo_topics` holds the facts; a `Channel` is one topic of one sensor or plugin.
 """
@@ -22,7 +22,7 @@ _PARAMETER = re.compile(r"\{(\w+)\}")
 
 
 class Need(enum.StrEnum):
-    """How much is lost when a channel does not reach ROS."""
+    """Importance of a channel for ROS."""
 
     REQUIRED = "required"
     WANTED = "wanted"

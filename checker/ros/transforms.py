@@ -62,7 +62,7 @@ BROADCASTER = "pose_tf_broadcaster"
 STATE_PUBLISHER = "robot_state_publisher"
 _STATIC = (STATE_PUBLISHER, "static_transform_publisher")
 _BY_NAME = re.compile(r"(?:\A|[_-])(?:tf2?|transforms?|state)(?:[_.-]|\Z)")
-"""What programs that publish transforms are called: `pose_tf_broadcaster`, `odom_to_tf.py`."""
+"""Names of programs that publish transforms: `pose_tf_broadcaster`, `odom_to_tf.py`."""
 
 _PUBLISHES_NONE = re.compile(
     r"(?:ros1?_ign_|ros_gz_)\w+|subt_ros|topic_tools|joy|ps3joy|teleop_\w+|rviz|twist_mux"
@@ -72,22 +72,22 @@ _PUBLISHES_NONE = re.compile(
 
 
 def publishes_transforms(node: Node) -> bool:
-    """Whether a node's program is one that publishes transforms, by its name."""
+    """Return whether a node's program is one that publishes transforms, by its name."""
     return bool(_BY_NAME.search(node.type))
 
 
 def may_publish_transforms(node: Node) -> bool:
-    """Whether a node may publish transforms, for all that is known of its package."""
+    """Return whether a node may publish transforms, as far as its package is known."""
     return not _PUBLISHES_NONE.fullmatch(node.package)
 
 
 def carries_transforms(bridge: Bridge) -> bool:
-    """Whether a bridge passes transforms to TF itself."""
+    """Return whether a bridge passes transforms to TF itself."""
     return bridge.ros_topic in ("/tf", "/tf_static")
 
 
 def static_transforms(launch: LaunchGraph) -> bool:
-    """Whether transforms that do not change reach ROS: bridged, or published by a node."""
+    """Return whether static transforms reach ROS: bridged, or published by a node."""
     topics = ("/pose_static", "/tf_static")
     return any(
         bridge.ign_topic.endswith(topics) or bridge.ros_topic.endswith(topics)

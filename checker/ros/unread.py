@@ -1,4 +1,4 @@
-"""What a launch file may start besides the nodes that are known."""
+"""Possible starts in a launch file besides the nodes that are known."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from checker.rule import Context, Rule
 
 
 class Profile(Record):
-    """What is judged, for which target.
+    """Rules and target of a profile.
 
     Attributes:
         rules: Groups (`SDF`) or ids (`SEN001`) that belong to it.
@@ -30,7 +30,7 @@ class Profile(Record):
     severity: Mapping[str, Severity]
 
     def includes(self, rule: Rule) -> bool:
-        """Whether a rule belongs to this profile; other people's groups belong to all."""
+        """Return whether a rule belongs to this profile; groups of other distributions do."""
         if rule.id in self.without or rule.group in self.without:
             return False
         return rule.group in self.rules or rule.id in self.rules or rule.group not in _groups()

@@ -1,6 +1,6 @@
-"""What is known of all rules without loading them, kept by the hash of their code.
+"""Index of all rules, which does not load them, kept by the hash of their code.
 
-To load three hundred rules takes longer than to run those of a small package. A rule of the index
+Loading three hundred rules takes longer than running those for a small package. A rule of the index
 loads its module when it is first run; most packages lack the parts that many rules need.
 """
 

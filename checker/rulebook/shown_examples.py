@@ -48,11 +48,11 @@ class ShownFile(Record):
 
 
 class ShownExamples(Record):
-    """What a page shows of a rule's examples.
+    """Examples of a rule that a page shows.
 
     Attributes:
         bad: Files in which the rule reports something.
-        good: The same files where it does not, or what has to be there instead.
+        good: The same files if it does not, or the correct files.
     """
 
     bad: tuple[ShownFile, ...]

@@ -24,7 +24,7 @@ _ENDING_SECONDS, _PAUSE_SECONDS = 3.0, 0.1
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a name or address, in brackets or without, represents the machine itself."""
+    """Return whether a name or address, in brackets or without, is that of the machine itself."""
     try:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:

@@ -1,7 +1,7 @@
-"""What headers of binary files say: the size of a picture, the machine of a shared library.
+"""Headers of binary files: the size of a picture, the machine of a shared library.
 
-Only headers and the dynamic section are read. The file is a stranger's, so its reader gets a
-budget: offsets and counts in it may say anything.
+Only headers and the dynamic section are read. The file is not trusted, so its reader gets a budget:
+offsets and counts in it may have any value.
 """
 
 from __future__ import annotations
@@ -97,11 +97,11 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
 BUDGET = 1_000_000
 """Bytes that may be read of one file; real libraries need a few thousand."""
 _COST = 32
-"""What every single read costs beside its bytes, so that empty reads end, too."""
+"""Cost of every read in addition to its bytes, so that empty reads end too."""
 
 
 class SharedLibrary(Record):
-    """What the headers of an ELF file say.
+    """Headers of an ELF file.
 
     Attributes:
         machine: The name as pyelftools names it: `x64`, `x86`, `AArch64`.

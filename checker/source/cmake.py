@@ -1,4 +1,4 @@
-"""What a CMakeLists.txt declares: project, packages needed, libraries built, files installed."""
+"""Content of a CMakeLists.txt: project, packages needed, libraries built, files installed."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Install(Record, eq=False):
     span: Span
 
     def writes(self, item: Located[str]) -> bool:
-        """Whether an item is in the call as it is, and not in a variable or a loop."""
+        """Return whether an item is literally in the call, not in a variable or a loop."""
         inside = self.span.start <= item.span.start and item.span.end <= self.span.end
         same = item.span.text.strip('"') == item.value
         return same and inside and item.span.source is self.span.source

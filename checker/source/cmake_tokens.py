@@ -31,7 +31,7 @@ _ESCAPED = {"n": "\n", "t": "\t", "r": "\r", "\n": "", "\r\n": "", ";": "\\;", "
 
 
 class ArgumentKind(enum.Enum):
-    """How an argument is written: only unquoted ones are split at `;`."""
+    """Form of an argument: only unquoted ones are split at `;`."""
 
     UNQUOTED = "unquoted"
     QUOTED = "quoted"

@@ -33,7 +33,7 @@ class Piece(Record):
 
     @property
     def exact(self) -> bool:
-        """Whether each character of the text is one character of the source."""
+        """True if each character of the text is one character of the source."""
         span = self.span
         return self.literal and span is not None and span.end - span.start == len(self.text)
 

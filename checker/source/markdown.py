@@ -28,7 +28,7 @@ _STRUCK = (("~~", "~~"), ("<del>", "</del>"), ("<s>", "</s>"), ("<strike>", "</s
 
 
 class PassageKind(enum.Enum):
-    """What sort of block a passage is."""
+    """Kind of a block of Markdown."""
 
     HEADING = "heading"
     PARAGRAPH = "paragraph"

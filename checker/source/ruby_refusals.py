@@ -1,4 +1,4 @@
-"""What the grammar of Ruby accepts, and Ruby itself does not."""
+"""Code that the grammar of Ruby accepts, and Ruby itself does not."""
 
 from __future__ import annotations
 

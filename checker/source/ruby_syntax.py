@@ -72,7 +72,7 @@ def _errors(nodes: Sequence[RubyNode]) -> list[RubyNode]:
 
 
 def _strange(pattern: RubyNode) -> bool:
-    """Whether a pattern has options that there are not: it is no pattern, but text or division."""
+    """Return whether a pattern has unknown options: it is no pattern, but text or division."""
     return not (pattern.children and _OPTIONS.fullmatch(pattern.children[-1].text))
 
 
@@ -103,7 +103,7 @@ def _open_heredoc(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> Synt
 
 
 def _appends(opening: RubyNode, variables: frozenset[str]) -> bool:
-    """Whether `n <<X` appends to a variable: the grammar takes it for a heredoc."""
+    """Return whether `n <<X` appends to a variable: the grammar reads it as a heredoc."""
     line = opening.source.text.rfind("\n", 0, opening.start) + 1
     word = _LAST_WORD.search(opening.source.text[max(line, opening.start - 200) : opening.start])
     return word is not None and (not word[2] or word[1] in variables)
@@ -132,7 +132,7 @@ def _end_line(node: RubyNode) -> Span | None:
 
 
 def _closes(line: str, opening: RubyNode) -> bool:
-    """Whether Ruby takes a line for a heredoc's end; the grammar lets blanks follow the word."""
+    """Return whether a line is a heredoc end for Ruby; the grammar allows blanks after it."""
     line = line.lstrip() if _may_be_indented(opening) else line
     return line.rstrip("\r") == heredoc_identifier(opening)
 

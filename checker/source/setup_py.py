@@ -1,4 +1,4 @@
-"""What a setup.py installs: `data_files` and executables, as far as they are written out.
+"""Files that a setup.py installs: `data_files` and executables, as far as they are literals.
 
 The file is read as a syntax tree and never run. Texts, lists, names that are set once, f-strings,
 `os.path.join` and `glob` are followed; anything else makes the answer incomplete.

@@ -302,7 +302,7 @@ class Element(Record, eq=False, dict=True):
 
     @property
     def text_span(self) -> Span:
-        """Where the text stands: from its first to its last character that is no blank.
+        """Span of the text, from its first to its last character that is no blank.
 
         Comments, processing instructions and the brackets of CDATA at its ends are left out.
         """

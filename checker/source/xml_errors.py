@@ -1,4 +1,4 @@
-"""What a parser stumbled over, in a person's words, and its likely cause."""
+"""Explanation of a parser's error for people, and its likely cause."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def mend_roots(text: str, fault: XmlFault) -> tuple[str, list[XmlFault]]:
 
 
 def _holds_elements_alone(text: str) -> bool:
-    """Whether a text is a row of well-formed elements, without text between them."""
+    """Return whether a text is a sequence of well-formed elements without text between them."""
     depth = 0
     stray = False
     parser = expat.ParserCreate()
@@ -243,7 +243,7 @@ _CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
         (r"/\Z", r"[\s/]", "an empty element ends with />"),
     )
 )
-"""What is before and behind the character that is refused, and what it means."""
+"""Texts before and after the character that is refused, and their meaning."""
 
 
 def _invalid(source: SourceText, at: int) -> XmlFault:

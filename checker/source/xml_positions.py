@@ -1,4 +1,4 @@
-"""What is known of a text's tags once expat has been through it: places, or a fault."""
+"""Tags of a text that expat has read: their places, or a fault."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from checker.source.text import Span
 
 @dataclass(slots=True)
 class TagPosition:
-    """What one start tag says, and the character offsets of its element.
+    """Content of one start tag, and the character offsets of its element.
 
     Attributes:
         tag: Name as written, with its prefix.
@@ -31,7 +31,7 @@ class TagPosition:
 
 
 class XmlFault(Record, eq=False):
-    """Why and where a text is not well-formed XML."""
+    """Reason and place of a fault for which a text is not well-formed XML."""
 
     span: Span
     message: str

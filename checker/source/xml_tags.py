@@ -1,7 +1,7 @@
-"""Where each tag of an XML text begins and ends, by expat.
+"""Start and end of each tag of an XML text, by expat.
 
-expat (standard library) gives the byte of each event. The text is handed to it as UTF-8, and
-bytes are turned back into characters where the text is not plain ASCII.
+expat (standard library) gives the byte of each event. The text is passed to it as UTF-8, and bytes
+are turned back into characters where the text is not plain ASCII.
 """
 
 from __future__ import annotations

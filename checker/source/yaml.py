@@ -113,7 +113,7 @@ def read_yaml(source: SourceText) -> YamlDocument:
 
 
 def is_yaml(text: str) -> bool:
-    """Whether a text is YAML to its end; `read_yaml` reads no further than its first value."""
+    """Return whether a text is YAML to its end; `read_yaml` only reads its first value."""
     try:
         for _ in parse(text, Loader=CSafeLoader):
             pass

@@ -84,7 +84,7 @@ def check(
 
 
 def _is_inside(robot: Robot, piece: Placed, point: Vector, depth: float) -> bool:
-    """Whether no side of a shape leaves a point outside; sides are those of robot and shape."""
+    """Return whether a point is inside a shape whose sides are those of robot and shape."""
     own = tuple(piece.pose.rotate(axis) for axis in _AXES)
     sides = (*_SIDES, *own, *((-x, -y, -z) for x, y, z in own))
     return all(

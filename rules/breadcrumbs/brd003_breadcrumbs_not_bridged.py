@@ -43,7 +43,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
 
 
 def _is_included(launch: LaunchGraph) -> bool:
-    """Whether a launch file of the challenge is included that bridges breadcrumbs."""
+    """Return whether a launch file of the challenge is included that bridges breadcrumbs."""
     files = (include.file.rpartition("/")[2].lower() for include in launch.unresolved_includes)
     return any(_WORD in file for file in files)
 

@@ -58,7 +58,7 @@ def check(package: Package, simulations: Simulations) -> Findings:
 
 
 def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:
-    """Whether an argument may put the topic there: the robot's file or one of macros has it."""
+    """Return whether an argument may set the topic: the file of the robot or of macros has it."""
     files = package.index.with_suffix(".xacro", ".urdf", ".sdf")[:_FILES_LIMIT]
     own = {spawned.robot.document.source.file for spawned in simulation.robots}
     written = entry.gz_topic.strip("/") + "</"

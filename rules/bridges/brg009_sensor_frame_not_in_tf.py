@@ -53,7 +53,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
 
 
 def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:
-    """Whether transforms of other frames may be there, or frames be written again."""
+    """Return whether transforms of other frames may exist, or frames be renamed."""
     nodes: tuple[Node, ...] = simulation.graph.nodes if simulation.graph is not None else ()
     plugins = {plugin.class_name for plugin in spawned.robot.plugins}
     prefix = spawned.publisher.parameter("frame_prefix") if spawned.publisher is not None else None

@@ -52,7 +52,7 @@ def _severity(controller: Controller) -> Severity | None:
 
 
 def _bare(joint: Located[str]) -> bool:
-    """Whether the text is the name itself, without quotes or an alias around."""
+    """Return whether the text is the name itself, without quotes or an alias."""
     return joint.span.text == joint.value
 
 

@@ -96,7 +96,7 @@ def _never_spawned(control: ControlSystem) -> Findings:
 
 
 def _is_one(controller: Controller) -> bool:
-    """Whether the mapping is certainly a controller: other things have a type, too."""
+    """Return whether the mapping is certainly a controller: other things have a type, too."""
     return "controller" in controller.family
 
 

@@ -74,7 +74,7 @@ def _misspelt_names(control: ControlSystem, model: SpawnedModel) -> Findings:
 
 
 def _same(name: str, known: Iterable[str]) -> bool:
-    """Whether a name is a known one, perhaps with a number or more words around."""
+    """Return whether a name is a known one, perhaps with a number or more words around it."""
     plain = name.rstrip("0123456789_").lower()
     return any(
         namespace

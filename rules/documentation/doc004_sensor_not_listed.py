@@ -102,7 +102,7 @@ def _types_in(texts: list[str], carried: set[str]) -> frozenset[str]:
 
 
 def _is_named(devices: KnownDevices, texts: list[str], sensor: Sensor) -> bool:
-    """Whether a named device may be a sensor, with no word that says what it is."""
+    """Return whether a named device may be a sensor, although no word states its kind."""
     types = {sensor.type.value}
     return any(devices.find_in_text(text, types) is not None for text in texts)
 

@@ -79,7 +79,7 @@ def _differing_limits(
 
 
 def _fits(least: float, most: float, claim: Limit, tolerance: float) -> bool:
-    """Whether the model's ends are those of the sheet; symmetric ones may lie between them."""
+    """Return whether the model's limits are those of the sheet; symmetric ones may be between."""
     forward = claim.maximum
     back = -claim.minimum if claim.minimum is not None and _both_ways(claim) else forward
     if abs(least + most) <= _EXACT * abs(most):

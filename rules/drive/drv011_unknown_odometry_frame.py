@@ -68,7 +68,7 @@ def _unknown_cause(launch: LaunchGraph) -> str:
 
 
 def _tree_is_known(launch: LaunchGraph) -> bool:
-    """Whether only the broadcaster and static publishers make the tree."""
+    """Return whether only the broadcaster and static publishers make the tree."""
     if launch.undecided or not any(node.type == _BROADCASTER for node in launch.nodes):
         return False
     bridged = any(bridge.ros_type.endswith(_TRANSFORMS) for bridge in launch.bridges)

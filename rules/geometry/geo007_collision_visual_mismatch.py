@@ -91,7 +91,7 @@ def _cube_around(wheel: Box) -> Box:
 
 
 def _fits_body(robot: Robot, link: Link, touched: Box, share: float) -> bool:
-    """Whether a collision has the size of all that is fixed to the link."""
+    """Return whether a collision has the size of all that is fixed to the link."""
     bodies = robot.tree.rigid_bodies
     names = bodies.links[bodies.of_link[link.scoped_name]]
     boxes = (_box(robot, each, each.visuals) for each in map(robot.tree.links.__getitem__, names))

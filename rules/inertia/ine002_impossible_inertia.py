@@ -68,7 +68,7 @@ def check(
 
 
 def _left_open(link: Link, inertial: Inertial) -> bool:
-    """Whether the simulator computes the inertia, from meshes that are not read here."""
+    """Return whether the simulator computes the inertia, from meshes that are not read here."""
     return is_automatic(link.element.child("inertial")) and math.isnan(inertial.mass.value)
 
 

@@ -147,7 +147,7 @@ def _large(masses: MassProperties, share: float) -> set[str]:
 
 
 def _stands(masses: MassProperties, link: Link) -> bool:
-    """Whether a link is the foot of a robot without wheels, made heavy so that it stands."""
+    """Return whether a link is the foot of a robot without wheels, heavy so that it is stable."""
     robot = masses.robot
     moved = {joint.child.value for joint in robot.joints}
     return link.name.value not in moved and not robot.locomotion.wheel_drives

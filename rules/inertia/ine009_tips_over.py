@@ -77,7 +77,7 @@ def check(
 
 
 def _stands_on_legs(masses: MassProperties) -> bool:
-    """Whether each part on the ground is connected to the base by as many hinges as a leg has."""
+    """Return whether each part on the ground has as many hinges to the base as a leg."""
     above = spanning_tree_of(masses.robot).by
     return bool(masses.standing) and all(
         sum(_bends(masses.robot, tie) for tie in _chain(above, name)) >= _HINGES
@@ -92,7 +92,7 @@ def _chain(above: Mapping[str, Tie], name: str) -> Iterator[Tie]:
 
 
 def _bends(robot: Robot, tie: Tie) -> bool:
-    """Whether a joint is a hinge that is not upright, as a steering joint is."""
+    """Return whether a joint is a hinge that is not upright, as a steering joint is."""
     axes = tie.joint.axes if tie.joint.type.value == "revolute" else ()
     axis = robot.axis_in_model(tie.joint, axes[0]) if axes else None
     return axis is not None and abs(axis[2]) < _UPRIGHT

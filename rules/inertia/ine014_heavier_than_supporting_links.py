@@ -56,7 +56,7 @@ def check(
 
 
 def _has_no_mass(link: Link) -> bool:
-    """Whether a link states a mass that is none: what it carries weighs more by that alone."""
+    """Return whether a link's mass is invalid: what it carries is heavier for that reason alone."""
     return link.inertial is not None and link.inertial.mass.value <= 0.0
 
 

@@ -55,7 +55,7 @@ def _loose(robot: Robot, use: EngineUse, release: str) -> Iterator[Finding]:
 
 
 def _is_moved(robot: Robot, joint: Joint) -> bool:
-    """Whether a plugin names the joint, or the hardware of ros2_control does."""
+    """Return whether a plugin names the joint, or the hardware of ros2_control does."""
     name = joint.name.value
     if joint.scoped_name in robot.driven_joints:
         return True

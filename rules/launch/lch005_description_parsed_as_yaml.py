@@ -21,7 +21,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.yaml import MAX_LENGTH, is_yaml
 
 _DECLARATION = '<?xml version="1.0" ?>\n'
-"""What xacro writes first: a text of one line could be a mapping, a longer one cannot."""
+"""Start of xacro's output: a text of one line could be a mapping, a longer one cannot."""
 
 
 @rule("LCH005", "description-parsed-as-yaml", Severity.WARNING, Concern.INTERFACE)

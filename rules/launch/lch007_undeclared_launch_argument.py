@@ -31,7 +31,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
 
 
 def _is_named(package: Package, file: str) -> bool:
-    """Whether another available launch file names a file, and may give it arguments."""
+    """Return whether another available launch file names a file, and may give it arguments."""
     name = posixpath.basename(file)
     stem = name.partition(".")[0]
     others = {id(other): other for other in (package, *package.workspace.packages.values())}

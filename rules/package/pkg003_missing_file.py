@@ -98,7 +98,7 @@ def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
 
 
 def _describes(package: Package, sibling: Package) -> bool:
-    """Whether the sheet of another configuration of the same robot names this one."""
+    """Return whether the sheet of another configuration of the same robot names this one."""
     number = configuration_number(package)
     if sibling is package or number is None or not is_same_robot(sibling.name, package.name):
         return False
@@ -137,7 +137,7 @@ def _topics(package: Package) -> Iterator[Finding | Unchecked]:
 
 
 def _may_bridge(package: Package, started: Reference) -> bool:
-    """Whether a started launch file may start bridges; an unknown one counts."""
+    """Return whether a started launch file may start bridges; an unknown one counts."""
     if started.file == "description.launch":
         return False
     own = started.package_name == package.name

@@ -55,7 +55,7 @@ _OF_DEVICES = {
     "air pressure": SensorKind.AIR_PRESSURE,
     "gas": SensorKind.GAS,
 }
-"""What the kinds of `devices.json` are in words."""
+"""Kinds of `devices.json` in words."""
 
 
 @rule("PKG005", "description-disagrees", Severity.WARNING, Concern.PAPERWORK)
@@ -124,7 +124,7 @@ def _described_sensors(description: Located[str], devices: KnownDevices) -> Iter
 
 
 def _is_several(words: str, device: Device | None) -> bool:
-    """Whether it takes several sensors to model what words name: what sees nearly all around."""
+    """Return whether the words name a device that is modelled by several sensors."""
     values = device.values if device is not None else {}
     return bool(_FISHEYE.search(words) or {"cameras", "cameras_per_device"} & values.keys())
 

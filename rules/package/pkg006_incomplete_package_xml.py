@@ -31,7 +31,7 @@ _PAGE = re.compile(
 )
 """The page of a robot's package, as templates of package.xml name it."""
 _TEMPLATE_LINK = re.compile(rf"<!--\s{{0,80}}<url[^<>]{{0,80}}>({_WIKI}\w{{1,100}})</url>", re.I)
-"""What `catkin_create_pkg` writes: the page of the package, in a comment."""
+"""Comment that `catkin_create_pkg` writes, with the page of the package."""
 _TO_DO = re.compile(r"\s*(?:(?:TODO|TBD|FIXME)\b|todo@)")
 _COMMON = {
     "bringup",

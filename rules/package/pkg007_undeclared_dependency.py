@@ -134,7 +134,7 @@ def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
 
 
 def _brought(manifest: PackageManifest, name: str) -> bool:
-    """Whether a package of packages that is declared brings it."""
+    """Return whether a package of packages that is declared brings it."""
     return any(
         re.fullmatch(pattern, name) and manifest.depends_on(whole)
         for whole, pattern in _PACKAGES_OF_PACKAGES.items()
@@ -184,7 +184,7 @@ def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
 
 
 def _is_own(package: Package, name: str, other: str) -> bool:
-    """Whether another package is named after this robot, and otherwise as the one that is named."""
+    """Return whether another package is named after this robot, and otherwise as the given one."""
     robot = robot_of(package.name)
     words, others = name.split("_"), other.split("_")
     differing = [pair for pair in zip(words, others, strict=False) if len(set(pair)) > 1]

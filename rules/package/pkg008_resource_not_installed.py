@@ -40,7 +40,7 @@ _LESS = {
     "worlds": Severity.WARNING,
     "thumbnails": Severity.INFO,
 }
-"""What the robot starts without."""
+"""Lower severities for folders without which the robot starts."""
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")
 _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
@@ -151,7 +151,7 @@ def _paths(build: CMakeFile) -> Iterator[str]:
 
 
 def _covers(installed: set[str], path: str) -> bool:
-    """Whether a path, or anything in it, is installed; a path in a variable counts as installed."""
+    """Return whether a path, or anything in it, is installed; one in a variable counts."""
     if path in installed or any(i.startswith(f"{path}/") or "$" in i for i in installed):
         return True
     patterns = (item for item in installed if len(item) < _PATTERN_LIMIT and _PATTERN.search(item))

@@ -35,7 +35,7 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
 
 
 def _is_declared(paperwork: Paperwork, link: FileEntry) -> bool:
-    """Whether a link leads into a package that this one depends on."""
+    """Return whether a link leads into a package that this one depends on."""
     if link.target_state is not LinkState.SIBLING or paperwork.manifest is None:
         return False
     steps = posixpath.join(posixpath.dirname(link.path), link.target).split("/")

@@ -26,7 +26,7 @@ _OWN_FOLDER = re.compile(r"\b__(?:FILE|dir)__")
 _EXAMPLE_OF = re.compile(
     r"\b(?:require|load|require_relative|File\.read|IO\.read|ERB\.new)\b|\brospack\s+find\b"
 )
-"""What takes over the text or the functions of another file."""
+"""Statements that take over the text or the functions of another file."""
 
 
 @rule("PKG019", "example-of-another-robot", Severity.WARNING, Concern.PAPERWORK)

@@ -54,7 +54,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
 
 
 def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
-    """Whether it is enough to remove the plugin, because the sensor around it works alone."""
+    """Return whether only the plugin has to be removed, because its sensor works alone."""
     instead = (entry.get("replacement") or {}).get("sensor_type")
     return entry.get("action") == "remove" or bool(plugin.owner and instead)
 

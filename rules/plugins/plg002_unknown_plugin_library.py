@@ -33,7 +33,7 @@ from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _NONE = "__default__"
-"""What libsdformat of old wrote where a file names no library."""
+"""Value that old releases of libsdformat wrote if a file names no library."""
 
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
@@ -75,7 +75,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
 
 
 def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> bool:
-    """Whether the package depends on the one that has a library, or says not what it depends on."""
+    """Return whether the package may depend on the one that has a library."""
     is_silent = bool(package.only) or not package.exists("package.xml")
     return package_of_library(stem) in lenders.missing or (
         is_silent and bool(package_of_library(stem))
@@ -104,7 +104,7 @@ def _elsewhere(stem: str, context: Context) -> str:
 
 
 def _is_told_elsewhere(stem: str, context: Context) -> bool:
-    """Whether PLG001 reports the library, or PLG012 as one of ROS 1."""
+    """Return whether PLG001 reports the library, or PLG012 as one of ROS 1."""
     if context.of_classic:
         return stem in table("gazebo_classic_ros2")["ros_1"]["libraries"]
     return classic_plugin(stem) is not None

@@ -95,7 +95,7 @@ def _replacement(instead: str) -> str:
 
 
 def _is_missed(plugin: Plugin, instead: str | None, value: str) -> bool:
-    """Whether the plugin acts on another thing: nothing in it says what the parameter says."""
+    """Return whether the plugin acts on another thing, since it does not state the parameter."""
     if instead is None or value.strip() in ("", "/"):
         return False
     if instead.startswith(_ROS):

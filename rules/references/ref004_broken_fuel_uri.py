@@ -61,7 +61,7 @@ def _depends(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
 
 
 def _is_known(package: Package, paperwork: Paperwork, name: str) -> bool:
-    """Whether a package of this name is available, or package.xml depends on it."""
+    """Return whether a package of this name is available, or package.xml depends on it."""
     manifest = paperwork.manifest
     declared = manifest is not None and manifest.depends_on(name)
     return declared or package_on_fuel(package, name) is not None

@@ -71,7 +71,7 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
 
 
 class _Published:
-    """What sensors publish by default, computed once for each link."""
+    """Topics that sensors publish by default, computed once for each link."""
 
     def __init__(self, robot: Robot, release: str) -> None:
         self._robot, self._release = robot, release

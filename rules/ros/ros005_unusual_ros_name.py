@@ -48,7 +48,7 @@ _PLACE = re.compile(
     r"|body|chin|neck|tower|f[lr]|r[lr])\b"
 )
 _DATA = re.compile(r"(?:^|/)(?:depth|color|points|camera_info|image)(?![a-z])")
-"""Where the kind of data begins in a camera's topic."""
+"""Start of the kind of data in a camera's topic."""
 _LONGEST = 100
 """Characters of a name that are checked."""
 

@@ -68,7 +68,7 @@ def _included_twice(launch: LaunchGraph) -> Iterator[Finding]:
 
 
 def _is_foreign(started: Node | UnresolvedInclude) -> bool:
-    """Whether it is in a file of another package, which the author cannot change."""
+    """Return whether it is in a file of another package, which the author cannot change."""
     return started.span.place().file.startswith("../")
 
 

@@ -61,7 +61,7 @@ def check(package: Package, launch: LaunchGraph) -> Findings:
 
 
 def _may_be_given(fault: LaunchFault, included: Collection[str]) -> bool:
-    """Whether an arg is missing that the command may pass."""
+    """Return whether the missing arg may be passed on the command line."""
     return fault.kind in _OF_COMMANDS and fault.span.source.file not in included
 
 

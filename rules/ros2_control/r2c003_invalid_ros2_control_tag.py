@@ -61,7 +61,7 @@ def _missing(hardware: Hardware) -> Iterator[Finding]:
 
 
 def _has_plugin_elsewhere(hardware: Element) -> bool:
-    """Whether xacro leaves out a plugin with the values that its arguments have here."""
+    """Return whether xacro leaves out a plugin because of the values of its arguments."""
     pairs = written_elements(hardware.document).items()
     origin = next((written for it, written in pairs if it.node is hardware.node), None)
     return origin is not None and next(origin.descendants("plugin"), None) is not None

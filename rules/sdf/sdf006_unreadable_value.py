@@ -55,7 +55,7 @@ def _attribute_types(element: Element, kind: ElementType, context: Context) -> _
 
 
 def _counts_words_of_poses(context: Context) -> bool:
-    """Whether the target refuses a pose of too many words, as libsdformat 12 and later do."""
+    """Return whether the target refuses a pose of too many words: libsdformat from 12 on."""
     reads = parse_version(context.reads)
     return reads is not None and reads >= (1, 9)
 

@@ -97,7 +97,7 @@ def _place_label(version: str, place: str, around: str, parent: str, tag: str) -
 
 
 def _is_set(element: Element, place: str) -> bool:
-    """Whether the right place, next to or around the wrong one, has such an element already."""
+    """Return whether the right place, next to or around the wrong one, has such an element."""
     parent = element.parent
     if parent is None:
         return False
@@ -106,7 +106,7 @@ def _is_set(element: Element, place: str) -> bool:
 
 
 def _is_recorded(element: Element) -> bool:
-    """Whether it is in the `<state>` of a world, a recording that Gazebo does not read."""
+    """Return whether it is in the `<state>` of a world, a recording that Gazebo does not read."""
     above = element.parent
     while above is not None and above.tag != "state":
         above = above.parent
@@ -114,7 +114,7 @@ def _is_recorded(element: Element) -> bool:
 
 
 def _is_usual(element: Element, place: str, kinds: _Kinds) -> bool:
-    """Whether it says what counts anyway in the right place next to the wrong one."""
+    """Return whether the element states the value that the right place has anyway."""
     around = element.parent.parent if element.parent is not None else None
     holder = kinds.get(around) if around is not None else None
     right = holder.children.get(place) if holder is not None else None
@@ -136,9 +136,9 @@ def _places(
 
 
 def _fits(parent: Element, kind: ElementType | None, place: str) -> bool:
-    """Whether settings below a sensor could be meant for its type: no `<imu>` in a camera.
+    """Return whether settings below a sensor may be for its type: no `<imu>` in a camera.
 
-    All types of cameras share `<camera>`, so that it fits where no other block does.
+    All types of cameras share `<camera>`, so it fits if no other block does.
     """
     blocks = set(kind.children) & SETTINGS if kind is not None and parent.tag == "sensor" else set()
     if place not in blocks:

@@ -16,7 +16,7 @@ from checker.model.sensing.kind import sensor_types
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _IN_CLASSIC = table("gazebo_classic_ros2")["sensors_instead"]
-"""What Gazebo Classic has for types that only later releases simulate."""
+"""Replacements in Gazebo Classic of types that only later releases simulate."""
 
 
 @rule("SEN001", "sensor-not-simulated", Severity.ERROR, Concern.INTERFACE)

@@ -159,7 +159,7 @@ def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Differe
 
 
 def _is_near(value: float, expected: Sequence[float], tolerance: float) -> bool:
-    """Whether a value is close to an expected one; always, if none is known."""
+    """Return whether a value is close to an expected one; always, if none is known."""
     return not expected or any(abs(value - number) <= tolerance * number for number in expected)
 
 

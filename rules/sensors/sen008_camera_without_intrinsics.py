@@ -60,7 +60,7 @@ def check(
 
 
 def _is_plain(sensor: Sensor) -> bool:
-    """Whether a sensor projects the world like a pinhole camera."""
+    """Return whether a sensor has the projection of a pinhole camera."""
     return sensor.kind.takes_pictures and sensor.kind is not SensorType.WIDE_ANGLE_CAMERA
 
 

@@ -98,7 +98,7 @@ def _without_range(lights: Iterator[Light]) -> Iterator[Finding]:
 
 
 def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> bool:
-    """Whether a point is deeper than a limit in a visual; concave ones do not count."""
+    """Return whether a point is deeper than a limit in a visual; concave ones do not count."""
     if visual.box.gap(Box(place, place)) > 0.0 or not is_convex(robot, visual):
         return False
     if isinstance(visual.shape, Visual) and visual.shape.is_see_through:

@@ -60,7 +60,7 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
 
 
 def _sees_colours(mounted: Mounted) -> bool:
-    """Whether a sensor is a colour camera; infrared ones have grey images."""
+    """Return whether a sensor is a colour camera; infrared ones have grey images."""
     sensor = mounted.sensor
     if sensor.kind is not SensorType.CAMERA:
         return False
@@ -68,7 +68,7 @@ def _sees_colours(mounted: Mounted) -> bool:
 
 
 def _have_one_size(one: Mounted, other: Mounted) -> bool:
-    """Whether one sensor could publish the images of both, judged by their sizes."""
+    """Return whether one sensor could publish the images of both, judged by their sizes."""
     first, second = one.sensor.camera, other.sensor.camera
     if first is None or second is None:
         return True

@@ -36,7 +36,7 @@ def check(spawner: Spawner) -> Findings:
 
 
 def _is_whole(function: Function, spawner: Spawner) -> bool:
-    """Whether no syntax error is in a function, whose parameters may then be others."""
+    """Return whether a function has no syntax error, which could change its parameters."""
     whole = function.span
     faults = (*(span for span, _ in spawner.syntax_faults), *spawner.not_understood)
     return not any(

@@ -129,7 +129,7 @@ def _judge(package: Package, start: _Start) -> Iterator[Finding | Unchecked]:
 
 
 def _is_meant(package: Package, name: str) -> bool:
-    """Whether this package uses another on purpose.
+    """Return whether this package uses another on purpose.
 
     It inherits its model, declares it in package.xml, or is a configuration of the same robot whose
     Ruby files it loads.

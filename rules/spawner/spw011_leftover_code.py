@@ -89,7 +89,7 @@ def _constants(assigned: list[RubyNode]) -> set[str]:
 
 
 def _is_constant(condition: RubyNode, constants: set[str]) -> bool:
-    """Whether a condition contains only literals and constant variables."""
+    """Return whether a condition contains only literals and constant variables."""
     waiting = [condition]
     while waiting:
         node = waiting.pop()

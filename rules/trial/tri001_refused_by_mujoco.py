@@ -41,7 +41,7 @@ def check(driven: RobotTrial) -> Findings:
 
 
 def _has_open_mesh(driven: RobotTrial, name: str) -> bool:
-    """Whether a collision mesh of a link is open: MSH010 reports it."""
+    """Return whether a collision mesh of a link is open: MSH010 reports it."""
     link = driven.robot.links_by_name.get(name)
     meshes = map(driven.robot.mesh_of, link.collisions if link is not None else ())
     return any(isinstance(mesh, Mesh) and not mesh.watertight for mesh in meshes)

@@ -24,7 +24,7 @@ _WITHOUT_EFFECT = frozenset(
         *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
     }
 )
-"""What changes neither how a robot moves nor what it senses."""
+"""Elements that change neither how a robot moves nor what it senses."""
 
 
 @rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)

@@ -44,7 +44,7 @@ def check(description: UrdfDescription) -> Findings:
 
 
 def _slides(description: UrdfDescription, name: str) -> bool:
-    """Whether a link is a caster: by its name, or since it stands on a sphere."""
+    """Return whether a link is a caster: by its name, or since it stands on a sphere."""
     link = description.robot.links_by_name.get(name)
     shapes = [collision.geometry for collision in link.collisions] if link else []
     is_ball = bool(shapes) and all(shape.shape == "sphere" for shape in shapes)

@@ -53,7 +53,7 @@ def check(package: Package) -> Findings:
 
 
 def _is_at_hand(package: Package, path: str, name: str) -> bool:
-    """Whether an included file was found; one whose name is computed was not."""
+    """Return whether an included file was found; one whose name is computed was not."""
     named = named_path(path_of(package, path).rpartition("/")[0], name)
     local = local_path(package, named) if named is not None else None
     return local is not None and isinstance(package.xml(local), XmlDocument)

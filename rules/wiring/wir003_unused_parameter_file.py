@@ -49,7 +49,7 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _is_alone(node: WiredNode) -> bool:
-    """Whether a process has no nodes but its own, as far as is known."""
+    """Return whether a process has no other nodes, as far as is known."""
     kinds = (NodeKind.CONTAINER, NodeKind.INCLUDED)
     hosts = node.node.kind in kinds or node.node.package.value == MANAGER
     return bool(node.full_name) and not hosts and not node.node.unread
@@ -66,7 +66,7 @@ def _orphans(wiring: Wiring, node: WiredNode, file: LoadedFile) -> list[NodeBloc
 
 
 def _is_meant(block: NodeBlock, node: WiredNode) -> bool:
-    """Whether a block has the name of a node but for its namespace, or its program's usual name."""
+    """Return whether a block has a node's name without namespace, or its program's usual name."""
     return block.node in _names(node) and block.node not in _COSTMAPS
 
 

@@ -53,7 +53,7 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _compares_time(node: WiredNode) -> bool:
-    """Whether a node compares its own time with that of messages, or stamps transforms with it."""
+    """Return whether a node compares its time with that of messages, or stamps transforms."""
     return node.node.package.value in (*_PACKAGES, STATE_PUBLISHER)
 
 
@@ -63,7 +63,7 @@ def _text(node: WiredNode) -> str | None:
 
 
 def _has_clock(wiring: Wiring) -> bool:
-    """Whether the launch starts Gazebo for certain, and its time comes to ROS."""
+    """Return whether the launch certainly starts Gazebo, and its time reaches ROS."""
     if wiring.in_classic:
         return True
     simulation = wiring.simulation

@@ -68,7 +68,7 @@ def _others(wiring: Wiring, wanted: Endpoint, message: str) -> Iterator[Endpoint
 
 
 def _alike(first: Endpoint, second: Endpoint) -> bool:
-    """Whether two names are the same but for separators and case."""
+    """Return whether two names differ only in separators and case."""
     one, two = (re.sub(r"[\W_]", "", it.topic).casefold() for it in (first, second))
     return one == two
 

@@ -40,7 +40,7 @@ def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
 
 
 def _may_offer(graph: LaunchGraph, each: Wanted) -> bool:
-    """Whether another launch file, in whatever namespace, starts what offers it."""
+    """Return whether another launch file, in any namespace, starts the service."""
     short = each.item or each.name.rpartition("/")[2]
     included = (node for include in graph.includes for node in include.nodes)
     return any(short in _names(node) for node in (*graph.nodes, *included))

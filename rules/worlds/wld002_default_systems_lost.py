@@ -17,7 +17,7 @@ _DEFAULTS = {
     "scene-broadcaster": "windows and visualizers show nothing",
 }
 _LESS = {"scene-broadcaster": Severity.INFO}
-"""What a server without windows does without."""
+"""Lower severities for systems that a server without windows does not need."""
 
 
 @rule("WLD002", "default-systems-lost", Severity.WARNING, Concern.INTERFACE)

@@ -38,7 +38,7 @@ class _Loaded(Record, eq=False):
 
     @property
     def called(self) -> str:
-        """What a message calls it."""
+        """Name in messages."""
         return f"world {self.world.name!r}" if self.world is not None else self.server.own_world
 
 
@@ -117,7 +117,7 @@ def _label(sensors: list[Sensor]) -> str:
 
 
 def _is_certain(simulation: Simulation, loaded: _Loaded, spawned: SpawnedRobot) -> bool:
-    """Whether nothing else can load a system: all is known, and the world makes its own choice."""
+    """Return whether nothing else can load a system: all is known, and the world has plugins."""
     world = loaded.world
     if world is None or not world.is_settled or world.takes_server_plugins:
         return False

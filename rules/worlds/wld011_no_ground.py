@@ -21,7 +21,7 @@ from checker.rule import Concern, Context, Findings, Severity, Where, finding, r
 
 _LIFTS = ("buoyancy", "hydrodynamics")
 _OTHER_PARTS = ("population", "road")
-"""What may hold something up beside models."""
+"""Other elements that may hold something up, besides models."""
 
 
 class _Falling(Record, eq=False):
@@ -69,7 +69,7 @@ def _falls(each: _Falling, release: str) -> bool:
 
 
 def _holds(world: World, release: str) -> bool:
-    """Whether something in a world holds robots up, or may do so."""
+    """Return whether a world contains something that holds robots up, or may do so."""
     x_y_z = ValueReader().numbers(world.element, "gravity", (0.0, 0.0, -9.8))
     weightless = all(value.value == 0.0 for value in x_y_z)
     foreign = any(not is_of_gazebo(library_stem(it.filename.value)) for it in world.plugins)
@@ -82,13 +82,13 @@ def _holds(world: World, release: str) -> bool:
 
 
 def _stands(model: Robot) -> bool:
-    """Whether a model is fixed and can be touched."""
+    """Return whether a model is fixed and can be touched."""
     fixed = (link for link in model.links if model.is_static or model.is_still(link))
     return any(link.collisions for link in fixed) or (_hangs(model) and not model.is_static)
 
 
 def _hangs(robot: Robot) -> bool:
-    """Whether it is fixed to the world."""
+    """Return whether it is fixed to the world."""
     return any(tie.parent == WORLD for tie in robot.tree.ties)
 
 

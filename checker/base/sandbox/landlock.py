@@ -1,7 +1,7 @@
-"""Which files this process can still reach: Landlock, Linux's sandbox for everybody.
+"""Landlock: limits the files that this process can reach, without special permissions.
 
-See landlock(7) and Documentation/userspace-api/landlock.rst. What is not granted is denied to this
-process and all that it starts, permanently and whatever its user may do.
+See landlock(7) and Documentation/userspace-api/landlock.rst. Access that is not granted is denied
+to this process and all that it starts, permanently and for every user.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _EXECUTE, _WRITE, _READ, _LIST = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 _REMOVE_DIR, _REMOVE_FILE, _MAKE_DIR, _MAKE_FILE = 1 << 4, 1 << 5, 1 << 7, 1 << 8
 _REFER, _TRUNCATE, _DEVICE = 1 << 13, 1 << 14, 1 << 15
 _FIRST = (1 << 13) - 1
-"""What the first version of Landlock knows; each later one adds a right, or a scope."""
+"""Access rights of the first version of Landlock; each later version adds a right or a scope."""
 _SINCE = {2: _REFER, 3: _TRUNCATE, 5: _DEVICE}
 _NETWORK_SINCE, _BIND_AND_CONNECT = 4, 3
 _SCOPES_SINCE, _SOCKETS_AND_SIGNALS = 6, 3

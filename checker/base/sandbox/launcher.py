@@ -41,14 +41,14 @@ _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class Order(Record):
-    """What process to start.
+    """Request to start a process.
 
     Attributes:
         module: Its full name; see `checker.base.sandbox.task`.
         seconds: Seconds of processor time.
         memory: Bytes of address space.
         works: Whether it writes into the working folder, and requests processes itself.
-        draws: Whether it may use graphics cards.
+        draws: Whether the process may use graphics cards.
         serves: Whether its request is a socket, by which it answers many (`serve` of its module).
         lasts: Whether it answers one request after the other (see `checker.base.child_server`).
     """
@@ -160,12 +160,12 @@ class OwnLauncher(Launcher):
 
     @property
     def alive(self) -> bool:
-        """Whether its process has not ended."""
+        """True if its process has not ended."""
         return self._process.poll() is None
 
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
-        """Which layers hold; the first call waits for them. None where its process has died."""
+        """Layers that are in force; the first call waits for them. None if its process has died."""
         data = b""
         self._control.settimeout(_HELLO_SECONDS)
         try:

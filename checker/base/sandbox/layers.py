@@ -33,10 +33,10 @@ class Layer(Record):
 
 
 class Sandbox(Record):
-    """What to put up around a process.
+    """Sandbox to set up around a process.
 
     Attributes:
-        names: The layers, of `ALL`; others than all are for tests of each alone.
+        names: The layers, of `ALL`; a selection is for tests of single layers.
         wrapped: Whether bubblewrap has made the namespaces already.
         account: User id to take; 0 to stay the same.
         work: Folder that it may write in; empty for none.

@@ -21,7 +21,7 @@ from checker.base.sandbox.program_files import program_paths
 from checker.base.sandbox.seccomp import NotHeld
 
 WORK = "/subt-check-work"
-"""Where a process finds the folder that it may write in."""
+"""Path at which a process finds the folder that it may write to."""
 _USER, _UTS, _IPC, _NET = 0x10000000, 0x04000000, 0x08000000, 0x40000000
 """Flags of unshare(2): CLONE_NEWUSER and so on."""
 _LINKS = ("/bin", "/lib", "/lib32", "/lib64")

@@ -18,7 +18,7 @@ _OF_PREFIX = ("bin", "include", "lib", "lib32", "lib64", "pyvenv.cfg")
 _PARTS = ("checker", "rules", "samples", "subt_check", "subt_check.py", "templates")
 """Files of this program in a folder with others, such as a checkout or site-packages."""
 MACHINE = ("/proc/cpuinfo", "/proc/meminfo")
-"""What libraries ask about processors and memory."""
+"""Files from which libraries read the number of processors and the memory."""
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
 SCREENS = ("/dev/dri",)
 """Graphics cards."""

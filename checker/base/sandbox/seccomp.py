@@ -24,7 +24,7 @@ _ARCHITECTURES = table("system_calls")["architectures"]
 
 
 class Architecture(Record):
-    """How one kind of processor calls the kernel.
+    """Calling convention of the kernel on one kind of processor.
 
     Attributes:
         audit: Its AUDIT_ARCH number, which a filter of system calls receives.

@@ -1,4 +1,4 @@
-"""What a process in the sandbox does: one function of one module, and it ends.
+"""Work of a process in the sandbox: it calls one function of one module and ends.
 
 The module has `answer(request: bytes, files: Files)`, which returns bytes, or bytes and files (see
 `Answer`). Its `prepare()`, if it has one, is called before the request is there.
@@ -22,12 +22,12 @@ from checker.base.sandbox.files import Content, read, write
 from checker.base.sandbox.layers import Sandbox, narrow
 
 Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
-"""What comes back; files are made one by one, while they are written."""
+"""Answer of a process; files are made one by one, while they are written."""
 OUT_OF_MEMORY, FAILED, DISTURBED = 71, 70, 75
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE, EX_TEMPFAIL (the disk or the system)."""
 _PR_SET_PDEATHSIG = 1
 PLACE = Struct("<QQ")
-"""Where one of several requests or answers begins and ends in the file of all."""
+"""Start and end of one of several requests or answers in their common file."""
 _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
 """Greatest length of a fault's message, bytes."""

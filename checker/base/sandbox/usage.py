@@ -1,6 +1,6 @@
-"""What all processes that a launcher has started use together.
+"""Resources that all processes of a launcher use together.
 
-Limits of the system (setrlimit(2)) hold each process alone. A process outside the sandbox sees
+Limits of the system (setrlimit(2)) apply to single processes. A process outside the sandbox sees
 all of them in /proc: one whose parent has ended becomes a child of the launcher.
 """
 
@@ -20,12 +20,12 @@ _GONE = (errno.ENOENT, errno.ENOTDIR)
 
 
 class Usage(Record):
-    """What some processes use together, or may use.
+    """Resources that some processes use together, or their limits.
 
     Attributes:
         memory: Bytes; what several of them share counts once.
         disk: Bytes of the files in their folder and of those that they have open: a removed one
-            takes room until it is closed.
+            occupies space until it is closed.
         files: The number of these.
         processes: The number of processes.
     """

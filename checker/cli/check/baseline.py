@@ -1,4 +1,4 @@
-"""What `--write-baseline` does: puts the findings of now into the baseline's file."""
+"""`--write-baseline`: write the current findings to the baseline file."""
 
 from __future__ import annotations
 

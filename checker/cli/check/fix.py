@@ -1,4 +1,4 @@
-"""What `--fix` and `--diff` do and say."""
+"""`--fix` and `--diff`: apply fixes or show them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `subt-check check` prints while it runs, and the files that it writes at the end."""
+"""Output of `subt-check check` while it runs, and the files that it writes at the end."""
 
 from __future__ import annotations
 

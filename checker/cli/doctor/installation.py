@@ -1,4 +1,4 @@
-"""What is installed: the tool, Python, libraries in their versions, the sandbox, the viewer."""
+"""Report of the installation: the tool, Python, library versions, the sandbox, the viewer."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ class State(StrEnum):
 
 
 class Result(Record):
-    """What was found.
+    """Result of one test of the installation.
 
     Attributes:
-        state: Whether it is as it should be.
-        what: The thing, and what is so.
-        advice: What to do; empty when all is well.
+        state: State of the thing: in order or not.
+        what: The thing and its state, in words.
+        advice: What to do; empty if nothing.
     """
 
     state: State

@@ -20,7 +20,7 @@ _MODULES = {
     "pyelftools": "elftools",
     "pyyaml": "yaml",
 }
-"""What distributions are imported as, where it is not their own name."""
+"""Import names of distributions where they differ from the name of the distribution."""
 
 
 def module_of(distribution: str) -> str:

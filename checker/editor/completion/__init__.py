@@ -1,1 +1,1 @@
-"""What an editor offers to write at a caret, though the text may not be well-formed."""
+"""Completions at the caret of an editor, even while the text is not well-formed."""

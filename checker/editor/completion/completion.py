@@ -1,4 +1,4 @@
-"""What may be written at a caret."""
+"""Completions at a caret."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What xacro reads: its own tags, macros, properties in `${`, arguments and packages in `$(`."""
+"""Completions of xacro: tags, macros, properties in `${`, arguments and packages in `$(`."""
 
 from __future__ import annotations
 

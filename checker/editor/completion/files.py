@@ -25,7 +25,7 @@ _LIMIT = 500
 
 
 class _Wanted(Record):
-    """What kind of file a place names; folders are on the way to all of them."""
+    """Kind of file that a place names; folders are on the way to all of them."""
 
     suffixes: tuple[str, ...]
     is_model: bool = False

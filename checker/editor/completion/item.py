@@ -1,4 +1,4 @@
-"""What is offered at a caret, and what it is offered for."""
+"""Items of a completion, and the place for which they are offered."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from checker.rule import Context
 
 
 class CompletionKind(StrEnum):
-    """What is offered."""
+    """Kind of a completion item."""
 
     ELEMENT = "element"
     ATTRIBUTE = "attribute"
@@ -161,7 +161,7 @@ class Request(Record, eq=False, dict=True):
 
     @cached_property
     def enclosing_place(self) -> Place:
-        """Where the innermost element around the caret stands."""
+        """Place of the innermost element around the caret."""
         return place_of(self.xml.tags, refers=self.refers)
 
     @cached_property
@@ -172,7 +172,7 @@ class Request(Record, eq=False, dict=True):
 
     @property
     def refers(self) -> bool:
-        """Whether the `<gazebo>` tag around the caret refers to a link or joint."""
+        """True if the `<gazebo>` tag around the caret refers to a link or joint."""
         return any(it.tag == "gazebo" and "reference" in it.attributes for it in self.xml.around)
 
     @property
@@ -184,12 +184,12 @@ class Request(Record, eq=False, dict=True):
 
     @property
     def is_xacro(self) -> bool:
-        """Whether xacro reads the file."""
+        """True if xacro reads the file."""
         return "xmlns:xacro" in self.text or self.path.lower().endswith(".xacro")
 
     @cached_property
     def names(self) -> XacroNames:
-        """What xacro files define."""
+        """Names that xacro files define."""
         return xacro_names(self.subject.package, self.path)
 
     @cached_property
@@ -199,7 +199,7 @@ class Request(Record, eq=False, dict=True):
 
     @cached_property
     def plugin_facts(self) -> PluginFacts | None:
-        """What is known of that plugin."""
+        """Facts about that plugin; None if it is not known."""
         stated = self.plugin.attributes if self.plugin is not None else {}
         return plugin_facts(stated.get("filename", ""), stated.get("name", ""), self.target)
 

@@ -8,7 +8,7 @@ from checker.formats.sdf.schema import ElementType
 
 _INDENT = "  "
 _NO_VALUE = "__"
-"""How defaults begin that no file states, such as `__default_topic__`."""
+"""Beginning of defaults that no file states, such as `__default_topic__`."""
 
 
 class Snippet:

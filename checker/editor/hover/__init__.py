@@ -1,1 +1,1 @@
-"""What an editor shows of the thing under the pointer, as Markdown."""
+"""Hover texts: information about the thing under the pointer, as Markdown."""

@@ -1,4 +1,4 @@
-"""What a hover says of an element or attribute by the tables of SDF and URDF."""
+"""Hover text of an element or attribute, from the tables of SDF and URDF."""
 
 from __future__ import annotations
 

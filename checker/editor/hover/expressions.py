@@ -1,4 +1,4 @@
-"""What a hover says of xacro: macros, properties, arguments, and what an expression comes to."""
+"""Hover text of macros, properties and arguments of xacro, and of the value of an expression."""
 
 from __future__ import annotations
 

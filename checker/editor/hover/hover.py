@@ -1,4 +1,4 @@
-"""What an editor shows of the thing at an offset of a file."""
+"""Hover text at an offset of a file."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ _FILE_TAGS = ("uri", "albedo_map", "normal_map", "roughness_map", "metalness_map
 
 
 class Hover(Record):
-    """What is shown.
+    """Hover text and the span to which it applies.
 
     Attributes:
         markdown: The text.
-        start: Offset of the thing that it is about.
+        start: Offset of the thing under the pointer.
         end: Offset behind it.
     """
 
@@ -75,7 +75,7 @@ def hover_at(
 
 
 class _Search:
-    """What is known of one thing, the most important first."""
+    """Candidates for the hover text of one thing, the most important first."""
 
     def __init__(self, subject: Subject, path: str, pointed: Pointed, target: Context) -> None:
         self.subject, self.path, self.pointed, self.target = subject, path, pointed, target

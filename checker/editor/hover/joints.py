@@ -1,4 +1,4 @@
-"""What a hover says of a joint: its ends, its axes with their limits, and what moves it."""
+"""Hover text of a joint: its links, its axes with their limits, and the plugins that move it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a hover says of a link: mass, inertia, its place in the robot, what hangs on it."""
+"""Hover text of a link: mass, inertia, its place in the robot, its joints, visuals and sensors."""
 
 from __future__ import annotations
 

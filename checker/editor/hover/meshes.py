@@ -1,4 +1,4 @@
-"""What a hover says of a file that a URI names: of a mesh, its size and its triangles."""
+"""Hover text of the file that a URI names; of a mesh, its size and its triangles."""
 
 from __future__ import annotations
 

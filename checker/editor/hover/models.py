@@ -1,4 +1,4 @@
-"""What a hover says of a robot, a nested model and a frame."""
+"""Hover text of a robot, a nested model and a frame."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a hover says of a plugin and its parameters."""
+"""Hover text of a plugin and its parameters."""
 
 from __future__ import annotations
 

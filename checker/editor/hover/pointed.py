@@ -1,4 +1,4 @@
-"""What of a well-formed document stands at an offset: a tag, an attribute, a text."""
+"""Tag, attribute or text at an offset of a well-formed document."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from checker.source.xml import Element, XmlDocument
 
 
 class Pointed(Record, eq=False):
-    """What the pointer is on.
+    """Part of a document under the pointer.
 
     Attributes:
         element: The element that it belongs to.

@@ -1,4 +1,4 @@
-"""What a hover says of a sensor: the device that it represents, its rate, what it measures."""
+"""Hover text of a sensor: the device that it represents, its rate, what it measures."""
 
 from __future__ import annotations
 

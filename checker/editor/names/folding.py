@@ -25,7 +25,7 @@ LIMIT = 50_000
 
 
 class FoldKind(StrEnum):
-    """What is folded."""
+    """Kind of thing that is folded."""
 
     ELEMENT = "element"
     COMMENT = "comment"

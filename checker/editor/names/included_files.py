@@ -1,4 +1,4 @@
-"""Which files share names: those that include each other, and the robot that they describe."""
+"""Files that share names: those that include each other, and the robot that they describe."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def included_path(package: Package, path: str, included: Included) -> str | None
 
 
 def is_computed(included: Included) -> bool:
-    """Whether an expression says which file is included."""
+    """Return whether the name of the included file is an expression."""
     return _COMPUTED.search(_FIND.sub("", included.uri)) is not None
 
 
@@ -72,7 +72,7 @@ def _model_named(package: Package, uri: str) -> str | None:
 
 
 class Scopes(Record):
-    """What the things of each file belong to.
+    """Owners of the things of each file.
 
     Attributes:
         robots: The owners of links, joints, frames, sensors and models, by path.

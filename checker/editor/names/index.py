@@ -166,7 +166,7 @@ class NameIndex(Record, eq=False, dict=True):
 
 
 def _names_package(sibling: Package, package: Package) -> bool:
-    """Whether any file of a package that holds names has the name of another package in it."""
+    """Return whether any file of a package with names contains the name of another package."""
     wanted = {package.root.name, package.declared_name}
     files = [it.path for it in sibling.index.files if holds_names(it.path, it.size)]
     texts = (sibling.read(path) for path in files)

@@ -9,7 +9,7 @@ from checker.source.text import SourceText
 
 
 class NameKind(StrEnum):
-    """What a name names."""
+    """Kind of thing that a name represents."""
 
     MODEL = "model"
     LINK = "link"
@@ -23,13 +23,13 @@ class NameKind(StrEnum):
 
 
 PARTS = (NameKind.LINK, NameKind.FRAME, NameKind.MODEL, NameKind.JOINT)
-"""What may be used where SDFormat expects a frame."""
+"""Kinds of parts that are allowed where SDFormat expects a frame."""
 FRAMES = (NameKind.LINK, NameKind.FRAME)
-"""What transforms of ROS connect."""
+"""Kinds of parts that transforms of ROS connect."""
 MODEL_ONLY, LINK_ONLY, JOINT_ONLY = (NameKind.MODEL,), (NameKind.LINK,), (NameKind.JOINT,)
 SENSOR_ONLY, TOPIC_ONLY = (NameKind.SENSOR,), (NameKind.TOPIC,)
 ANY_PART = (NameKind.JOINT, NameKind.LINK, NameKind.FRAME)
-"""What a text may name that has no description."""
+"""Kinds of parts that a text without a description may name."""
 
 
 class Mention(Record):
@@ -56,7 +56,7 @@ class Mention(Record):
 
 
 class Role(StrEnum):
-    """How sure it is that a written name names something.
+    """Certainty that a written name is the name of something.
 
     `DEFINES`: it makes the thing. `STATES`: it names a thing, and makes a frame where there is
     none. `NAMES`: it names a thing, which may be missing. `MAY_NAME`: it names a thing if there is

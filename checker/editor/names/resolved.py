@@ -1,4 +1,4 @@
-"""What the names of all files mention: each is looked up where its file says it may be."""
+"""Things that the names of all files mention; each is looked up in the scopes of its file."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class ComposedDefinition(Record):
     values: frozenset[str]
 
     def may_be(self, name: str) -> bool:
-        """Whether the thing may have a name."""
+        """Return whether the thing may have a name."""
         return may_come_to(self.mention.name, name, self.values)
 
 

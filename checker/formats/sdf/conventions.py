@@ -1,4 +1,4 @@
-"""What SDF states, and what it leaves to others."""
+"""Conventions of SDF: the facts that the format states."""
 
 from __future__ import annotations
 

@@ -153,7 +153,7 @@ _READERS: Mapping[str, _Reader] = {
 
 
 FALLBACK = (1, 6)
-"""What a file without a readable version is read as."""
+"""Version that is assumed for a file without a readable version."""
 
 _VERSION = re.compile(r"\s*(\d{1,4})\.(\d{1,4})\s*", re.ASCII)
 

@@ -44,7 +44,7 @@ def world_frame_faults(document: XmlDocument) -> Iterator[Fault]:
 
 
 class _Scopes:
-    """What worlds and models hold by name; each is looked through once."""
+    """Names in worlds and models; each is read once."""
 
     def __init__(self) -> None:
         self._named: dict[Element, dict[str, Element]] = {}
@@ -58,7 +58,7 @@ class _Scopes:
         return self._named[holder]
 
     def exists(self, holder: Element, path: str) -> bool:
-        """Whether a world or model holds a frame, or may get it from an include."""
+        """Return whether a world or model contains a frame, or may get it from an include."""
         at: Element | None = holder
         for name in path.split("::"):
             if at is None or at.tag not in _HOLDERS:

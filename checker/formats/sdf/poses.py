@@ -16,7 +16,7 @@ class _HasAttributes(Protocol):
 
 
 def in_degrees(pose: _HasAttributes) -> bool:
-    """Whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
+    """Return whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
     return pose.get("degrees") in ("true", "1")
 
 

@@ -216,7 +216,7 @@ class _Collected:
 
 
 def _merges(include: Element) -> bool:
-    """Whether an include gives its parts to the model around it, as SDF 1.9 and later allow."""
+    """Return whether an include merges its parts into the model around it, as from SDF 1.9 on."""
     return (include.get("merge") or "").lower() in ("true", "1")
 
 

@@ -15,12 +15,12 @@ from checker.base.resources import table
 from checker.source.xml import Element
 
 NO_DEFAULT = "__default__"
-"""What the tables hold where the file has to say something."""
+"""Mark in the tables for a value without default, which the file has to state."""
 VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
 
 
 class ElementType(Record, dict=True):
-    """What the specification says of one element at one place.
+    """Specification of one element at one place.
 
     Attributes:
         name: The tag.
@@ -38,7 +38,7 @@ class ElementType(Record, dict=True):
 
     @property
     def free(self) -> bool:
-        """Whether anything may stand inside (plugins)."""
+        """True if any element is allowed inside (plugins)."""
         return bool(self.description.get("free"))
 
     @cached_property
@@ -53,7 +53,7 @@ class ElementType(Record, dict=True):
 
     @property
     def default(self) -> str | None:
-        """What counts when the element is not there; None when the table gives nothing."""
+        """Value that counts if the element is missing; None if the table has no default."""
         default = self.description.get("default")
         return None if default in (None, NO_DEFAULT) else str(default)
 

@@ -22,12 +22,12 @@ contact parameters reads `<collide_bitmask>` alone.
 
 
 def is_unread(tag: str, release: str) -> bool:
-    """Whether nothing in a release of Gazebo reads an element of this name."""
+    """Return whether nothing in a release of Gazebo reads an element of this name."""
     return release not in READ_EVERYTHING and tag in UNREAD
 
 
 def is_appearance(element: Element) -> bool:
-    """Whether an element only says what a part looks like."""
+    """Return whether an element is only about the appearance of a part."""
     at: Element | None = element
     while at is not None:
         if at.tag == "material":

@@ -1,4 +1,4 @@
-"""What URDF states, and what it leaves to others."""
+"""Conventions of URDF: the facts that the format states."""
 
 from __future__ import annotations
 

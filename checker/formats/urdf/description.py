@@ -1,4 +1,4 @@
-"""What a URDF file says beside links and joints: transmissions and `<gazebo>` tags."""
+"""Content of a URDF file besides links and joints: transmissions and `<gazebo>` tags."""
 
 from __future__ import annotations
 

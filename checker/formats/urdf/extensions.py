@@ -13,7 +13,7 @@ OF_LINKS = frozenset(
         *("turnGravityOff", "visual", "collision"),
     }
 )
-"""What a `<gazebo>` tag with the name of a link may say."""
+"""Elements that a `<gazebo>` tag with the name of a link may contain."""
 OF_JOINTS = frozenset(
     {
         *("cfmDamping", "disableFixedJointLumping", "fudgeFactor", "implicitSpringDamper"),
@@ -21,7 +21,7 @@ OF_JOINTS = frozenset(
         *("springStiffness", "stopCfm", "stopErp"),
     }
 )
-"""What a `<gazebo>` tag with the name of a joint may say."""
+"""Elements that a `<gazebo>` tag with the name of a joint may contain."""
 _TRUE = ("1", "true")
 
 

@@ -1,4 +1,4 @@
-"""What Gazebo Classic does to fixed joints: it merges the links that they tie into one."""
+"""Fixed joints in Gazebo Classic, which merges the links that they connect into one."""
 
 from __future__ import annotations
 

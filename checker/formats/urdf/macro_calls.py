@@ -55,12 +55,12 @@ class MacroCall(Record, eq=False):
 
     @property
     def added(self) -> dict[str, str | int]:
-        """What is added to the file before it is expanded."""
+        """Text that is added to the file before it is expanded, and where."""
         return {"text": self.text, "number": self.number, "name": self.name}
 
     @property
     def text(self) -> str:
-        """What a robot's file would hold: the link that it hangs on, and the call."""
+        """Content of a robot file that calls the macro: the parent link and the call."""
         link = f'<link name="{WORLD}"/>' if WORLD in self.arguments.values() else ""
         blocks = '<origin xyz="0 0 0" rpy="0 0 0"/>' * len(self.blocks)
         call = f"{self.start_tag}{blocks}</xacro:{self.name}>"

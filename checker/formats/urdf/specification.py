@@ -23,7 +23,7 @@ _WITHOUT_AXIS = ("fixed", "floating")
 
 
 class AttributeSpec(Record):
-    """What an attribute holds.
+    """Specification of an attribute.
 
     Attributes:
         numbers: The count of numbers; 0 for a text.
@@ -164,7 +164,7 @@ def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
 
 
 def _changes_nothing(part: Element) -> bool:
-    """Whether an element says what holds without it."""
+    """Return whether an element has the same effect as without it."""
     if part.tag == "origin":
         numbers = f"{part.get('xyz') or ''} {part.get('rpy') or ''}".split()
         return all(parse_number(number) == 0 for number in numbers)

@@ -17,11 +17,11 @@ _BLANKS = " \t\r\n"
 
 
 class ExpandedText(SourceText, dict=True, kw_only=True):
-    """What xacro made of a file: offsets and lines count in it, places are in what was written.
+    """Text that xacro makes of a file: offsets and lines count in it, places are in the source.
 
     Attributes:
         plain: The text as a document without places.
-        answer: The child's answer: for each element the one that it is a copy of.
+        answer: The child's answer: the original of each copied element.
         gathered: The texts that were given to the child.
         written: The file that was expanded.
     """
@@ -56,7 +56,7 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         return tuple(document for document in read if document is not None)
 
     def states_path(self, uri: str) -> bool:
-        """Whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
+        """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
         path = f"file://{ROOT}/{uri.removeprefix('package://')}"
         return any(f"{path}{end}" in str(self.answer["xml"]) for end in ('"', "<"))
 

@@ -61,7 +61,7 @@ MEMORY = 500_000_000
 _LIMITS = Limits(SECONDS_FOR_ALL, MEMORY)
 _WORKER = f"{__package__}.worker"
 _ROUNDS = 6
-"""How often the child may request a file whose name is computed."""
+"""Greatest number of requests of the child for files whose names are computed."""
 
 
 class Wanted(Record):

@@ -1,4 +1,4 @@
-"""Why xacro files do not expand."""
+"""Reasons why xacro files do not expand."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from checker.source.text import Span
 
 
 class XacroFaultKind(enum.StrEnum):
-    """Why there is no robot to be had from a file.
+    """Kind of the fault for which a file gives no robot.
 
-    `EMPTY`: it holds nothing. `MALFORMED`: it is no well-formed XML. `EXPANSION`: xacro refuses it.
+    `EMPTY`: it is empty. `MALFORMED`: it is not well-formed XML. `EXPANSION`: xacro refuses it.
     `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that is not
     given. `RECURSION`: a macro or a file uses itself. `LIMIT`: expanding it takes more than is
     """
@@ -26,7 +26,7 @@ class XacroFaultKind(enum.StrEnum):
 
 
 class XacroFault(Record, eq=False):
-    """Why and where a file does not expand.
+    """Fault for which a file does not expand, with its place.
 
     Attributes:
         kind: What sort of fault it is.

@@ -103,7 +103,7 @@ class Gathered:
 
     @property
     def request(self) -> dict[str, Any]:
-        """What the child receives about the files."""
+        """Description of the files for the child process."""
         texts = {
             path: source.text for path, source in self.sources.items() if path not in self.faults
         }

@@ -1,7 +1,8 @@
-"""What xacro 1.13 of ROS Melodic, which runs on Python 2, does otherwise than the newer releases.
+"""Differences of xacro 1.13 of ROS Melodic, which runs on Python 2, from newer releases.
 
-Expressions find all of Python's functions, and `map`, `filter`, `range` and `zip` make lists. A
-macro that is defined while another one is expanded is known everywhere. Tags need no prefix.
+All functions of Python are available in expressions, and `map`, `filter`, `range` and `zip` make
+lists. A macro that is defined while another one is expanded is known everywhere. Tags need no
+prefix.
 """
 
 from __future__ import annotations

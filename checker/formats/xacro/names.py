@@ -36,7 +36,7 @@ class MacroParameter(Record):
 
     @property
     def requirement(self) -> str:
-        """What a call may leave out, or has to give."""
+        """Optional and required arguments of a call."""
         if self.block:
             return "an element inside the call"
         if self.default is None:

@@ -395,4 +395,4 @@ _OF_EVAL = functions(
         ("optenv", lambda _, name, default="": _default_of(name, default)),
     ]
 )
-"""What `$(eval …)` may call besides."""
+"""Further functions that `$(eval …)` may call."""

@@ -127,7 +127,7 @@ class _Walk:
                 yield from self._called(element.tag.removeprefix("xacro:"), met)
 
     def _clash(self, name: str, own: Setting, other: Setting) -> bool:
-        """Whether a value is another one that neither file knows of, and both need their own."""
+        """Return whether a value differs from that of another file, and both need their own."""
         related = other.file in self._around[own.file] or own.file in self._around[other.file]
         written = "$" not in own.value.value + other.value.value
         differ = own.value.value.strip() != other.value.value.strip()

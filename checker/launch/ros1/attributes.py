@@ -23,12 +23,12 @@ _LEFT_OUTSIDE = re.compile(
 
 
 class LaunchTag(Record):
-    """What roslaunch knows of one tag.
+    """Attributes and children that roslaunch knows for one tag.
 
     Attributes:
         attributes: Names of its attributes, conditions among them.
         required: The attributes without which roslaunch stops.
-        children: Tags that may stand inside.
+        children: Tags that may be inside.
     """
 
     attributes: frozenset[str]
@@ -133,7 +133,7 @@ class Reader:
         return default if text is None else text.value
 
     def is_enabled(self, element: Element, scope: Scope) -> bool:
-        """Whether `if` and `unless` let an element count; what is not known does not."""
+        """Return whether `if` and `unless` enable an element; unknown values disable it."""
         for attribute, wanted in (("if", True), ("unless", False)):
             condition = self.text(element, attribute, scope)
             if condition is None:

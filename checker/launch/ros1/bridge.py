@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Direction(enum.StrEnum):
-    """Which way messages go."""
+    """Direction of a bridge."""
 
     TO_ROS = "to_ros"
     TO_IGN = "to_ign"
@@ -28,7 +28,7 @@ class Direction(enum.StrEnum):
 
 
 class BridgeKind(enum.StrEnum):
-    """Which program bridges."""
+    """Program of a bridge."""
 
     PARAMETER = "parameter"
     IMAGE = "image"

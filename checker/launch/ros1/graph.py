@@ -1,7 +1,7 @@
-"""What a launch file starts: nodes, remaps, parameters, and what could not be followed.
+"""Launch graph of a launch file: nodes, remaps, parameters, and the parts that are not known.
 
-Texts hold what roslaunch would put there. What depends on the machine that launches (`$(env X)`,
-`$(find p)`, `$(anon x)`) is kept as written, so a text that still holds `$(` is not known.
+Texts contain the values of roslaunch. What depends on the machine that launches (`$(env X)`,
+`$(find p)`, `$(anon x)`) is kept as written, so a text with `$(` is not known.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ def apply_remaps(
 _SIMULATOR = "gazebo_ros"
 """Package whose launch files start Gazebo Classic, and bridge nothing."""
 _DESCRIPTION = "description.launch"
-"""What loads `robot_description` in every submission, and passes no topic."""
+"""File that loads `robot_description` in every submission, and passes no topic."""
 
 
 class LaunchFaultKind(enum.Enum):
-    """What sort of fault is in a launch file."""
+    """Kind of a fault in a launch file."""
 
     UNDECLARED_ARG = "an arg is used but not declared"
     MISSING_ARG = "a required arg is not given"
@@ -240,7 +240,7 @@ class LaunchGraph(Record, eq=False, dict=True):
 
     @cached_property
     def unseen_bridges(self) -> tuple[str, ...]:
-        """Why topics may be passed that `bridges` and `dormant_bridges` do not hold."""
+        """Reasons why topics may be passed that `bridges` and `dormant_bridges` do not contain."""
         assumed = set(self.assumed_includes)
         missing = (
             include

@@ -22,7 +22,7 @@ from checker.source.text import Span
 from checker.source.xml import XmlDocument
 
 USUAL_FILES = ("launch/description.launch", "launch/vehicle_topics.launch")
-"""What a spawner ought to start; read with sample arguments when it does not."""
+"""Launch files that a spawner usually starts; read with sample arguments if it does not."""
 
 WITHOUT_ROBOT = frozenset({"gazebo_ros"})
 """Packages whose launch files start the simulator with a world, and nothing of a robot."""
@@ -30,7 +30,7 @@ WITHOUT_ROBOT = frozenset({"gazebo_ros"})
 SAMPLE_ARGUMENTS: Mapping[str, str] = MappingProxyType(
     dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
 )
-"""What a launcher gives to every launch file."""
+"""Arguments that a launcher passes to every launch file."""
 
 
 def launch_graph(
@@ -187,7 +187,7 @@ class LaunchEntry(Record, eq=False):
 
 
 class LaunchEntries(Record, eq=False):
-    """What a package can be started with.
+    """Launch files with which a package can be started.
 
     Attributes:
         entries: The entries in the order of their paths.

@@ -1,4 +1,4 @@
-"""What is in force at one point of a launch file: args, namespace, remaps."""
+"""Scope at one point of a launch file: args, namespace, remaps."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class LaunchFile(Record, eq=False):
 
     @property
     def directory(self) -> str:
-        """What `$(dirname)` represents: `./` and the folder, from the package folder on."""
+        """Value of `$(dirname)`: `./` and the folder, relative to the package folder."""
         return HERE + posixpath.dirname(self.name)
 
 
@@ -58,7 +58,7 @@ def args_of(file: LaunchFile) -> ChainMap[str, str]:
 
 @dataclass(eq=False)
 class Scope:
-    """What is in force inside one group, file or node.
+    """Scope inside one group, file or node.
 
     Attributes:
         file: The file being expanded.
@@ -89,7 +89,7 @@ class Scope:
         return Scope(file, args_of(file), self.namespace, self.remaps, self.depth)
 
     def declares(self, name: str) -> bool:
-        """Whether an arg is declared here or around; one that is only given is not."""
+        """Return whether an arg is declared here or around; one that is only given is not."""
         return any(name in declared for declared in self.args.maps[:-1])
 
     def remaps_with(self, own: list[Remap]) -> tuple[Remap, ...]:

@@ -114,7 +114,7 @@ _EVAL = "$(eval "
 
 
 class SubstitutionFault(Record):
-    """What is wrong with `text[start:end]`."""
+    """Fault in `text[start:end]`."""
 
     kind: LaunchFaultKind
     start: int
@@ -130,7 +130,7 @@ class Substituted(Record):
 
 
 def is_known(text: str) -> bool:
-    """Whether nothing in a substituted text is left to the launching machine."""
+    """Return whether a substituted text does not depend on the machine that launches."""
     return "$(" not in text
 
 

@@ -1,1 +1,1 @@
-"""What ROS 2 launch files start, in Python, XML and YAML; they are read and never run."""
+"""Launch graphs of ROS 2 launch files in Python, XML and YAML, which are read and never run."""

@@ -46,7 +46,7 @@ SUBSTITUTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "ReplaceString": ("source_file", "replacements"),
     }
 )
-"""What a text may be made of."""
+"""Substitutions that a text may contain."""
 
 ACTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -92,7 +92,7 @@ ACTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "GzServer": (),
     }
 )
-"""What a launch description is made of."""
+"""Actions that a launch description may contain."""
 
 OTHERS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {

@@ -1,4 +1,4 @@
-"""What is in force while launch actions are visited: arguments, namespace, parameters, remaps."""
+"""State while launch actions are visited: arguments, namespace, parameters, remaps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Evaluate = Callable[[str, Span], Value]
 
 @dataclass(eq=False)
 class State:
-    """What actions set for those after them, until the scoped group around them ends.
+    """State that actions set for those after them, until the scoped group around them ends.
 
     Attributes:
         configurations: Values of arguments by name.
@@ -43,15 +43,15 @@ class State:
 
 @dataclass(eq=False)
 class Context:
-    """Where an action stands.
+    """Context of an action.
 
     Attributes:
         source: The launch file.
         path: The file as it is installed, see `share_path`.
-        allowance: What the launch may still take.
+        allowance: The remaining resources of the launch.
         report: Takes faults.
         evaluate: Evaluates an expression of Python.
-        state: What is in force.
+        state: The state that applies.
         conditions: The conditions around the action.
         after: Whether an event or a timer starts it.
         used: Names of arguments that were read.
@@ -73,7 +73,7 @@ class Context:
 
     @property
     def certain(self) -> bool:
-        """Whether all conditions around the action hold."""
+        """True if all conditions around the action hold."""
         return all(condition.holds is True for condition in self.conditions)
 
     def fault(self, kind: LaunchFaultKind, span: Span, message: str, name: str = "") -> None:

@@ -1,4 +1,4 @@
-"""Which robots ROS 2 launch files load: the files, and the arguments that xacro is given."""
+"""Robots that ROS 2 launch files load: the files, and the arguments that xacro is given."""
 
 from __future__ import annotations
 

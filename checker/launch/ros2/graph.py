@@ -24,7 +24,7 @@ SHARE = ROOT
 
 
 def is_known(text: str) -> bool:
-    """Whether nothing in a text is left to the machine that launches."""
+    """Return whether a text does not depend on the machine that launches."""
     return "$(" not in text
 
 
@@ -73,7 +73,7 @@ def display_path(text: str) -> str:
 
 
 class LaunchFaultKind(enum.Enum):
-    """What sort of fault is in a launch file."""
+    """Kind of a fault in a launch file."""
 
     SYNTAX = "the file cannot be parsed"
     NO_DESCRIPTION = "the file describes no launch"
@@ -193,7 +193,7 @@ Parameters = tuple[Parameter | ParameterFile, ...]
 
 
 class NodeKind(enum.StrEnum):
-    """What sort of node it is."""
+    """Kind of a node."""
 
     NODE = "node"
     LIFECYCLE = "lifecycle node"
@@ -203,7 +203,7 @@ class NodeKind(enum.StrEnum):
 
 
 class Started(Record, eq=False, kw_only=True):
-    """What stands around an action that starts something.
+    """Conditions and place of an action that starts something.
 
     Attributes:
         conditions: Its own and those around it.
@@ -224,7 +224,7 @@ class Started(Record, eq=False, kw_only=True):
 
     @property
     def starts(self) -> bool | None:
-        """Whether it counts with the defaults of all arguments; None when that is not known."""
+        """True if it counts with the defaults of all arguments; None if that is not known."""
         if any(condition.holds is False for condition in self.conditions):
             return False
         unsure = not self.certain or any(c.holds is None for c in self.conditions)
@@ -301,7 +301,7 @@ class Include(Started, eq=False, kw_only=True):
 
     @property
     def is_unknown(self) -> bool:
-        """Whether the file is not read, and not known either."""
+        """True if the file was not read, and is unknown."""
         return bool(self.reason) and self.accepts is None
 
 

@@ -105,7 +105,7 @@ def _paths(text: str, span: Span, *, needed: bool, include: bool = False) -> Ite
 
 
 def is_missing(package: Package, path: SharePath) -> bool:
-    """Whether a available package has no such file, and does not make it either.
+    """Return whether an available package neither has nor makes such a file.
 
     Args:
         package: The package being checked.

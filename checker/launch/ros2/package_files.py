@@ -53,7 +53,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
 
 
 def exists(package: Package, path: str) -> bool | None:
-    """Whether there is a file or folder at a path; None when unknown."""
+    """Return whether there is a file or folder at a path; None when unknown."""
     target = share_path(path)
     if target is None or not is_known(path) or holder_of(package, target.package) is None:
         return None
@@ -75,5 +75,5 @@ def installed_path(package: Package, file: str) -> str:
 
 
 def installs(package: Package, target: SharePath) -> bool:
-    """Whether a package installs what is at a path of its share folder."""
+    """Return whether a package installs what is at a path of its share folder."""
     return source_of(package, target.path) is not None

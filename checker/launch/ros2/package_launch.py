@@ -105,7 +105,7 @@ def _holds(package: Package, path: str, pattern: re.Pattern[str]) -> bool:
 
 
 def is_ros2_xml(package: Package, path: str) -> bool:
-    """Whether an XML file is a launch file of ROS 2, and none of ROS 1."""
+    """Return whether an XML file is a launch file of ROS 2, not of ROS 1."""
     source = package.read(path)
     if not isinstance(source, SourceText) or "<launch" not in source.text:
         return False
@@ -119,7 +119,7 @@ def is_ros2_xml(package: Package, path: str) -> bool:
 
 
 def built_by_ament(package: Package) -> bool:
-    """Whether package.xml says that the package is one of ROS 2."""
+    """Return whether package.xml states that the package is one of ROS 2."""
     return _holds(package, "package.xml", _BUILT_BY_AMENT)
 
 

@@ -190,7 +190,7 @@ class LaunchReader:
         return package_files.read_file(self._package, path)
 
     def exists(self, path: str) -> bool | None:
-        """Whether there is a file or folder; None when unknown."""
+        """Return whether there is a file or folder; None when unknown."""
         return package_files.exists(self._package, path)
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:

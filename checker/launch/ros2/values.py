@@ -1,4 +1,4 @@
-"""What launch files work with: texts that know their place, substitutions, actions, and unknowns.
+"""Values in launch files: texts with their place, substitutions, actions, and unknowns.
 
 Besides these, values are Python's own: numbers, truth values, None, lists, tuples, dictionaries.
 """
@@ -115,7 +115,7 @@ class Unknown(Record, eq=False):
 
 
 class Symbol(Record):
-    """What an import names, by its dotted path: `launch.actions.Node`."""
+    """Imported name, as its dotted path: `launch.actions.Node`."""
 
     path: str
 
@@ -137,7 +137,7 @@ class FilePath(Record):
 
 
 class OpenFile(Record):
-    """What `open` returns."""
+    """Result of `open`."""
 
     path: str
 
@@ -169,7 +169,7 @@ class Guarded(Record, eq=False):
 
     @property
     def holds(self) -> bool | None:
-        """Whether it is there with the defaults; None when that is not known."""
+        """True if it is there with the defaults; None if that is not known."""
         states = [condition.holds for condition in self.conditions]
         if any(state is False for state in states):
             return False

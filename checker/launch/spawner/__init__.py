@@ -1,1 +1,1 @@
-"""What a robot's `launch/spawner.rb` emits, found without running Ruby."""
+"""XML that a robot's `launch/spawner.rb` emits, found without running Ruby."""

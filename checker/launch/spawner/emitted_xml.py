@@ -1,4 +1,4 @@
-"""What a package's spawner emits, as XML whose places are lines of Ruby."""
+"""XML that a package's spawner emits, with places in the lines of Ruby."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class WorkspaceFiles(Record):
         return text
 
     def exists(self, path: str) -> bool:
-        """Whether there is a file or folder of this path."""
+        """Return whether there is a file or folder of this path."""
         return self.package.exists(self._local(path))
 
     def package_folder(self, name: str) -> str | None:
@@ -55,11 +55,11 @@ class WorkspaceFiles(Record):
 
 
 class EmittedXml(Record, eq=False):
-    """What a function of the spawner emits, as XML.
+    """XML that a function of the spawner emits.
 
     Attributes:
-        text: The text, which knows its Ruby.
-        document: The same as XML; its elements stand below `emitted`.
+        text: The text, with its places in the Ruby file.
+        document: The same as XML; its elements are below `emitted`.
     """
 
     text: EmittedText
@@ -77,7 +77,7 @@ class EmittedXml(Record, eq=False):
 
 
 class SpawnedXml(EmittedXml, dict=True):
-    """What `spawner` emits: the robot and the plugins that it gets."""
+    """XML that `spawner` emits: the robot and the plugins that it gets."""
 
     @cached_property
     def spawns(self) -> list[Element]:
@@ -118,7 +118,7 @@ def models_of(spawn: Element) -> list[Element]:
 
 
 class StartedXml(EmittedXml, dict=True):
-    """What `rosExecutables` emits: the commands that start the robot's ROS nodes."""
+    """XML that `rosExecutables` emits: the commands that start the robot's ROS nodes."""
 
     @cached_property
     def commands(self) -> list[Element]:

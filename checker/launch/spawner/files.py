@@ -34,7 +34,7 @@ class SpawnerFiles(Protocol):
         ...
 
     def exists(self, path: str) -> bool:
-        """Whether there is a file or folder of this path, text or not."""
+        """Return whether there is a file or folder of this path, text or not."""
         ...
 
     def package_folder(self, name: str) -> str | None:

@@ -25,7 +25,7 @@ class TracedString(Record, eq=False, dict=True):
 
     @cached_property
     def parameters(self) -> frozenset[str]:
-        """What influenced any piece."""
+        """Parameters that influenced any piece."""
         return NO_PARAMETERS.union(*(piece.parameters for piece in self.pieces))
 
     def cut(self, start: int, end: int) -> TracedString:
@@ -79,7 +79,7 @@ def computed_string(text: str, span: Span | None, parameters: frozenset[str]) ->
 Range = tuple[int, int]
 
 DOUBLE_QUOTED = re.compile(r"\r\n|\\(?:\r\n|.)", re.DOTALL)
-"""What represents something else in a literal in which escapes count."""
+"""Sequences with a special meaning in a literal in which escapes count."""
 RAW = re.compile(r"\r\n")
 """The same in a literal without any escapes, such as a heredoc of `<<'XML'`."""
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "s": " ", "\n": "", "\r\n": ""}
@@ -211,7 +211,7 @@ def _lines(
 
 
 def _blank(text: str, indent_end: int, end: int, last: bool) -> bool:
-    """Whether a line holds nothing but blanks; `#{}` behind the indentation is something."""
+    """Return whether a line is blank; `#{}` after the indentation is not blank."""
     rest = text[indent_end:end]
     return rest in {"\n", "\r\n"} or (rest == "" and last)
 

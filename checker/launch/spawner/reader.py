@@ -56,7 +56,7 @@ _HANDLERS: Mapping[str, Handler] = {
     **STATEMENTS,
     **CALLS,
 }
-"""What each type of node means; any other is not read."""
+"""Handlers by type of node; a node of another type is not read."""
 
 
 class Spawner(Record, eq=False):
@@ -90,7 +90,7 @@ class Spawner(Record, eq=False):
         return tuple(self._program.trees.values())
 
     def lacks(self, function: str) -> bool:
-        """Whether the file was understood to its end and defines no such function.
+        """Return whether the file was read to its end and defines no such function.
 
         Args:
             function: `spawner` or `rosExecutables`.

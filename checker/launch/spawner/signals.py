@@ -1,4 +1,4 @@
-"""How an evaluation ends early: what cannot be read, Ruby's errors, and its jumps."""
+"""Exceptions that end an evaluation: unreadable code, Ruby's errors, and its jumps."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class RubyError(Exception):
         self.kind, self.message, self.span = kind, message, span
 
     def is_a(self, wanted: str) -> bool:
-        """Whether Ruby's class of the error is `wanted` or below it."""
+        """Return whether Ruby's class of the error is `wanted` or below it."""
         kind = self.kind
         while kind != wanted:
             if kind not in _PARENTS:

@@ -1,4 +1,4 @@
-"""How Ruby writes values: `to_s`, `inspect`, and the plain directives of `format`."""
+"""Ruby's texts of values: `to_s`, `inspect`, and the plain directives of `format`."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ def _directive(call: Call, match: re.Match[str], waiting: Iterator[Value]) -> st
 
 
 def _on_limit(number: float, kind: str, digits: int) -> bool:
-    """Whether a number lies so close to a rounding limit that Ruby's own rounding decides.
+    """Return whether Ruby's own rounding decides for a number close to a rounding limit.
 
     Ruby finds the digits by doubles, C by the exact value: they differ next to a half.
     """

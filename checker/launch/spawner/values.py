@@ -69,7 +69,7 @@ class RubyRange(Record):
 
     @property
     def count(self) -> int:
-        """How many numbers are in it."""
+        """Count of the numbers in it."""
         return max(0, self.numbers.stop - self.first)
 
     def bounds_in(self, length: int) -> tuple[int, int] | None:
@@ -88,7 +88,7 @@ class Constant(Record):
 
 
 class ErrorValue(Record):
-    """What `rescue => error` gives."""
+    """Error that `rescue => error` assigns."""
 
     kind: str
     message: str
@@ -164,7 +164,7 @@ def class_name(data: Data) -> str:
 
 
 def is_number(value: Value) -> bool:
-    """Whether a value is an integer or a float; true and false are no numbers."""
+    """Return whether a value is an integer or a float; true and false are not numbers."""
     return type(value.data) in {int, float}
 
 

@@ -61,7 +61,7 @@ class Device(Record, eq=False):
         return self.field_sources.get(field, self.source)
 
     def is_from_memory(self, field: str) -> bool:
-        """Whether no figure was compared with a datasheet: it is for information only."""
+        """Return whether no figure was compared with a datasheet: it is for information only."""
         return self.source_of(field).startswith("general knowledge")
 
 
@@ -83,7 +83,7 @@ class SensorDevice(Record, eq=False):
 
     @property
     def names_the_model(self) -> bool:
-        """Whether what names the device leaves no other of its family: some part of the sheet."""
+        """True if the name of the device excludes all others of its family: a part of the sheet."""
         text = self.words.span.source.text if self.from_sheet else self.words.value
         return self.device.model in text
 
@@ -108,7 +108,7 @@ class SensorDevices(Record, eq=False, dict=True):
         return self._by_sensor.get(sensor)
 
     def are_diverted(self, device: Device, figure: str) -> bool:
-        """Whether the sheet says that the model differs from a device in a figure.
+        """Return whether the sheet states that the model differs from a device in a figure.
 
         Args:
             device: Its own name, or the word for its kind, is looked for.

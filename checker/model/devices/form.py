@@ -23,7 +23,7 @@ _CHOICE = re.compile(r"[?|]")
 
 
 def _is_number(value: object) -> bool:
-    """Whether a value is a number; a whole one may have more digits than a float can hold."""
+    """Return whether a value is a number; an integer may have more digits than a float can hold."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return math.isfinite(value) if isinstance(value, float) else abs(value) < 10**15

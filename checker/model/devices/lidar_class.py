@@ -13,7 +13,7 @@ POINT_RAYS = 9
 
 
 class LidarClass(enum.Enum):
-    """How a lidar scans; the value is the kind of such devices."""
+    """Class of a lidar by its kind of scan; the value is the kind of such devices."""
 
     VOLUME = "lidar3d"
     PLANE = "lidar2d"

@@ -43,7 +43,7 @@ _WORDS = {
 
 
 class _Item(Record, eq=False):
-    """What one item of the sheet says of one kind of sensors."""
+    """Entry of the sheet for one kind of sensors."""
 
     listed: ListedSensor
     device: Device | None
@@ -53,7 +53,7 @@ class _Item(Record, eq=False):
 
 
 class _Named(Record, eq=False):
-    """What the model itself says of a sensor."""
+    """Facts that the model itself states about a sensor."""
 
     sensor: Sensor
     device: Device | None
@@ -249,14 +249,14 @@ def _is_seen_with(sensor: Sensor) -> bool:
 
 
 def _may_stand_for(device: Device, named: _Named) -> bool:
-    """Whether a device is one of a sensor's class."""
+    """Return whether a device is one of a sensor's class."""
     return (
         named.sensor.type.value in device.sdf_types and class_of_device(device) is named.lidar_class
     )
 
 
 def _has_other(items: Sequence[_Item], named: _Named) -> bool:
-    """Whether the list names another device for a sensor, also an unknown one."""
+    """Return whether the list names another device for a sensor, even an unknown one."""
     return any(
         _may_be(item, named)
         and item.lidar_class in (None, named.lidar_class)

@@ -1,9 +1,9 @@
-"""How deep two convex shapes are inside each other.
+"""Depth of the overlap of two convex shapes.
 
-The depth is the shortest way that parts them: the least overlap over all directions, where the
-overlap along d is h_A(d) + h_B(−d) and h is the support function. Any direction gives an upper
-bound, so shapes are known to be apart, or nearly so, as soon as one is found; the other answer
-takes a search over the sphere, from the directions in which polyhedra part.
+The depth is the shortest shift that separates them: the least overlap over all directions, where
+the overlap along d is h_A(d) + h_B(−d) and h is the support function. Any direction gives an upper
+bound, so one direction is enough to show that shapes are apart, or nearly so. The other result
+takes a search over the sphere, from the directions in which polyhedra separate.
 """
 
 from __future__ import annotations
@@ -112,12 +112,12 @@ def _length(geometry: Geometry, name: str) -> float:
 
 
 Support = Callable[[Vector], float]
-"""How far a shape reaches in a direction of length 1, metres."""
+"""Function from a direction of length 1 to the extent of a shape in it, metres."""
 
 _AROUND = 96
 """Directions all around that the search starts with: neighbours are 20° apart."""
 _BEST = 6
-"""How many of the first directions are followed downhill."""
+"""Number of the first directions that are followed downhill."""
 _FIRST_STEP = 0.2
 _LAST_STEP = 1e-4
 """Radians; the overlap is then exact to a share of 1e-4 of the shapes' size, at worst."""

@@ -1,4 +1,4 @@
-"""Which parts of a robot that may move against each other start inside each other."""
+"""Parts of a robot that may move relative to each other and overlap at the start."""
 
 from __future__ import annotations
 

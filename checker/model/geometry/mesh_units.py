@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
-"""How many of each unit make a metre."""
+"""Number of each unit in a metre."""
 _METRIC = {unit: UNITS[unit] for unit in ("centimetres", "millimetres")}
-"""What a mesh is scaled from twice; a small placeholder is often 40 times smaller than its link."""
+"""Units of meshes that are scaled twice; not inches, since a placeholder is often 40 times smaller
+than its link."""
 _PLACEHOLDER = 12
 """Triangles of a box: an invisible mesh of no more is a placeholder."""
 
@@ -69,7 +70,7 @@ class MisscaledMesh(Record, eq=False):
 
     @property
     def is_large(self) -> bool:
-        """Whether it is too large; else it is too small: scaled twice."""
+        """True if it is too large; otherwise it is too small: scaled twice."""
         return self.size > self.rest
 
 
@@ -113,7 +114,7 @@ class ScaledMeshes(Record, eq=False, dict=True):
 
     @cached_property
     def _units(self) -> dict[Span, str]:
-        """Where the URIs of meshes of a wrong unit stand, and what they seem to be in."""
+        """Spans of the URIs of meshes in a wrong unit, and the unit that they seem to be in."""
         return {mesh.use.uri.span: mesh.unit for mesh in misscaled_meshes(self.robot)}
 
 

@@ -35,7 +35,7 @@ class Geometry(Record, eq=False, dict=True):
 
     @cached_property
     def has_size(self) -> bool:
-        """Whether all its lengths are above 0; GEO008 reports others."""
+        """True if all its lengths are above 0; GEO008 reports others."""
         lengths = (self.sizes.get(name, ()) for name in LENGTHS)
         return all(length.value > 0.0 for each in lengths for length in each)
 

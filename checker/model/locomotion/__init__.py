@@ -1,1 +1,1 @@
-"""How a robot moves: wheels, tracks, rotors, and the plugins that drive them."""
+"""Locomotion of a robot: wheels, tracks, rotors, and the plugins that drive them."""

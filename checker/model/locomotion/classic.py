@@ -26,7 +26,7 @@ _Named = tuple[Located[str], Side]
 
 
 class ClassicDrive(Record):
-    """How a drive plugin calls its parameters; see `drives` in `gazebo_classic_plugins.json`."""
+    """Names of the parameters of a drive plugin; see `drives` in `gazebo_classic_plugins.json`."""
 
     match: str
     left: tuple[str, ...]

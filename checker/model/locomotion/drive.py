@@ -1,4 +1,4 @@
-"""Which plugin drives a robot, and by which wheels."""
+"""Plugin that drives a robot, and its wheels."""
 
 from __future__ import annotations
 

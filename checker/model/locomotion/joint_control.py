@@ -37,7 +37,7 @@ _MOST = 64
 
 
 class CommandedWheels(Record, eq=False):
-    """What is known of wheels that are turned one by one.
+    """Wheels that are turned one by one.
 
     Attributes:
         drive: The drive that they form; None where that is not certain.

@@ -1,4 +1,4 @@
-"""How a robot moves: the wheels, tracks and rotors of its drive plugins, in SI units."""
+"""Locomotion of a robot: wheels, tracks and rotors of its drive plugins, in SI units."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class DriveKind(enum.StrEnum):
 
 
 class Side(enum.StrEnum):
-    """Which side a plugin says that a wheel or track is on."""
+    """Side of a wheel or track, as its plugin states it."""
 
     LEFT = "left"
     RIGHT = "right"
@@ -50,7 +50,7 @@ class MotionLimits(Record, eq=False):
 
     @property
     def complete(self) -> bool:
-        """Whether all four are stated."""
+        """True if all four are stated."""
         four = (
             self.min_velocity,
             self.max_velocity,
@@ -208,7 +208,7 @@ class Rotor(Record, eq=False):
 
     @property
     def lifts(self) -> bool:
-        """Whether its thrust points up rather than along: not so the propeller of an aeroplane."""
+        """True if its thrust points up rather than forward, as that of an aeroplane's propeller."""
         return self.axis is None or abs(self.axis[2]) >= _UPRIGHT
 
 
@@ -273,7 +273,7 @@ class Locomotion(Record, eq=False):
 
     @property
     def drives(self) -> tuple[WheelDrive, ...]:
-        """What turns wheels, by a plugin for all of them or one by one."""
+        """Drives that turn wheels, by a plugin for all of them or one by one."""
         return self.wheel_drives or ((self.by_joint,) if self.by_joint is not None else ())
 
     @property

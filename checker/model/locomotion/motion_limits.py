@@ -84,7 +84,7 @@ class BoundedMotion(Record, eq=False):
 
     @property
     def name(self) -> str:
-        """How a message calls it: `x linear`."""
+        """Name in messages: `x linear`."""
         return f"{self.axis} {self.kind}"
 
     @property

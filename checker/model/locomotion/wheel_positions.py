@@ -1,4 +1,4 @@
-"""Where wheels are: their distances as drive plugins count on them, and their heights."""
+"""Positions of wheels: their distances as drive plugins use them, and their heights."""
 
 from __future__ import annotations
 

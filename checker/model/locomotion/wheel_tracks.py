@@ -1,4 +1,4 @@
-"""Whether the wheels of one side are in line as those of the other side."""
+"""Alignment of the wheels of one side with those of the other side."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What cameras, lidars and inertial units are set to, in SI units."""
+"""Settings of cameras, lidars and inertial units, in SI units."""

@@ -1,4 +1,4 @@
-"""What a camera is set to: of colours, depth or heat."""
+"""Settings of a camera: of colours, depth or heat."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from checker.source.xml import Element
 
 
 class Pinhole(Record):
-    """How a pinhole camera projects: focal lengths and principal point, pixels."""
+    """Pinhole projection of a camera: focal lengths and principal point, pixels."""
 
     fx: float
     fy: float
@@ -50,7 +50,7 @@ class Intrinsics(Record, eq=False):
 
     @property
     def are_measured(self) -> bool:
-        """Whether they look calibrated: those computed have a centre on half a pixel."""
+        """True if they look calibrated: computed ones have a centre on half a pixel."""
         return any(math.isfinite(c.value) and 2.0 * c.value % 1.0 for c in (self.cx, self.cy))
 
 
@@ -101,7 +101,7 @@ class Camera(Record, eq=False):
 
     @property
     def pinhole(self) -> Pinhole | None:
-        """How the rendered picture projects, as its size and `horizontal_fov` have it.
+        """Projection of the rendered image, from its size and `horizontal_fov`.
 
         None where no pinhole sees that far around, and for a picture without pixels.
         """

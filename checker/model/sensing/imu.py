@@ -1,4 +1,4 @@
-"""What an inertial measurement unit is set to."""
+"""Settings of an inertial measurement unit."""
 
 from __future__ import annotations
 

@@ -76,7 +76,7 @@ def _spellings(entries: list[dict[str, list[str]]]) -> frozenset[str]:
 
 
 class SensorType(enum.StrEnum):
-    """What a `<sensor>` is. A member's value is its type's newest spelling in SDFormat."""
+    """Type of a `<sensor>`. A member's value is its type's newest spelling in SDFormat."""
 
     CAMERA = "camera"
     WIDE_ANGLE_CAMERA = "wide_angle_camera"
@@ -95,22 +95,22 @@ class SensorType(enum.StrEnum):
 
     @property
     def takes_pictures(self) -> bool:
-        """Whether it renders pictures of pixels, as described by a `<camera>`."""
+        """True if it renders images, as described by a `<camera>`."""
         return self in _PICTURES
 
     @property
     def sees_colours(self) -> bool:
-        """Whether it gives a colour picture."""
+        """True if it renders colour images."""
         return self in (SensorType.CAMERA, SensorType.WIDE_ANGLE_CAMERA, SensorType.RGBD_CAMERA)
 
     @property
     def measures_depth(self) -> bool:
-        """Whether it gives a picture of distances."""
+        """True if it renders images of distances."""
         return self in (SensorType.DEPTH_CAMERA, SensorType.RGBD_CAMERA)
 
     @property
     def is_lidar(self) -> bool:
-        """Whether it measures ranges along rays."""
+        """True if it measures ranges along rays."""
         return self in (SensorType.GPU_LIDAR, SensorType.CPU_LIDAR)
 
 

@@ -1,4 +1,4 @@
-"""What a lidar is set to."""
+"""Settings of a lidar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where sensors are, and where they look."""
+"""Positions of sensors, and the directions in which they look."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class Mounted(Record, eq=False):
 
     @property
     def looking(self) -> Vector | None:
-        """Where the middle of its view points, of length 1.
+        """Direction of the middle of its view, of length 1.
 
-        None for what does not look (an IMU), and for lidars that look to all sides.
+        None for sensors without a view (an IMU), and for lidars that look to all sides.
         """
         if self.sensor.kind.takes_pictures:
             return self.pose.rotate((1.0, 0.0, 0.0))
@@ -99,14 +99,15 @@ _LONGEST = 200
 
 
 class CalledDirections(Record):
-    """What a name says about where a sensor looks.
+    """Direction of a sensor according to a name.
 
     Attributes:
-        word: The first word that says it.
+        word: The first word for a direction.
         source: The source of the word: `name`, `topic` or `link`.
         directions: All that its words allow, of length 1, in the robot's frame.
-        sideways: Whether it speaks of left and right alone, which is also said of a sensor's place.
-        tilted: Whether it speaks of up and down, and not of front or rear: tilts of any size.
+        sideways: Whether the name is only about left and right, which may also mean the sensor's
+            place.
+        tilted: Whether the name is about up and down, and not front or rear: tilts of any size.
     """
 
     word: str

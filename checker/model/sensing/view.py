@@ -1,4 +1,4 @@
-"""How much of a sensor's view the robot itself hides, and of a light's surroundings."""
+"""Share of a sensor's view that the robot itself hides, and of a light's surroundings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Hit(Record, eq=False):
 
 
 class View(Record, eq=False):
-    """What a camera or lidar sees of the robot that carries it, with all joints where they start.
+    """View of a camera or lidar of the robot that carries it, with all joints at their start.
 
     Simulators draw the outer side of a surface only, and only beyond the near clip: a sensor inside
     its housing sees through it. A lidar of type `ray`, which Gazebo Classic alone simulates, meets
@@ -33,7 +33,7 @@ class View(Record, eq=False):
 
     Attributes:
         filled: Rays that end at visuals, or at collisions.
-        cut: Share in which these stand nearer than the near clip, so that they are cut open.
+        cut: Share of these that are nearer than the near clip, so that they are cut open.
         by: The shape that takes most, and its link; None where there is none in view.
     """
 

@@ -1,4 +1,4 @@
-"""What a sheet says of mass, cost and endurance."""
+"""Claims of a sheet about mass, cost and endurance."""
 
 from __future__ import annotations
 

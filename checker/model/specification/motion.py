@@ -24,7 +24,7 @@ from checker.source.text import Span
 
 
 class MotionQuantity(enum.Enum):
-    """What a motion limit bounds, with its SI unit."""
+    """Quantity that a motion limit bounds, with its SI unit."""
 
     LINEAR_VELOCITY = "linear velocity, m/s"
     LINEAR_ACCELERATION = "linear acceleration, m/s²"
@@ -33,7 +33,7 @@ class MotionQuantity(enum.Enum):
 
     @property
     def is_acceleration(self) -> bool:
-        """Whether it is the change of a velocity."""
+        """True if it is the change of a velocity."""
         return self.name.endswith("ACCELERATION")
 
 
@@ -155,7 +155,7 @@ def _dimension(match: re.Match[str]) -> tuple[MotionQuantity, float]:
 
 
 def _contradicts(clause: str, quantity: MotionQuantity) -> bool:
-    """Whether the words say velocity and the unit acceleration, or the other way round."""
+    """Return whether the words mean a velocity and the unit an acceleration, or vice versa."""
     if quantity.is_acceleration:
         return bool(_VELOCITY.search(clause)) and not _ACCELERATION.search(clause)
     return bool(_ACCELERATION.search(clause)) and not _VELOCITY.search(clause)

@@ -11,7 +11,7 @@ from checker.source.text import SourceText, Span
 
 
 class Proven(enum.Enum):
-    """What a measurement proves; the words identify the sentences about it."""
+    """Quality that a measurement proves; the words identify the sentences about it."""
 
     ENDURANCE = r"endurance|batter(?:y|ies)|run(?:ning)?[ -]?times?|drain\w*"
     SPEED = r"speeds?|velocit(?:y|ies)|motion|linear"
@@ -41,7 +41,7 @@ _SHARED = re.compile(
     r"|dropbox\.com|onedrive\.live\.com|1drv\.ms|box\.com)/",
     re.IGNORECASE,
 )
-"""Where teams put videos and logs; manufacturers' pages are elsewhere."""
+"""Sites where teams publish videos and logs; manufacturers' pages are elsewhere."""
 _DATASHEETS = re.compile(r"\b(?:sensors?|specifications?|datasheets?|components?|parts)\b", re.I)
 _WORD = re.compile(r"[^\W\d_]{2}")
 
@@ -73,7 +73,7 @@ _OTHER = re.compile(r"\b(?:mass|weight|acceleration\w*|flippers?)\b", re.IGNOREC
 
 
 def is_left_open(text: str, what: Proven, *, alone: bool) -> bool:
-    """Whether a text says that the test was not made or is still planned.
+    """Return whether a text states that the test was not made or is still planned.
 
     Args:
         text: The text of a section.
@@ -90,7 +90,7 @@ def is_left_open(text: str, what: Proven, *, alone: bool) -> bool:
 
 
 def is_about(link: Span, what: Proven) -> bool:
-    """Whether the line of a link names what it proves, near it."""
+    """Return whether the line of a link names the subject of the test, near the link."""
     text = link.source.text
     before = text[max(0, link.start - _NEAR) : link.start].rpartition("\n")[2]
     behind = text[link.end : link.end + _NEAR].partition("\n")[0]
@@ -105,7 +105,7 @@ def _is_about(sentence: str, what: Proven) -> bool:
 
 
 def _is_about_tests(sentence: str) -> bool:
-    """Whether a sentence is about tests, and of nothing in particular."""
+    """Return whether a sentence is about tests in general."""
     particular = [_TURNING, _OTHER, *_ABOUT.values()]
     return _ABOUT_TESTS.search(sentence) is not None and not any(
         each.search(sentence) for each in particular

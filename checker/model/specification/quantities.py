@@ -29,7 +29,7 @@ _CONFIGURATION = re.compile(
 
 
 class QuantityKind(enum.Enum):
-    """What a number of the sheet measures."""
+    """Quantity of a number in the sheet."""
 
     TOTAL_MASS = "mass of the whole robot, kg"
     MASS = "another mass, or a bound, kg"
@@ -100,7 +100,7 @@ def resolution_of(text: str) -> float:
 
 
 def is_approximate(words_before: str) -> bool:
-    """Whether the words in front of a number make it approximate."""
+    """Return whether the words in front of a number make it approximate."""
     return bool(_APPROXIMATE.search(words_before))
 
 

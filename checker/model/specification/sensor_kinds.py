@@ -1,4 +1,4 @@
-"""Which kind of sensor the words of a sheet mean."""
+"""Kinds of sensors that the words of a sheet mean."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 
 
 class SensorKind(enum.StrEnum):
-    """What a sheet lists below "Sensors"."""
+    """Kind of an entry below "Sensors" in a sheet."""
 
     LIDAR = "lidar"
     PLANAR_LIDAR = "planar_lidar"
@@ -31,7 +31,7 @@ class SensorKind(enum.StrEnum):
 
     @property
     def is_sensor(self) -> bool:
-        """Whether a `<sensor>` or a plugin of its own represents it in the model."""
+        """True if a `<sensor>` or a plugin of its own represents it in the model."""
         return self not in _PAYLOADS
 
 

@@ -61,7 +61,7 @@ class Section(Record, eq=False):
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing but headings stands below it."""
+        """True if nothing but headings is below it."""
         return all(passage.kind is PassageKind.HEADING for passage in self.passages)
 
 
@@ -100,7 +100,7 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def sensors(self) -> tuple[ListedSensor, ...]:
-        """What the list of the section "Sensors" names, sensors and payloads."""
+        """Sensors and payloads in the list of the section "Sensors"."""
         return tuple(listed_sensors(self._passages_of("sensors")))
 
     @cached_property
@@ -127,7 +127,7 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def endurance(self) -> Quantity | None:
-        """How long the model is said to run, in s; None when the sheet is not clear."""
+        """Stated run time of the model, s; None if the sheet is not clear."""
         return endurance(self.durations)
 
     @cached_property
@@ -154,9 +154,9 @@ class Specification(Record, eq=False, dict=True):
         return tuple(islice(links_in_list(self.source, stretch.start, stretch.end), MAX_LINKS))
 
     def proves(self, what: Proven) -> bool:
-        """Whether the sheet links to a measurement, in the section about it or on validation.
+        """Return whether the sheet links to a measurement, in its section or on validation.
 
-        It does not where it says that the test was not made or is still planned.
+        It does not if it states that the test was not made or is still planned.
         """
         validation, about = self.section("validation"), self.section(_SECTIONS[what])
         if about is not None and is_left_open(about.text, what, alone=True):
@@ -187,7 +187,7 @@ class Specification(Record, eq=False, dict=True):
 
     @property
     def unread(self) -> str:
-        """Why its end is not known, as the end of a sentence; empty when all of it is read."""
+        """Reason why its end is not known, as the end of a sentence; empty if all of it is read."""
         if len(self.source.text) <= MAX_LENGTH:
             return ""
         return f"{self.source.file} is read only up to character {MAX_LENGTH:,}"
@@ -198,7 +198,7 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def _ends(self) -> dict[int, int]:
-        """Where each section ends, by the offset of its heading."""
+        """End of each section, by the offset of its heading."""
         ends, by_start = [len(self.source.text)] * 7, {}
         for section in reversed(self.sections):
             start = section.span.start
@@ -207,7 +207,7 @@ class Specification(Record, eq=False, dict=True):
         return by_start
 
     def says_nothing(self, section: Section) -> bool:
-        """Whether there is neither text nor fenced code in a section."""
+        """Return whether a section contains neither text nor fenced code."""
         if not section.is_empty:
             return False
         stretch, fences = self.stretch_of(section), self.markdown.fences

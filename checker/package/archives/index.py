@@ -17,14 +17,14 @@ _MAX_SHOWN = 80
 
 
 class ArchiveLimits(Record):
-    """What an archive may hold.
+    """Limits for the content of an archive.
 
     Attributes:
         entries: Files and folders.
-        paths: These, and the folders on the way to them.
+        paths: These, and their parent folders.
         unpacked_bytes: All files together.
         ratio: Unpacked size over the archive's size.
-        ratio_floor_bytes: Up to this unpacked size any ratio passes: small text packs well.
+        ratio_floor_bytes: Up to this unpacked size any ratio is allowed: small text packs well.
         name_bytes: One part of a path, in UTF-8; file systems end at 255.
         path_bytes: A whole path, in UTF-8.
         depth: Folders within folders.
@@ -82,7 +82,7 @@ class ArchiveIndex:
 
     @property
     def allowed_bytes(self) -> int:
-        """How much all files together may unpack to."""
+        """Greatest size of all files together, unpacked."""
         return self.limits.allowed_bytes(self.packed_bytes)
 
     def add(self, name: str, size: int, *, is_folder: bool) -> Member | None:

@@ -100,7 +100,7 @@ class TarEntry:
 
     @property
     def is_folder(self) -> bool:
-        """Whether it is a folder; old archives say so by a closing slash."""
+        """True if it is a folder; in old archives, its name ends with a slash."""
         return self.kind == _FOLDER or (self.kind == b"\0" and self.name.endswith("/"))
 
     def read(self, size: int = CHUNK, /) -> bytes:

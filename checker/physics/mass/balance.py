@@ -1,4 +1,4 @@
-"""What a robot stands on, and how far it is from tipping over."""
+"""Support of a robot, and the angle at which it tips over."""
 
 from __future__ import annotations
 
@@ -162,12 +162,12 @@ _DOWN: Vector = (0.0, 0.0, -1.0)
 
 
 class Stand(Record):
-    """What a robot stands on.
+    """Contacts of a robot that stands on the ground.
 
     Attributes:
         polygon: Corners (x, y) in the robot's frame, metres, counter-clockwise.
         height: z of the ground in the robot's frame, metres; None if nothing touches it.
-        links: Scoped names of what touches it.
+        links: Scoped names of the links that touch it.
         unknown: The reason why this is not known, as the end of a sentence; empty if it is.
     """
 

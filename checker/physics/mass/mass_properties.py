@@ -42,12 +42,12 @@ class LinkInertia(Record, eq=False):
 
     @property
     def has_moments(self) -> bool:
-        """Whether it has moments that are more than the noise of a CAD program's export."""
+        """True if it has moments greater than the noise of a CAD program's export."""
         return not max(map(abs, self.principal)) <= _NOISE
 
     @property
     def moments_span(self) -> Span:
-        """Where the moments are stated: `<inertia>`, or the element that should hold it."""
+        """Span of the moments: `<inertia>`, or the element that should contain it."""
         inertial = self.link.element.child("inertial")
         inertia = inertial.child("inertia") if inertial is not None else None
         return (inertia or inertial or self.link.element).span
@@ -87,7 +87,7 @@ class MassProperties(Record, eq=False):
 
     @property
     def unbalanced(self) -> str:
-        """Why it is not known how the robot stands, as the end of a sentence; empty when it is."""
+        """Reason why the stand of the robot is not known, as the end of a sentence; else empty."""
         robot = self.robot
         unknown = robot.unweighed or robot.unplaced_part or robot.bare_wheel
         return unknown or self.support_unknown or next(self._displaced(), "")

@@ -1,4 +1,4 @@
-"""Which link hangs on which, and how a joint lets it move."""
+"""Tree of links, and the degrees of freedom of the joints between them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from checker.model.tree import WORLD, Tie
 
 
 class Freedom(enum.StrEnum):
-    """What one degree of freedom does."""
+    """Kind of one degree of freedom."""
 
     TURN = "turn"
     SLIDE = "slide"
@@ -38,7 +38,7 @@ AXES = {
     kind: sum(freedom is not Freedom.BALL for freedom in freedoms)
     for kind, freedoms in _FREEDOMS.items()
 }
-"""How many axes the joints need that move, by their type."""
+"""Number of axes that moving joints need, by their type."""
 
 
 class Motion(Record):

@@ -133,7 +133,7 @@ _LIBRARIES = ("numpy", "pin")
 
 
 class Body(Record):
-    """What is put on the scales.
+    """Body whose mass counts.
 
     Attributes:
         mass: Kilograms.
@@ -154,7 +154,7 @@ class Body(Record):
 
 
 class Weight(Record):
-    """What the scales say of one body; see `LinkInertia`."""
+    """Mass properties of one body; see `LinkInertia`."""
 
     principal: Vector
     pseudo_eigenvalue: float
@@ -162,12 +162,12 @@ class Weight(Record):
 
 
 class Weights(Record):
-    """What they say of some bodies.
+    """Mass properties of some bodies.
 
     Attributes:
         of_bodies: The masses in the order of the bodies.
-        centre: The centre of the mass of all that weigh something and whose place is known, in the
-            robot's frame, metres; None where nothing is known of it.
+        centre: The centre of mass of all bodies with a mass and a known place, in the robot's
+            frame, metres; None if it is not known.
         inertia: Rows of the 3×3 inertia about this centre, robot's axes, kg·m²; likewise.
     """
 

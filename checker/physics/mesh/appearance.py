@@ -1,4 +1,4 @@
-"""What mesh files look like: their triangles by colour, and few enough of them.
+"""Appearance of mesh files: their triangles by colour, reduced in number.
 
 Pictures become colours of corners, sampled where these are in the picture. Runs in a child process
 only (see `worker`).

@@ -1,4 +1,4 @@
-"""What a mesh file holds: triangles by material, and the names in it."""
+"""Content of a mesh file: triangles by material, and the names in it."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ MOST = 32
 
 
 class Material(Record):
-    """What a material does to its triangles.
+    """Appearance of the triangles of a material.
 
     Attributes:
-        colour: The colour of what has no picture.
+        colour: The colour of triangles without a picture.
         picture: File as named inside; empty without one.
     """
 
@@ -48,14 +48,14 @@ class Piece(Record, eq=False):
 
 
 class MeshContent(Record, eq=False):
-    """What a file holds, before anything is measured.
+    """Content of a mesh file, before it is measured.
 
     Attributes:
         pieces: Its triangles.
-        metres_per_unit: The file's own unit, which the pieces honour.
+        metres_per_unit: The file's own unit, which is applied to the pieces.
         textures: Picture files as named inside.
         materials: Material files as named inside.
-        defects: What is not valid for the format though loaders cope, as clauses.
+        defects: What is not valid for the format although programs read it, as clauses.
         parts: Names of the parts inside.
     """
 

@@ -54,7 +54,7 @@ class _Faces:
 
 @dataclass(eq=False)
 class _Reading:
-    """What the lines read so far say."""
+    """State after the lines read so far."""
 
     corners: list[list[bytes]] = field(default_factory=list)
     places: list[list[bytes]] = field(default_factory=list)

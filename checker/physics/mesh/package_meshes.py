@@ -58,7 +58,7 @@ class PackageMeshes(Record, eq=False, dict=True):
 
     @property
     def read(self) -> bool:
-        """Whether they have been requested, so that a second request costs nothing."""
+        """True if they have been requested, so that a second request takes no time."""
         return "_by_address" in self.__dict__ or not self.uris
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
@@ -138,7 +138,7 @@ class PackageMeshes(Record, eq=False, dict=True):
 
     @cached_property
     def _by_address(self) -> Mapping[_Address, _Read]:
-        """What is known."""
+        """Results of the meshes that were read, by address."""
         noun = "mesh" if len(self.uris) == 1 else "meshes"
         with self.stages.stage("meshes", f"reading {len(self.uris)} {noun}"):
             read = self._facts.results()

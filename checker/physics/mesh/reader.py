@@ -1,4 +1,4 @@
-"""What a mesh file holds, by its suffix; runs in a child process only (see `worker`)."""
+"""Reader of mesh files by their suffix; runs in a child process only (see `worker`)."""
 
 from __future__ import annotations
 

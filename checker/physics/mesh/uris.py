@@ -1,4 +1,4 @@
-"""Where the URI of a mesh leads within the workspace."""
+"""Target of the URI of a mesh within the workspace."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ class Plan(Record):
 
     @property
     def seconds(self) -> float:
-        """How long the course is."""
+        """Length of the course, s."""
         return self.legs[-1].end if self.legs else 0.0
 
     def leg(self, name: str) -> Leg | None:

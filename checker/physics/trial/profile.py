@@ -18,7 +18,7 @@ _FASTEST = 1e4
 
 
 class Limits(Record):
-    """What a velocity limiter lets through, as gz-math's SpeedLimiter.
+    """Limits of a velocity limiter, as gz-math's SpeedLimiter.
 
     Attributes:
         slowest: Least velocity (negative), m/s or rad/s.

@@ -54,7 +54,7 @@ class BeltSurface(Record):
 
 
 class RecordedState(Record):
-    """Where everything is before a step, as MuJoCo's `qpos` and `qvel`."""
+    """State of all bodies before a step, as MuJoCo's `qpos` and `qvel`."""
 
     step: int
     positions: tuple[float, ...]
@@ -62,16 +62,16 @@ class RecordedState(Record):
 
 
 class Recording(Record):
-    """What was driven.
+    """Recording of a trial.
 
     Attributes:
         timestep: Seconds.
         servos: The servos in the order of the scene's actuators.
-        states: The states by name: `settled`, and `hovering` for what flies.
+        states: The states by name: `settled`, and `hovering` for robots that fly.
         commands: The commands of each servo, in the steps in which one of them changes; each lasts
             to the next.
         thrusts: The thrusts of each rotor likewise, N.
-        belts: What moves as the surface of a belt.
+        belts: The geoms that move as the surface of a belt.
         speeds: The speeds of each of them likewise, m/s.
         refused: The reason why MuJoCo refuses the scene; else empty.
     """

@@ -38,7 +38,7 @@ class RobotTrial(Record, eq=False, dict=True):
 
     @cached_property
     def drive(self) -> Part | Controller:
-        """Where findings about its motion point: what drives it, else the robot."""
+        """Place of findings about its motion: its drive, else the robot."""
         locomotion = self.robot.locomotion
         plugins = [
             *(drive.plugin for drive in locomotion.drives),
@@ -65,10 +65,10 @@ class RobotTrial(Record, eq=False, dict=True):
 
     @property
     def invalid_reason(self) -> str:
-        """Why the trial is none of this robot, as the end of a sentence; empty if it is.
+        """Reason why the trial is not valid for this robot, as the end of a sentence; else empty.
 
-        For the trial, parts without a place and masses that are none were put right somehow, and
-        shapes that cannot be used were left out.
+        For the trial, parts without a place got one, invalid masses were replaced, and shapes that
+        cannot be used were left out.
         """
         masses = self.robot.unknown_masses.values()
         return self.robot.unplaced_part or next(iter(masses), "") or self.robot.bare_wheel
@@ -79,12 +79,12 @@ class RobotTrial(Record, eq=False, dict=True):
 
     @property
     def drives_backwards(self) -> bool:
-        """Whether it drives against the command, by more than a creep."""
+        """True if it drives against the command, faster than a creep."""
         return _against(self.trial.value("speed_ratio"))
 
     @property
     def turns_backwards(self) -> bool:
-        """Whether it turns against the command, by more than a creep."""
+        """True if it turns against the command, faster than a creep."""
         return _against(self.trial.value("yaw_ratio"))
 
 

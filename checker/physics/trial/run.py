@@ -117,7 +117,7 @@ class RobotTrials(Record, eq=False, dict=True):
 
     @property
     def undriven(self) -> dict[int, str]:
-        """Why robots have no trial, by their number; nothing before the first request."""
+        """Reasons why robots have no trial, by their number; empty before the first request."""
         collected: tuple[Trial | NotAvailable, ...] = self.__dict__.get("_collected", ())
         return {
             number: trial.reason

@@ -1,4 +1,4 @@
-"""Whether a robot comes to rest before it is driven."""
+"""Settling of a robot before it is driven."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a trial measured: data only, the same in the report's JSON."""
+"""Measurements of a trial: data only, the same in the report's JSON."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Measurement(Record):
 
 
 class Replay(Record):
-    """How the robot moved, to be looked at.
+    """Motion of the robot, for a replay in the report.
 
     Attributes:
         time: The time of each sample, seconds.

@@ -1,1 +1,1 @@
-"""What a robot's own visuals hide from its cameras and lidars."""
+"""Parts of the views of cameras and lidars that the robot's own visuals hide."""

@@ -1,4 +1,4 @@
-"""How much of what a light shines at is in its way close by: rays from it at one mesh."""
+"""Shares of a light's cone that one mesh blocks nearby, by rays from the light."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where rays enter and leave boxes, cylinders and the like, and where they meet triangles."""
+"""Intersections of rays with boxes, cylinders and other shapes, and with triangles."""
 
 from __future__ import annotations
 

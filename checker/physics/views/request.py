@@ -1,4 +1,4 @@
-"""What is asked of the worker: a robot's sensors, lights and shapes as JSON."""
+"""Request to the worker: a robot's sensors, lights and shapes as JSON."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ class ViewRequest(Record, eq=False):
 
     @property
     def has_work(self) -> bool:
-        """Whether there is anything to be seen by a sensor, or around a light."""
+        """True if a sensor, or the surroundings of a light, may have something in view."""
         seen = self.item["meshes"] or self.item["solids"]
         return bool((self.sensors or self.lights) and seen)
 
     @property
     def work(self) -> int:
-        """How many pairs of sensor and shape are looked at."""
+        """Number of pairs of sensor and shape that are computed."""
         return len(self.sensors) * len(self.shapes)
 
 
@@ -105,7 +105,7 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
 
 
 def _meets_collisions(mounted: Mounted) -> bool:
-    """Whether a sensor's rays are physics: those of Gazebo Classic without GPU."""
+    """Return whether a sensor's rays meet collisions: those of Gazebo Classic without GPU."""
     return mounted.sensor.type.value == "ray"
 
 

@@ -28,9 +28,9 @@ _ROBOTS = 8
 """Greatest number for one file; a world with more of them is no submission."""
 
 _RAYS = ("shares", "reach", "across", "visual")
-"""What the worker says of each ray of a view."""
+"""Members of the worker's answer for each ray of a view."""
 _Answer = dict[str, Any]
-"""What the worker says: `views` and `unread`."""
+"""Answer of the worker: `views` and `unread`."""
 
 
 @dataclass(eq=False)

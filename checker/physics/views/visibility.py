@@ -34,11 +34,11 @@ FARTHEST = 1e12
 """Metres; corners beyond are nowhere."""
 
 Met = dict[str, Any]
-"""What a sensor sees of a visual: the numbers of both (`sensor`, `visual`), the `rays` that meet
-it, how far away (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
+"""View of a visual by a sensor: the numbers of both (`sensor`, `visual`), the `rays` that meet it,
+their distances (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
 Seen = dict[str, Any]
-"""What is `met` of a mesh, and the number of each light inside with what of it is `covered`; or why
-it is `unread`, and whether that is so the next time as well (`lasts`)."""
+"""Rays `met` by a mesh, and the number of each light inside with the share `covered`; or the reason
+why it is `unread`, and whether that is so the next time as well (`lasts`)."""
 
 
 def views_of(

@@ -31,7 +31,7 @@ class Frame(Record):
 
 
 class Change(Record):
-    """What one edit does, line by line."""
+    """Change of one edit, line by line."""
 
     file: str
     line: int
@@ -133,7 +133,7 @@ class ShownFinding(Record):
 
     @property
     def is_short(self) -> bool:
-        """Whether its patch is read at a glance."""
+        """True if its patch is short enough to read at a glance."""
         return sum(len(each.removed) + len(each.added) for each in self.changes) <= _SHORT_PATCH
 
 
@@ -152,7 +152,7 @@ class Grade(Record):
 
 
 class RulePage(Record):
-    """What the page says of a rule that found something."""
+    """Part of a rule's page that the report shows for a rule with findings."""
 
     rule: str
     name: str

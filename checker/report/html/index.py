@@ -19,7 +19,7 @@ _ORDER = (
     VerdictKind.PAPERWORK,
     VerdictKind.READY,
 )
-"""What needs most work first."""
+"""Order of verdicts: packages that need most work first."""
 
 
 class Entry(Record):

@@ -1,4 +1,4 @@
-"""What a trial's plots show: curves over time, the legs of the course, limits and scales."""
+"""Plots of a trial: curves over time, the legs of the course, limits and scales."""
 
 from __future__ import annotations
 

@@ -45,12 +45,12 @@ class ShownRobot(Record):
 
     @property
     def has_fault(self) -> bool:
-        """Whether a rule objects to its trial."""
+        """True if a rule reports its trial."""
         return self.badge in map(str, Severity)
 
     @property
     def summary(self) -> str:
-        """What one wants to know of it first."""
+        """Most important facts about the robot."""
         known = dict(self.facts)
         phrases = [known[name] for name in ("drive", "mass", "size") if name in known]
         counted = ((name, known[name]) for name in ("links", "joints", "sensors") if name in known)

@@ -1,4 +1,4 @@
-"""What the plots of a trial are about: speed, tilt, loads and others, and their limits."""
+"""Themes of the plots of a trial: speed, tilt, loads and others, and their limits."""
 
 from __future__ import annotations
 

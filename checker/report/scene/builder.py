@@ -37,7 +37,7 @@ _BLUE: Colour = (0.2, 0.6, 1.0, 0.18)
 _EDGES: Colour = (0.1, 0.4, 0.9, 1.0)
 _GREEN: Colour = (0.2, 0.85, 0.4, 0.18)
 _CAMERA, _LIDAR = 1.5, 2.0
-"""How far views reach at most, in sizes of the robot."""
+"""Greatest range of shown views, as a multiple of the robot's size."""
 _WIDTH = 0.006
 """Width of an edge, as a share of its view's length."""
 _STEP = math.radians(7.5)

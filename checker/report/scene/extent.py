@@ -1,4 +1,4 @@
-"""How large what is shown is."""
+"""Extent of what is shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What mesh files look like, within a budget of triangles, and what is said of those not shown."""
+"""Appearance of mesh files, within a budget of triangles, and notes on those not shown."""
 
 from __future__ import annotations
 

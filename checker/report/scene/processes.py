@@ -12,7 +12,7 @@ from checker.base.record import Record
 DRAWING_LIMITS = Limits(20.0, 4_000_000_000, draws=True)
 """OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
 PLATFORMS = ("egl", "osmesa")
-"""What draws without a window; the second where the first is missing."""
+"""Platforms that draw without a window; the second if the first is missing."""
 
 
 class StartedProcesses(Record):

@@ -1,4 +1,4 @@
-"""What is shown of a robot: links, what hangs on each of them in layers, and how they move."""
+"""Scene of a robot: links, the contents of each in layers, and their motion."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Layer(enum.StrEnum):
-    """What can be shown and hidden at once."""
+    """Layer that can be shown and hidden."""
 
     VISUAL = "visual"
     COLLISION = "collision"
@@ -68,7 +68,7 @@ class LinkNode(Record, eq=False):
 
 
 class Tracks(Record, eq=False):
-    """How links move in the world (z up, the ground at z = 0).
+    """Motion of links in the world (z up, the ground at z = 0).
 
     Attributes:
         time: The time of the samples, seconds (n).

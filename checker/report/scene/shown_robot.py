@@ -1,4 +1,4 @@
-"""What the layers are made of: a robot, where its links are, and what its meshes look like."""
+"""Data of the layers: a robot, the poses of its links, and the appearance of its meshes."""
 
 from __future__ import annotations
 

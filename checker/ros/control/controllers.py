@@ -110,7 +110,7 @@ class ParameterFault(Record, eq=False):
 
 
 class ControlLaunch(Record, eq=False):
-    """What one launch file, with all that it includes, does for control.
+    """Effects of one launch file, with all that it includes, on control.
 
     Attributes:
         file: A launch file that no other one starts.
@@ -118,7 +118,7 @@ class ControlLaunch(Record, eq=False):
         listeners: Nodes that turn joint states into transforms.
         models: Models that it spawns into Gazebo.
         state_topics: Absolute topics on which nodes of it publish joint states.
-        parameters: Absolute names of what it sets, `<rosparam>`s by their namespace.
+        parameters: Absolute names of the parameters that it sets, `<rosparam>`s by their namespace.
         missing: Descriptions that it names and that do not exist.
     """
 
@@ -132,15 +132,15 @@ class ControlLaunch(Record, eq=False):
 
 
 class ControlSystem(Record, eq=False, dict=True):
-    """What controls the joints of a URDF package.
+    """Control of the joints of a URDF package.
 
     Attributes:
         robots: Names of the robots.
         joints: The joints by name, of all robots; None when the robots are not known.
         transmissions: The transmissions of all robots.
-        plugins: `gazebo_ros_control`, as often as it stands there.
-        publishes_states: Whether a Gazebo plugin publishes the joint states by itself.
-        has_manager: Whether a Gazebo plugin, that one or another, runs a controller manager.
+        plugins: Each use of `gazebo_ros_control`.
+        publishes_states: Whether a Gazebo plugin publishes the joint states itself.
+        has_manager: Whether any Gazebo plugin runs a controller manager.
         otherwise_moved: Names that plugins other than `gazebo_ros_control` mention.
         controllers: Configured in YAML that a launch file loads, or that is in the package.
         simulator_gains: The gains of `gazebo_ros_control` itself.
@@ -203,7 +203,7 @@ class ControlSystem(Record, eq=False, dict=True):
         return tuple(distinct.values())
 
     def moves(self, name: str) -> bool:
-        """Whether a joint is known to be one that a motor can move."""
+        """Return whether a motor can move a joint, as far as known."""
         joint = (self.joints or {}).get(name)
         return joint is not None and joint.type.value not in IMMOBILE
 

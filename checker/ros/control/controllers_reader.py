@@ -29,7 +29,7 @@ _JOINTS = (
 )
 _OWN = "pid"
 _ANGLE = re.compile(r"(?:rad|deg)\(.{0,100}\)\Z")
-"""What rosparam reads as a number where YAML sees a text."""
+"""Texts of YAML that rosparam reads as a number."""
 
 
 def read_controllers(

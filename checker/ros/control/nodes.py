@@ -103,7 +103,7 @@ class SpawnedModel(Record, eq=False):
 
     @property
     def is_known(self) -> bool:
-        """Whether nothing but folders of packages is left to the launching machine."""
+        """True if only folders of packages depend on the machine that launches."""
         return is_known(_FIND.sub("", self.node.args))
 
     def _word(self, option: str) -> str:

@@ -1,4 +1,4 @@
-"""What controls the joints of a URDF package, out of its launch files, YAML files and robots."""
+"""Control of the joints of a URDF package, from its launch files, YAML files and robots."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ MAX_FILES = 200
 
 @dataclass(eq=False)
 class Parameters:
-    """What YAML texts configure; filled launch file by launch file.
+    """Configurations in YAML texts; filled launch file by launch file.
 
     Attributes:
         package: The package whose files are read.

@@ -1,4 +1,4 @@
-"""What of ros2_control is there in a ROS 2 distribution: hardware components and controllers."""
+"""Hardware components and controllers of ros2_control in a ROS 2 distribution."""
 
 from __future__ import annotations
 

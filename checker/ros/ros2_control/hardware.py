@@ -12,7 +12,7 @@ from checker.source.xml import Element
 
 TYPES = ("system", "actuator", "sensor")
 KNOWN_CHILDREN = ("hardware", "joint", "sensor", "gpio", "transmission", "properties")
-"""What may stand below `<ros2_control>`; the controller manager ends on anything else."""
+"""Elements below `<ros2_control>`; the controller manager stops at any other."""
 STANDARD_INTERFACES = (
     *("position", "velocity", "acceleration", "effort"),
     *("torque", "force", "current", "temperature"),

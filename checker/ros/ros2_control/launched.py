@@ -1,4 +1,4 @@
-"""What launch files do for ros2_control: controller managers that they start, and spawners."""
+"""Controller managers and spawners of ros2_control in launch files."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Spawner(Record, eq=False):
 
     @property
     def states_type(self) -> bool:
-        """Whether it states the type of its controllers itself."""
+        """True if it states the type of its controllers itself."""
         return bool(self.options.keys() & {"-t", "--controller-type"})
 
 
@@ -98,7 +98,7 @@ def _is_manager(node: Node) -> bool:
 
 
 class LaunchedControl(Record, eq=False, dict=True):
-    """What one launch file, with all that it includes, does for ros2_control.
+    """Effects of one launch file, with all that it includes, on ros2_control.
 
     Attributes:
         graph: The graph of the launch file.
@@ -128,7 +128,7 @@ class LaunchedControl(Record, eq=False, dict=True):
 
     @property
     def simulates(self) -> bool:
-        """Whether it puts a robot into Gazebo."""
+        """True if it puts a robot into Gazebo."""
         return any(
             node.package.value == "ros_gz_sim" and node.executable.value == "create"
             for node in self.nodes
@@ -136,7 +136,7 @@ class LaunchedControl(Record, eq=False, dict=True):
 
     @property
     def is_complete(self) -> bool:
-        """Whether nothing that it starts is left to other files or to the machine that launches."""
+        """True if nothing that it starts depends on other files or on the machine that launches."""
         unsure = any(node.starts is None for node in self.graph.nodes)
         return not (unsure or any(unread_parts(self.graph)))
 
@@ -156,7 +156,7 @@ class LaunchedControl(Record, eq=False, dict=True):
 
     @cached_property
     def controllers(self) -> tuple[Controller, ...]:
-        """What the files of the managers configure; none where a file is not known."""
+        """Controllers in the files of the managers; none if a file is not known."""
         return controllers_of(self._files or ())
 
     @cached_property

@@ -102,17 +102,17 @@ class RobotControl(Record, eq=False, dict=True):
 
     @property
     def is_named(self) -> bool:
-        """Whether a plugin or launch file names the files: they are its own for certain."""
+        """True if a plugin or launch file names the files, which are then certainly its own."""
         return any(file.loaded_by is not None for file in self.files)
 
     @property
     def has_variants(self) -> bool:
-        """Whether the files may be for variants of the robot: nothing says which one is loaded."""
+        """True if the files may be for variants of the robot: the loaded one is not known."""
         return not self.is_named and len(self.files) > 1
 
     @cached_property
     def controllers(self) -> tuple[Controller, ...]:
-        """What the files configure."""
+        """Controllers in the files."""
         return controllers_of(self.files)
 
     @cached_property

@@ -78,7 +78,7 @@ class RunController(Record, eq=False, dict=True):
 
     @property
     def is_known(self) -> bool:
-        """Whether its topics are known."""
+        """True if its topics are known."""
         return self.controller.type.value in _controller_topics()
 
 

@@ -1,4 +1,4 @@
-"""What is known of the nodes that people launch most: the table `ros_nodes`."""
+"""Facts about the nodes that are launched most: the table `ros_nodes`."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ _DATA_TYPES = {
     "pointcloud": "PointCloud2",
     "range": "Range",
 }
-"""What `data_type` of a costmap and `type` of the collision monitor say."""
+"""Values of `data_type` of a costmap and of `type` of the collision monitor."""
 
 
 class Input(Record, eq=False):

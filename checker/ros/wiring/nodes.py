@@ -51,7 +51,7 @@ class WiredNode(Record, eq=False, dict=True):
 
     @property
     def label(self) -> str:
-        """What a message calls it."""
+        """Name in messages."""
         return f"node {self.full_name or self.node.executable.value!r}"
 
     @property
@@ -69,12 +69,12 @@ class WiredNode(Record, eq=False, dict=True):
         return any(word.value.startswith(_OWN_RULES) for word in self.node.arguments)
 
     def reads(self, block: NodeBlock) -> bool:
-        """Whether a block of a parameter file is for it."""
+        """Return whether a block of a parameter file applies to it."""
         return block.is_for(self.name, self.node.namespace)
 
     @property
     def knows_parameters(self) -> bool:
-        """Whether all that gives it parameters was read."""
+        """True if all sources of its parameters were read."""
         read = all(file.is_read for file in self.files)
         return bool(self.full_name) and read and not self.node.unread
 

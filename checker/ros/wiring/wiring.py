@@ -114,19 +114,19 @@ class Wiring(Record, eq=False, dict=True):
 
     @property
     def _renamed_in_classic(self) -> bool:
-        """Whether the plugins of a robot in Gazebo Classic may get another namespace."""
+        """True if the plugins of a robot in Gazebo Classic may get another namespace."""
         spawners = (it.node for it in self.nodes if _spawns_in_classic(it.node))
         words = (word.value for node in spawners for word in node.arguments)
         return any(word == "-robot_namespace" or not is_known(word) for word in words)
 
     @cached_property
     def unread(self) -> tuple[str, ...]:
-        """Why it may start more than its nodes."""
+        """Reasons why it may start more than its nodes."""
         return tuple(unread_parts(self.graph))
 
     @property
     def knows_nodes(self) -> bool:
-        """Whether it starts no nodes but those whose names are known."""
+        """True if it starts only nodes whose names are known."""
         return not self.unread and all(node.full_name for node in self.every_node)
 
 

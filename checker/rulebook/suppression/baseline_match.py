@@ -13,11 +13,11 @@ from checker.rulebook.suppression.parts import StaleEntries
 
 _Tell = Callable[[str, str, str, str], Hashable]
 _TELLS: tuple[_Tell, ...] = (by_words, by_element)
-"""What makes a place of now and one of an entry the same fault, the surer first."""
+"""Comparisons of a current place with an entry of the baseline, the most certain first."""
 
 
 class Matched(Record):
-    """What a baseline comes to.
+    """Result of the comparison with a baseline.
 
     Attributes:
         entries: The number of each spot's entry; None for what is not in the baseline.
@@ -89,7 +89,7 @@ def _tales(entry: BaselineEntry) -> Iterator[Hashable]:
 
 
 class Held:
-    """What the baseline holds of one package, asked rule by rule."""
+    """Entries of the baseline for one package, taken rule by rule."""
 
     def __init__(self, entries: Iterable[BaselineEntry]) -> None:
         self._entries: dict[str, list[BaselineEntry]] = {}

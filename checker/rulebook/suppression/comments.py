@@ -17,7 +17,7 @@ from checker.rulebook.suppression.entries import REASON_LIMIT
 from checker.source.text import SourceText
 
 STEM = "subt-check"
-"""What every mark holds, in small letters or capitals."""
+"""Word in every mark, in small letters or capitals."""
 _XML_TOO = (".gazebo", ".srdf", ".ign", ".md")
 _WITH_HASH = (".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh")
 COMMENTS_LIMIT = 1_000

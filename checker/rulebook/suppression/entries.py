@@ -33,7 +33,7 @@ class SettingsEntry(Record):
     element: str = ""
 
     def covers(self, place: Place) -> bool:
-        """Whether a finding at this place is meant."""
+        """Return whether it applies to a finding at this place."""
         meant = not self.file or fnmatchcase(place.file or ".", self.file)
         return meant and self.element in place.element
 

@@ -1,4 +1,4 @@
-"""Where a finding is, in words that stay when lines move: how the baseline knows a fault again."""
+"""Place of a finding in words that stay when lines move, for the baseline."""
 
 from __future__ import annotations
 

@@ -44,10 +44,10 @@ _Line = tuple[str, int, str]
 
 
 class Suppression(Record):
-    """Why a finding does not count.
+    """Reason why a finding does not count.
 
     Attributes:
-        place: The place of the comment that says so; None for what stands elsewhere.
+        place: The place of the comment with the reason; None for other sources.
     """
 
     by: SuppressedBy

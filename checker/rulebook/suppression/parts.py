@@ -1,4 +1,4 @@
-"""What rules are given to judge how findings are set aside."""
+"""Parts for the rules about suppressions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class UnusedEntries(Record):
 
 
 class Suppressions(Record):
-    """What the package's comments and the settings want set aside, and what of it has no effect.
+    """Suppressions in the package's comments and the settings, and those without effect.
 
     Attributes:
         comments: The comments in the package's own files.
@@ -68,6 +68,6 @@ class StaleEntries(Record):
 
 
 class BaselineUse(Record):
-    """What of the baseline is stale, rule by rule."""
+    """Stale entries of the baseline, rule by rule."""
 
     stale: tuple[StaleEntries, ...]

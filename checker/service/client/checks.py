@@ -28,7 +28,7 @@ _SHOWN = 600
 
 
 class End(enum.StrEnum):
-    """How a check has ended, as the API calls it: `REFUSED` by its package, `FAILED` by us."""
+    """End of a check in the words of the API: `REFUSED` by its package, `FAILED` by us."""
 
     DONE = "done"
     REFUSED = "refused"
@@ -37,21 +37,21 @@ class End(enum.StrEnum):
 
 
 class Given(Struct, frozen=True):
-    """What the service answers to an upload."""
+    """Answer of the service to an upload."""
 
     id: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
     secret: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
 
 
 class Problem(Struct, frozen=True):
-    """What the service answers to what it does not take."""
+    """Answer of the service to a refused request."""
 
     error: str
     advice: str | None = None
 
 
 class Standing(Struct, frozen=True):
-    """How a check stands, as far as it matters here; the members are those of the API."""
+    """State of a check, as far as the client uses it; the members are those of the API."""
 
     stage: str
     words: str = ""
@@ -60,7 +60,7 @@ class Standing(Struct, frozen=True):
 
     @property
     def end(self) -> End | None:
-        """How it has ended; None while it has not."""
+        """End of the check; None while it runs."""
         return next((end for end in End if end == self.stage), None)
 
     def __str__(self) -> str:

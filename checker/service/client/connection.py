@@ -34,12 +34,12 @@ _SHOWN = 300
 
 
 class Patience(Record):
-    """How long something is waited for.
+    """Timeouts and repetitions of requests.
 
     Attributes:
         silence: Seconds without a byte.
         answer: Seconds for a whole answer, once the request is sent.
-        trouble: Seconds in which a request is tried again.
+        trouble: Seconds during which a request is tried again.
         pause: Seconds before the first repetition; they double each time.
         longest_pause: Seconds, unless the service requests more.
     """
@@ -52,7 +52,7 @@ class Patience(Record):
 
 
 class Answer(Record):
-    """What a service answers.
+    """Answer of a service.
 
     Attributes:
         headers: Their names in any case.
@@ -258,7 +258,7 @@ def _cause(error: BaseException) -> BaseException:
 
 
 def _is_final(cause: BaseException) -> bool:
-    """Whether it stays so: a wrong name or certificate does not become right in a minute."""
+    """Return whether the error is permanent, such as a wrong name or certificate."""
     import httpx
 
     if isinstance(cause, socket.gaierror):

@@ -15,13 +15,13 @@ _HOST = re.compile(r"[A-Za-z0-9._:-]+")
 
 
 class Server(Record):
-    """Where a service is reached.
+    """Address of a service.
 
     Attributes:
         scheme: `http` or `https`.
         host: Name or address, without brackets.
         port: The TCP port.
-        base: Path below which it lies, without a slash at its end; usually empty.
+        base: Path of the service, without a slash at its end; usually empty.
     """
 
     scheme: str
@@ -37,7 +37,7 @@ class Server(Record):
 
     @property
     def is_here(self) -> bool:
-        """Whether it is this machine, so that no third party can read along."""
+        """True if it is this machine, so that no third party can read along."""
         return is_loopback(self.host)
 
 

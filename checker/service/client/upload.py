@@ -1,4 +1,4 @@
-"""What is sent: an archive or a model file as it is, a folder packed as a repository has it."""
+"""Content of an upload: an archive or model file as it is, or a packed folder."""
 
 from __future__ import annotations
 

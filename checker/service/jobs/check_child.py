@@ -67,7 +67,7 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
 
 
 _NEEDED = (f"{PACKAGE}.engine.review", f"{PACKAGE}.report.files", "markdown_it", "pinocchio")
-"""What nearly every check loads; some of it starts threads."""
+"""Modules that nearly every check loads; some of them start threads."""
 _IDLE = 0.5
 """Seconds without a check, after which the next one is taken for that of a new upload: of one that
 has waited, and of the second stage, the meshes are usually known."""

@@ -30,15 +30,15 @@ _MEASURE, _REST = 0.5, 20
 
 
 class Ended(Record):
-    """How a check ended.
+    """End of a check.
 
     Attributes:
-        code: Exit code of its process; of a signal, its negative number; None if it has none.
-        answer: What it says, where it says something; of one that failed, why.
-        files: What it has made.
-        overdue: It took too long and was stopped.
-        cancelled: It was no longer wanted and was stopped.
-        exceeded: What it needed more of than all of its processes may have; empty for nothing.
+        code: Exit code of its process, for a signal its negative number; None if there is none.
+        answer: The answer, if there is one; the reason of one that failed.
+        files: The files that it made.
+        overdue: Whether it took too long and was stopped.
+        cancelled: Whether it was no longer wanted and was stopped.
+        exceeded: The resource of which its processes together used too much; else empty.
     """
 
     code: int | None
@@ -72,7 +72,7 @@ class _Place:
 
     @property
     def alive(self) -> bool:
-        """Whether it can still check."""
+        """True if it can still check."""
         return self._starter.alive and self.child.alive
 
     def excess(self, most: Usage) -> str:
@@ -161,7 +161,7 @@ class Children:
         return place
 
     def _has_one(self) -> bool:
-        """Whether a process waits; one that has died meanwhile is let go."""
+        """Return whether a process waits; one that has died meanwhile is removed."""
         if self._waiting is not None and not self._waiting.alive:
             self._waiting.close()
             self._waiting = None

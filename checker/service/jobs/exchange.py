@@ -1,4 +1,4 @@
-"""What goes to and fro between a worker and the process that checks, and where that one works."""
+"""Exchange between a worker and the process that checks, and the folder of that process."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ TRIAL_NICENESS = 5
 
 
 MOST = Usage(memory=3_000_000_000, disk=2_000_000_000, files=200_000, processes=64)
-"""What all processes of a check may use together, besides two copies of the upload. Of an archive
-are unpacked 500 MB at most. Of 15 uploads of real packages, one of 18 packages, checked with trial
+"""Limits for all processes of a check together, besides two copies of the upload. Of an archive,
+500 MB at most are unpacked. Of 15 uploads of real packages, one of 18 packages, checked with trial
 and pictures, none used more than 540 MB of memory, 150 MB of disk, 970 files and 6 processes."""
 
 
 class StageLimits(Record):
-    """What the check of an upload may use.
+    """Limits of the check of an upload.
 
     Attributes:
         seconds: Seconds of processor time, for each process.

@@ -1,4 +1,4 @@
-"""What the service needs of a job engine: eight calls; `durable` implements them."""
+"""Interface of a job engine for the service: eight calls; `durable` implements them."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from checker.base.sandbox.layers import Layer
 
 
 class Stage(enum.StrEnum):
-    """How far a check has come.
+    """Stage of a check.
 
-    It is `REFUSED` when the upload is at fault and its sender can mend that, and `FAILED` when the
-    checker could not finish.
+    It is `REFUSED` when the upload is at fault and its sender can correct that, and `FAILED` when
+    the checker could not finish.
     """
 
     QUEUED = "queued"
@@ -29,7 +29,7 @@ class Stage(enum.StrEnum):
 
     @property
     def is_final(self) -> bool:
-        """Whether nothing will change any more."""
+        """True if the state is final."""
         return self in (Stage.DONE, Stage.REFUSED, Stage.FAILED, Stage.CANCELLED)
 
 
@@ -64,7 +64,7 @@ class Receipt(Record):
 
 
 class State(Record):
-    """Where a check stands.
+    """State of a check.
 
     Attributes:
         id: The id of the check, unguessable.
@@ -77,7 +77,7 @@ class State(Record):
         packages: The data of each package so far: its "name", "verdict" (see `VerdictKind`),
             "kind", "errors", "warnings", "infos" and the "folder" of its files in the result (""
             for one).
-        expires: When everything of it is deleted, seconds since the epoch.
+        expires: Time at which everything of it is deleted, seconds since the epoch.
     """
 
     id: str
@@ -112,7 +112,7 @@ class JobsUnreachable(Exception):
 
 
 class Alive(Record):
-    """What is known of the engine.
+    """State of the engine.
 
     Attributes:
         workers: Seconds since each worker's last sign of life, by its name.

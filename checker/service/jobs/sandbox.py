@@ -1,4 +1,4 @@
-"""Which layers hold around the processes that check uploads on this machine."""
+"""Layers that are in force around the processes that check uploads on this machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `admin` does."""
+"""Command `admin`."""
 
 from __future__ import annotations
 

@@ -127,7 +127,7 @@ class Connection(H11Protocol):
         return self.transport.get_write_buffer_size() + held
 
     def _answers(self) -> bool:
-        """Whether a request is being answered."""
+        """Return whether a request is being answered."""
         return self.cycle is not None and not self.cycle.response_complete
 
     def _is_one_too_many(self) -> bool:

@@ -1,4 +1,4 @@
-"""What `serve` and `worker` do."""
+"""Commands `serve` and `worker`."""
 
 from __future__ import annotations
 

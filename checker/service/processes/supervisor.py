@@ -24,7 +24,7 @@ _DEATHS_COUNTED = 30
 
 
 class Pace(Record):
-    """How long things take at most.
+    """Time limits of the supervisor.
 
     Attributes:
         first_wait: Seconds before a dead process is started again; they double each time.
@@ -70,7 +70,7 @@ class Process:
 
     @property
     def is_running(self) -> bool:
-        """Whether it runs now."""
+        """True if it runs now."""
         return self._running is not None and self._running.poll() is None
 
     @property

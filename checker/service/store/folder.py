@@ -52,7 +52,7 @@ class FolderObjects(Record):
             )
 
     def use(self, kind: Kind, key: str) -> bool:
-        """Whether an object is there; it counts as used now."""
+        """Return whether an object exists, and mark it as used now."""
         place = self._place(kind, key)
         if not place.exists():  # most are new: no request waits for these
             return False

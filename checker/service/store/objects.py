@@ -1,4 +1,4 @@
-"""What is kept of uploads and results: the port, with a folder and S3 behind it."""
+"""Storage of uploads and results: the port, with a folder and S3 as implementations."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Protocol
 
 
 class Kind(StrEnum):
-    """What an object is; it is under this name.
+    """Kind of an object; it is under this name.
 
     Uploads are files as received; results and parts of checks are folders of files.
     """
@@ -41,7 +41,7 @@ class Objects(Protocol):
         """Return the names of a folder's files, such as `pkg/robot.glb`; none without it."""
 
     def use(self, kind: Kind, key: str) -> bool:
-        """Whether an object is there; it counts as used now."""
+        """Return whether an object exists, and mark it as used now."""
 
     def put(self, kind: Kind, key: str, source: Path) -> None:
         """Keep a file or folder, which is gone after; of several folders of a key one is kept.

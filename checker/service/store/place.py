@@ -1,4 +1,4 @@
-"""Where the service keeps its data."""
+"""Folder with the data of the service."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ class S3Objects(Record):
         return self.copies.names(kind, key)
 
     def use(self, kind: Kind, key: str) -> bool:
-        """Whether an object is there; it counts as used now."""
+        """Return whether an object exists, and mark it as used now."""
         from obstore import head, put
 
         with _answers(), suppress(FileNotFoundError):

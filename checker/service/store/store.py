@@ -38,11 +38,11 @@ _KEY = re.compile(r"[0-9a-f]{64}")
 
 
 class Store(Record):
-    """What was uploaded and what was found out about it.
+    """Store of uploads and their results.
 
     Attributes:
         folder: The folder of work in progress on this machine, and of all that is kept unless
-            `shared` keeps it; made when something comes.
+            `shared` keeps it; made when it is first needed.
         shared: Keeps uploads and results for several machines.
     """
 
@@ -51,7 +51,7 @@ class Store(Record):
 
     @property
     def objects(self) -> Objects:
-        """What keeps uploads and results."""
+        """Storage of uploads and results."""
         return self.shared or FolderObjects(self.folder)
 
     @contextmanager
@@ -90,7 +90,7 @@ class Store(Record):
         return self._find(Kind.UPLOAD, hash)
 
     def has(self, key: str) -> bool:
-        """Whether a result is there; it counts as used now, so that it does not expire soon."""
+        """Return whether a result exists, and mark it as used now, so that it is kept longer."""
         return _KEY.fullmatch(key) is not None and self.objects.use(Kind.RESULT, key)
 
     def keep(self, key: str, folder: Path) -> None:

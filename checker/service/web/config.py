@@ -1,4 +1,4 @@
-"""What a service allows; the environment says it."""
+"""Limits and permissions of a service, from the environment."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _CENTURY = 36_500
 
 
 class Config(Record):
-    """What a service allows.
+    """Limits and permissions of a service.
 
     Attributes:
         tokens: Each lets its bearer upload; without any, everybody may.
         upload_limit: Bytes of an uploaded file.
         public: Whether everybody may use it on purpose. With neither this nor tokens, it answers
-            only under names of this machine, so that no other site can be made to pass for it.
-        retention_days: After which uploads and results are deleted.
+            only under names of this machine, so that no other site can imitate it.
+        retention_days: Days after which uploads and results are deleted.
         uploads_per_minute: The uploads of one client, by its address; 0 for any number, as on this
             machine.
         uploads_at_once: The uploads of all clients; half of them of one client.
@@ -33,7 +33,7 @@ class Config(Record):
         streams_per_client: Of them of one client, by its address, which a class may share; on this
             machine, all of them.
         idle_seconds: The time that an upload may pause.
-        upload_seconds: The time that any upload may last; its size buys more.
+        upload_seconds: The time that any upload may last; a large one may last longer.
         steady: Bytes per second that an upload brings beyond these seconds.
         slowest: Bytes per second that an upload brings on average.
         without_sandbox: Whether workers may check uploads of others without a sandbox.
@@ -72,7 +72,7 @@ class Config(Record):
 
     @property
     def only_here(self) -> bool:
-        """Whether it is meant for this machine alone."""
+        """True if it is meant for this machine alone."""
         return not (self.tokens or self.public)
 
 

@@ -1,4 +1,4 @@
-"""Whether the service lives, whether it is ready for work, and what it has counted."""
+"""Health of the service: it is alive, it is ready for work, and its counters."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class Health(Record):
         return alive
 
     def _may_see(self, request: Request) -> bool:
-        """Whether it comes from this machine itself, by no proxy, or brings a token."""
+        """Return whether a request comes from this machine without a proxy, or has a token."""
         host = request.client.host if request.client else ""
         is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
         if is_loopback(host) and not is_forwarded:

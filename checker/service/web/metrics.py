@@ -1,4 +1,4 @@
-"""What the web process counts of requests, for Prometheus, from zero when it starts."""
+"""Counters of requests of the web process, for Prometheus, from zero when it starts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the routes of the service work with."""
+"""Objects that the routes of the service use."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from starlette.requests import Request
 
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
-"""What can be an id at all; the rest is not asked of the database."""
+"""Form of an id; the database is not queried for other texts."""
 AT_ONCE, OF_ONE = 16, 4
 """Uploads, and those of one sender; most take 10 ms, some archives seconds."""
 
 
 class Services(Record):
-    """What the routes of the service work with.
+    """Objects that the routes of the service use.
 
     Attributes:
         jobs: The engine that checks.

@@ -9,7 +9,7 @@ from checker.source.xml import Element
 
 
 class SymbolKind(StrEnum):
-    """What a symbol is."""
+    """Kind of a symbol."""
 
     ROBOT = "robot"
     WORLD = "world"

@@ -1,1 +1,1 @@
-"""What each file writes of names, one reader a format."""
+"""Readers of the names in files, one for each format."""

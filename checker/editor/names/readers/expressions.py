@@ -15,7 +15,7 @@ _NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 
 
 def is_composed(name: str) -> bool:
-    """Whether a name contains an expression."""
+    """Return whether a name contains an expression."""
     return ("$" in name or "#{" in name) and EXPRESSION.search(name) is not None
 
 
@@ -31,17 +31,17 @@ def expressions(name: str) -> tuple[str, ...]:
 
 
 def is_computed(name: str) -> bool:
-    """Whether nothing of a name is written out: `${name}`."""
+    """Return whether a name is an expression as a whole: `${name}`."""
     return not any(literal_pieces(name))
 
 
 def may_come_to(composed: str, name: str, values: Container[str] | None) -> bool:
-    """Whether the expressions of a composed name may make it another name.
+    """Return whether the expressions of a composed name may make it another name.
 
     Args:
         composed: The text, such as `${side}_wheel`.
         name: The name, such as `left_wheel`.
-        values: What each expression may come to, numbers aside; None for anything.
+        values: The possible values of each expression, numbers aside; None for any value.
     """
     pieces = literal_pieces(composed)
     if len(name) > _NAME_LIMIT or not _fits_at_its_ends(pieces, name):

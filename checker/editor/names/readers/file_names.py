@@ -1,4 +1,4 @@
-"""Which names one file holds, by what kind of file it is."""
+"""Names in one file, by the kind of the file."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SIZE_LIMIT = 3_000_000
 
 
 def holds_names(path: str, size: int) -> bool:
-    """Whether a file of a package may hold names."""
+    """Return whether a file of a package may contain names."""
     name = path.lower()
     if size > SIZE_LIMIT or not name.endswith(SUFFIXES) or name.endswith("package.xml"):
         return False

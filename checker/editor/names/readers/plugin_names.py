@@ -30,7 +30,7 @@ _LISTS = ("joints", "links", "jointname", "jointnames", "wheelnames")
 
 
 def is_topic_tag(tag: str) -> bool:
-    """Whether the text of a tag is a topic."""
+    """Return whether the text of a tag is a topic."""
     return tag.lower().endswith("topic") or tag.lower().endswith("topicname")
 
 

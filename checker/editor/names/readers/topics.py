@@ -1,4 +1,4 @@
-"""How topics are compared: without what represents the robot's name."""
+"""Comparison of topics without the parts that represent the robot's name."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def topic_key(topic: str) -> tuple[str, int]:
 
 
 def is_topic(text: str) -> bool:
-    """Whether a text may be a topic."""
+    """Return whether a text may be a topic."""
     own = text.strip("/")
     return bool(own) and "//" not in text and _WORD.fullmatch(text) is not None
 

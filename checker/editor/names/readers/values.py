@@ -66,7 +66,7 @@ _BY_WORD: Mapping[str, tuple[NameKind, ...]] = {
     "wheel": (NameKind.JOINT, NameKind.LINK),
     "link": LINK_ONLY,
 }
-"""What a value names whose key has a word in it; the first that fits counts."""
+"""Kinds of names of a value, by a word in its key; the first that fits counts."""
 
 
 def kinds_of(key: str) -> tuple[NameKind, ...]:

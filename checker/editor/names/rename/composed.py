@@ -35,7 +35,7 @@ def composed_conflict(rename: Rename) -> str:
 
 
 def _may_be(rename: Rename, path: str, name: WrittenName) -> bool:
-    """Whether a written name is composed, and may mean the thing."""
+    """Return whether a written name is composed, and may be the name of the thing."""
     if name.name in rename.names or not is_composed(name.name):
         return False
     if is_computed(name.name):
@@ -55,7 +55,7 @@ def _may_be(rename: Rename, path: str, name: WrittenName) -> bool:
 
 
 def _is_own(rename: Rename, path: str, name: str) -> bool:
-    """Whether a composed name is that of a thing of its own."""
+    """Return whether a composed name is that of another thing."""
     scope = rename.index.scopes.robots.get(path, "")
     definitions = (it.mention for it in rename.index.composed_definitions(rename.kind))
     return any(it.scope == scope and it.name == name for it in definitions)

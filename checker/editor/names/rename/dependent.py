@@ -1,4 +1,4 @@
-"""What has its name, or its value, from a thing without naming it."""
+"""Names and values that depend on a thing without naming it."""
 
 from __future__ import annotations
 

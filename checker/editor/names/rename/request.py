@@ -34,7 +34,7 @@ class Rename(Record, eq=False, dict=True):
 
     @property
     def kind(self) -> NameKind:
-        """What the thing is."""
+        """Kind of the thing."""
         return self.mention.kind
 
     @cached_property
@@ -54,7 +54,7 @@ class Rename(Record, eq=False, dict=True):
 
     @cached_property
     def scopes(self) -> frozenset[str]:
-        """What the thing belongs to."""
+        """Owners of the thing."""
         return frozenset(it.scope for it in self.mentions)
 
     @cached_property

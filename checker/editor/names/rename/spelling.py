@@ -1,4 +1,4 @@
-"""Which new name a thing may have."""
+"""Rules for the new name of a thing."""
 
 from __future__ import annotations
 

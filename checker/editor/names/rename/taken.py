@@ -1,4 +1,4 @@
-"""Whether a new name means something already."""
+"""Meanings that a new name already has."""
 
 from __future__ import annotations
 

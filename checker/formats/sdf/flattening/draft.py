@@ -110,7 +110,7 @@ class Holder(Record):
 
     @property
     def nested(self) -> bool:
-        """Whether it is a model within the robot's."""
+        """True if it is a model within the robot's."""
         return self.frame != MODEL_FRAME
 
     def scoped(self, name: str) -> str:

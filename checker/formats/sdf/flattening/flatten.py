@@ -147,7 +147,7 @@ def _without_tabs(line: str) -> str:
 
 _PARTS = ("link", "frame", "joint")
 _OF_A_MODEL = ("pose", "static", "self_collide", "allow_auto_disable", "enable_wind")
-"""What a nested model says of itself; the robot says it of all its parts."""
+"""Properties of a nested model that the robot has for all its parts."""
 _FRAMES_TOO = (1, 7)
 """SDF version from which on poses can name the frame that they are written in."""
 

@@ -1,4 +1,4 @@
-"""How much one expression, and one file, may compute."""
+"""Limits of the computations of one expression, and of one file."""
 
 from __future__ import annotations
 

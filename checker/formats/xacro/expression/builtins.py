@@ -252,7 +252,7 @@ _WORKS: Mapping[str, Work] = MappingProxyType(
     }
 )
 _OTHERS = ("complex", "hash", "issubclass", "slice", "type", "vars")
-"""What xacro offers besides, and no description of a robot needs."""
+"""Other names that xacro offers and no description of a robot needs."""
 
 FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {name: Function(name, work, stands_for=kind) for name, (kind, work) in _TYPES.items()}

@@ -1,4 +1,4 @@
-"""What calls mean, and the lambda functions that are handed to them."""
+"""Evaluation of calls, and of the lambda functions that are passed to them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from checker.formats.xacro.expression.nodes import attribute, items, resolve
 from checker.formats.xacro.expression.values import LAZY, MAPPINGS, PLAIN, consumed, plain
 
 Found = tuple[Callable[..., Any], frozenset[int | str]]
-"""What a call calls, but for the budget and the arguments, and which of these may be functions."""
+"""Function of a call, without budget and arguments, and the arguments that may be functions."""
 
 
 def _call(run: Interpreter, node: ast.Call, scope: Scope | None) -> Any:

@@ -14,7 +14,7 @@ Work = Callable[..., Any]
 
 
 class Function(Record):
-    """What a name may represent besides data; an expression calls it, or hands it on to another.
+    """Function as the value of a name; an expression calls it, or passes it to another function.
 
     Attributes:
         name: The name as an expression writes it.

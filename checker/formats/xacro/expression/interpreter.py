@@ -13,7 +13,7 @@ _UNBOUND = object()
 
 
 class Names(Protocol):
-    """Where names are looked up that an expression does not bind itself."""
+    """Lookup of names that an expression does not bind itself."""
 
     def __getitem__(self, name: str, /) -> Any:
         """Return what a name represents, or raise KeyError."""

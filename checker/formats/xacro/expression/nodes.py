@@ -1,4 +1,4 @@
-"""What the nodes of a syntax tree mean that hold values: constants, names, displays, look-ups."""
+"""Evaluation of the syntax nodes for values: constants, names, displays, subscripts."""
 
 from __future__ import annotations
 

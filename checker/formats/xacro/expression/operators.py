@@ -69,7 +69,7 @@ _GROWING: Mapping[type[ast.operator], Callable[[int, int], int]] = MappingProxyT
         ast.LShift: lambda left, right: left.bit_length() + right if left else 0,
     }
 )
-"""How many bits the result has at most."""
+"""Greatest number of bits of the result."""
 _INTEGERS = frozenset({int, bool})
 
 

@@ -1,1 +1,1 @@
-"""What the actions of a launch file do."""
+"""Effects of the actions of a launch file."""

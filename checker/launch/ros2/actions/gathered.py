@@ -1,4 +1,4 @@
-"""What a visit of launch actions gathers, and what it needs besides."""
+"""Results of a visit of launch actions, and the context that it needs."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from checker.launch.ros2.values import PlacedText, Value
 
 @dataclass(eq=False)
 class Gathered:
-    """What has been found so far; see `LaunchGraph`."""
+    """Results so far; see `LaunchGraph`."""
 
     arguments: list[Argument] = field(default_factory=list)
     nodes: list[Node] = field(default_factory=list)
@@ -36,7 +36,7 @@ class Gathered:
 
 
 class FileRead(Record, eq=False):
-    """What became of an included file; see `Include`."""
+    """Result of reading an included file; see `Include`."""
 
     path: str = ""
     accepts: frozenset[str] | None = None

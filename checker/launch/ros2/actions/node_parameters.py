@@ -24,7 +24,7 @@ UNKNOWN = "$(unknown)"
 """Placeholder for a text that this reader cannot evaluate."""
 
 MOVEIT = "MoveItConfigsBuilder computes the parameters"
-"""Why some parameters of a node are not here; they concern no other part of the robot."""
+"""Reason why some parameters of a node are unknown; they concern no other part of the robot."""
 
 Item = Parameter | ParameterFile | Unread
 
@@ -112,7 +112,7 @@ def _parameter(name: str, value: Value, context: Context, span: Span) -> Paramet
 
 
 def _is_substitution(value: Value) -> bool:
-    """Whether substitutions make a text: one, or a list of texts that holds one."""
+    """Return whether a value is a substitution, or a list of texts that contains one."""
     if isinstance(value, Made):
         return True
     return isinstance(value, list | tuple) and any(

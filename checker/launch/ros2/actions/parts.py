@@ -1,4 +1,4 @@
-"""What actions have in common: texts, names, words, parameters and remaps."""
+"""Common parts of actions: texts, names, words, parameters and remaps."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _SERVICE = re.compile(r"/srv/")
 
 
 class BridgeFaultKind(enum.Enum):
-    """What sort of fault it is."""
+    """Kind of the fault."""
 
     ARGUMENT = "the bridge ends at an argument that it cannot read"
     UNREADABLE = "the file is not valid YAML"
@@ -35,7 +35,7 @@ class BridgeFault(Record, eq=False):
 
     @property
     def is_elsewhere(self) -> bool:
-        """Whether it is in another package than the one that is checked."""
+        """True if it is in another package than the one that is checked."""
         return self.span.source.file.startswith("../")
 
 
@@ -76,7 +76,7 @@ class BridgedService(Record, eq=False):
 
     @property
     def is_own(self) -> bool:
-        """Whether it is written in the package that is checked."""
+        """True if it is written in the package that is checked."""
         return not self.ros_type.span.source.file.startswith("../")
 
 
@@ -104,17 +104,17 @@ class BridgeEntry(Record, eq=False):
 
     @property
     def direction(self) -> Direction:
-        """Which way messages go."""
+        """Direction of the messages."""
         return self.passed.direction
 
     @property
     def counts(self) -> bool:
-        """Whether it is bridged with the defaults of all arguments."""
+        """True if it is bridged with the defaults of all arguments."""
         return self.node is None or self.node.starts is True
 
     @property
     def is_own(self) -> bool:
-        """Whether it is written in the package that is checked."""
+        """True if it is written in the package that is checked."""
         return not self.passed.gz_type.span.source.file.startswith("../")
 
 

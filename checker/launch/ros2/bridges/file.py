@@ -46,7 +46,7 @@ Item = Passed | BridgedService | BridgeFault
 
 
 def is_bridge_file(document: YamlDocument) -> bool:
-    """Whether a file that nothing names is one of a bridge, by its keys."""
+    """Return whether a file that nothing names is one of a bridge, by its keys."""
     root = document.root
     if root is None:
         return False

@@ -1,4 +1,4 @@
-"""What the bridges between Gazebo and ROS 2 pass, by what launch files start and YAML files say."""
+"""Topics that bridges pass between Gazebo and ROS 2, from launch files and YAML files."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ _LOOSE_LIMIT = 50
 
 
 class Bridges(Record, eq=False):
-    """What the bridges of a launch file pass.
+    """Topics and services that the bridges of a launch file pass.
 
     Attributes:
         entries: The topics.
-        faults: What is wrong with arguments and files.
+        faults: The faults in arguments and files.
         unread: The reasons why some topics are not known.
         files: Paths of the YAML files that are read, as the package lists them.
         services: The services.
@@ -76,12 +76,12 @@ class Bridges(Record, eq=False):
 
     @property
     def is_there(self) -> bool:
-        """Whether something is bridged, or was meant to be."""
+        """True if something is bridged, or was meant to be."""
         return bool(self.entries or self.services or self.faults or self.unread)
 
 
 class _At(Record, eq=False):
-    """Where a bridge runs: what its relative names become."""
+    """Namespace and remaps of a bridge, which its relative names need."""
 
     namespace: str
     name: str
@@ -108,7 +108,7 @@ class _At(Record, eq=False):
 
 
 def _is_name(text: str) -> bool:
-    """Whether a name is known: no substitution is left in it, and nothing to be replaced."""
+    """Return whether a name is known: without substitutions or parts to be replaced."""
     return is_known(text) and not any(mark in text for mark in "${<")
 
 
@@ -298,7 +298,7 @@ def _at(node: Node, given: dict[str, Located[str]]) -> _At:
 
 
 def _expands(parameters: Parameters, given: dict[str, Located[str]]) -> bool:
-    """Whether the names of Gazebo's topics are put into the namespace of the node."""
+    """Return whether the names of Gazebo's topics get the namespace of the node."""
     said = [p.value for p in parameters if isinstance(p, Parameter) and p.name == _EXPAND]
     said += [given[_EXPAND].value] if _EXPAND in given else []
     return bool(said) and str(said[-1]).lower() not in ("false", "0")

@@ -37,13 +37,13 @@ from checker.source.text import Located, SourceText, Span
 
 
 class World(Protocol):
-    """What a launch file may query while it is evaluated."""
+    """Environment of a launch file: what it may query while it is evaluated."""
 
     def read(self, path: str, span: Span) -> SourceText | str:
         """Return the text of a file below a share folder, or why it cannot be had."""
 
     def exists(self, path: str) -> bool | None:
-        """Whether there is a file or folder; None when its package is not available."""
+        """Return whether there is a file or folder; None when its package is not available."""
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:
         """Return the names of a Python module of a available package."""
@@ -389,7 +389,7 @@ class Interpreter:
 
 
 def _is_generator(function: ast.AST) -> bool:
-    """Whether a function yields; functions within it are not looked at."""
+    """Return whether a function yields; functions inside it do not count."""
     waiting = [*ast.iter_child_nodes(function)]
     while waiting:
         part = waiting.pop()
@@ -401,7 +401,7 @@ def _is_generator(function: ast.AST) -> bool:
 
 
 def _takes(owner: Value, key: Value) -> bool:
-    """Whether an item can be stored under a key."""
+    """Return whether an item can be stored under a key."""
     if isinstance(owner, list):
         return isinstance(key, int) and -len(owner) <= key < len(owner)
     return isinstance(owner, dict) and isinstance(key, str | int | float)

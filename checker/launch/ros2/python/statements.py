@@ -21,7 +21,7 @@ ROUNDS_LIMIT = 2_000
 
 
 class Flow(enum.Enum):
-    """How a statement ends."""
+    """Reason why the execution of a statement ends."""
 
     ON = "goes on"
     BREAK = "leaves the loop"

@@ -7,7 +7,7 @@ import builtins
 from collections.abc import Iterator
 
 _GIVEN = frozenset({*dir(builtins), "__file__", "__path__"})
-"""What every module has."""
+"""Names that every module has."""
 _ANY_NAME = frozenset({"exec", "globals", "locals", "vars", "setattr"})
 """Functions that may define names."""
 _Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -54,7 +54,7 @@ def _used(node: ast.AST) -> Iterator[ast.Name]:
 
 
 def _is_annotation(node: ast.AST) -> bool:
-    """Whether Python may not evaluate a node."""
+    """Return whether Python may not evaluate a node."""
     return isinstance(node, ast.AnnAssign | ast.arg)
 
 

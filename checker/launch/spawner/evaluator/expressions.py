@@ -47,7 +47,7 @@ def _string(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _frozen_literals(run: Interpreter, node: RubyNode) -> bool:
-    """Whether the file's magic comment freezes literals; interpolated ones stay free."""
+    """Return whether the file's magic comment freezes literals; interpolated ones stay mutable."""
     tree = run.trees.get(run.scope.path)
     if tree is None or any(part.type == "interpolation" for part in node.children):
         return False

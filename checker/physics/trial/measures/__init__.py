@@ -1,1 +1,1 @@
-"""What is measured of a trial."""
+"""Measures of a trial."""

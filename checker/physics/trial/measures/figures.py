@@ -6,7 +6,7 @@ from checker.base.record import Record
 
 
 class Measure(Record):
-    """What a figure means.
+    """Meaning of a measure.
 
     Attributes:
         label: The label for tables.

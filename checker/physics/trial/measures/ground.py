@@ -1,4 +1,4 @@
-"""What a robot stands on during a stretch of time: contact points, loads, belts and wheels."""
+"""Support of a robot during a period: contact points, loads, belts and wheels."""
 
 from __future__ import annotations
 

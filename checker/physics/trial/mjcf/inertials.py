@@ -40,7 +40,7 @@ _CLEARLY = 1e-6
 
 
 class BodyInertia(Record, eq=False):
-    """What a body weighs.
+    """Mass, centre of mass and inertia of a body.
 
     Attributes:
         mass: Kilograms.
@@ -54,7 +54,7 @@ class BodyInertia(Record, eq=False):
 
     @property
     def sound(self) -> bool:
-        """Whether MuJoCo lets a body with this move: its mass and moments are not zero."""
+        """True if MuJoCo allows a moving body with this inertia: mass and moments are not zero."""
         if _is_clearly_positive(self.moments):
             return self.mass > _NOTHING
         import numpy as np

@@ -1,4 +1,4 @@
-"""How a joint lets its child move in a scene: none, one or two degrees, or a ball."""
+"""Joints of a scene by type: none, one or two degrees of freedom, or a ball."""
 
 from __future__ import annotations
 

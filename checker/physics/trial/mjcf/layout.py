@@ -33,7 +33,7 @@ class Forest(Record, eq=False, dict=True):
 
     @cached_property
     def children(self) -> dict[str, list[str]]:
-        """Which links hang on each link, and on the world."""
+        """Links that are connected to each link, and to the world, by a joint."""
         below: dict[str, list[str]] = {}
         for name in self.order:
             tie = self.tie(name)

@@ -1,4 +1,4 @@
-"""What a scene had to change or leave out, collected while it is built."""
+"""Changes and omissions of a scene, collected while it is built."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from checker.physics.trial.trial import Repair
 
 
 _UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSCALED)
-"""What a robot stands on may be in such a file: without it, it would be another robot."""
+"""Kinds of unread collision meshes: without such a mesh, the trial would be of another robot."""
 
 
 def unusable_because(robot: Robot, layout: Layout) -> str:

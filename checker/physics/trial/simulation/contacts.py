@@ -77,7 +77,7 @@ class Touches(Record):
 
 
 class _Copied(NamedTuple):
-    """What MuJoCo holds after a step; arrays have a row a contact, if nothing else is said."""
+    """Arrays of MuJoCo after a step; each has a row for every contact, except where noted."""
 
     time: float
     place: Array
@@ -185,7 +185,7 @@ def _measured(name: str, depths: Mapping[Pair, float]) -> Iterator[Measurement]:
 
 @dataclass
 class ContactQuery:
-    """Which parts of a robot are inside each other, in poses of its joints.
+    """Query for the parts of a robot that overlap, in poses of its joints.
 
     Attributes:
         unswept: Joints that `swept_overlaps` left out: with so many shapes it would take too long.

@@ -73,7 +73,7 @@ class Rig:
 
     @property
     def positions(self) -> Array:
-        """Where the joints of the actuators stand, rad or m."""
+        """Positions of the joints of the actuators, rad or m."""
         positions: Array = self.data.qpos[self.model.jnt_qposadr[self.joints]]
         return positions
 

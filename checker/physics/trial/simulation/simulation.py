@@ -101,7 +101,7 @@ SETTLED, HOVERING = "settled", "hovering"
 
 @dataclass(frozen=True)
 class State:
-    """Where everything is before a step.
+    """State of all bodies before a step.
 
     Attributes:
         step: Its number.

@@ -1,4 +1,4 @@
-"""What the child that draws is asked: groups of shapes, shots, and where cameras stand."""
+"""Request to the child process that draws: groups of shapes, shots, and camera poses."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 FIELD_OF_VIEW = 35.0
 """Degrees from the lower edge of a picture to the upper one: a portrait lens distorts little."""
 _MARGIN = 1.12
-"""What is shown may fill the picture but for this."""
+"""Ratio of the size of the picture to that of the shown robot."""
 
 
 class Camera(Record):

@@ -1,4 +1,4 @@
-"""What operators see and do of the checks in a database."""
+"""Listing and changes of the checks in a database, for operators."""
 
 from __future__ import annotations
 

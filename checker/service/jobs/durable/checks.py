@@ -109,7 +109,7 @@ class Checks(Record):
         return sorted({each.executor_id or "" for each in lost})
 
     def is_wanted(self, task: Task) -> bool:
-        """Whether a running task is still wanted, and belongs to the worker that runs it."""
+        """Return whether a running task is still wanted, and belongs to the worker that runs it."""
         ids = [task.id, first_id(task.key)]
         found = self.client.list_workflows(workflow_ids=ids, load_input=False, load_output=False)
         rows = {row.workflow_id: row for row in found}

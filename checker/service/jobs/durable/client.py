@@ -179,7 +179,7 @@ class DurableJobs(Record):
 
 
 def _has_secret(rows: Sequence[Row], secret: str) -> bool:
-    """Whether a check is known and has a secret."""
+    """Return whether a check is known and has a secret."""
     return bool(events_of(rows)) and secrets.compare_digest(
         rows[0].task.secret, digest_of_secret(secret)
     )

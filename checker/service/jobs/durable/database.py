@@ -136,7 +136,7 @@ def configure_logging() -> None:
 
 
 def _is_amiss(record: logging.LogRecord) -> bool:
-    """Whether it is worth a line: not that a check was cancelled, or deleted, while it ran."""
+    """Return whether it is worth a line: not the cancellation or deletion of a running check."""
     from dbos import error
 
     raised = record.exc_info[1] if record.exc_info else None

@@ -1,4 +1,4 @@
-"""What is deleted, and when: checks after their time, then what nothing refers to any more."""
+"""Deletion of checks after their time, and then of what nothing refers to any more."""
 
 from __future__ import annotations
 

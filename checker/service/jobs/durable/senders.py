@@ -1,4 +1,4 @@
-"""What the database holds of senders: a digest for the day, and how many uploads they send.
+"""Senders in the database: a digest for the day, and the rate of their uploads.
 
 Each digest depends on a salt that is deleted after the day: the sender cannot be identified later.
 """
@@ -22,14 +22,15 @@ SALTS = sa.Table(
     sa.Column("day", sa.String(10), primary_key=True),
     sa.Column("salt", sa.String(64), nullable=False),
 )
-"""What senders are hashed with on a day."""
+"""Salts of the digests of senders, by day."""
 RATES = sa.Table(
     "subt_rates",
     METADATA,
     sa.Column("client", sa.String(32), primary_key=True),
     sa.Column("free", sa.Double, nullable=False),
 )
-"""When each client may again send a whole minute's uploads at once, seconds since the epoch."""
+"""Time at which each client may again send a whole minute's uploads at once, seconds since the
+epoch."""
 _MINUTE = 60.0
 
 

@@ -1,6 +1,6 @@
-"""What a worker does with a stage of a check that it has taken from a queue.
+"""Work on a stage of a check that a worker has taken from a queue.
 
-A stage may begin again at any point, after a crash, in another process: a result that is in the
+A stage may start again at any point, after a crash, in another process: a result that is in the
 store already is found there, and each further task is entered once.
 """
 

@@ -44,11 +44,11 @@ _END = 2 * TRIES * len(STAGES) + 1
 
 
 class End(Record):
-    """What a check has come to.
+    """End of a check.
 
     Attributes:
-        stage: A final one.
-        words: The words of its state.
+        stage: The final stage.
+        words: The state in words.
         result: Key of the report, if there is one.
         packages: The packages, as in `State`.
     """

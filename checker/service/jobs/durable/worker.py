@@ -45,7 +45,7 @@ _VERSION = "1"
 
 
 class WorkerOptions(Record):
-    """How a worker works.
+    """Settings of a worker.
 
     Attributes:
         database_url: The URL as `checker.service.jobs.durable.database.database_url` says it.
@@ -59,8 +59,8 @@ class WorkerOptions(Record):
         silence_seconds: After which other workers take this one for dead.
         cleaning_seconds: The time between two rounds that delete expired files.
         unused_seconds: The time that files without a check are kept.
-        pauses: Seconds before each further try of what came to nothing (see `tasks.PAUSES`).
-        ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
+        pauses: Seconds before each further try of a task that failed (see `tasks.PAUSES`).
+        ahead: Whether the process of the next check is started before there is one; it uses 0.1 GB.
     """
 
     database_url: str

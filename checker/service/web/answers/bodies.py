@@ -26,7 +26,7 @@ _pack = partial(gzip.compress, compresslevel=6, mtime=0)
 
 
 def takes_gzip(headers: Headers) -> bool:
-    """Whether a client takes compressed answers (RFC 9110, 12.5.3)."""
+    """Return whether a client takes compressed answers (RFC 9110, 12.5.3)."""
     for coding in headers.get("accept-encoding", "").lower().split(","):
         name, *weights = (word.strip() for word in coding.split(";"))
         if name == "gzip":

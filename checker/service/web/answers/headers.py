@@ -1,4 +1,4 @@
-"""What every answer, and every file of a result, says to browsers: load nothing else."""
+"""Headers of every answer, and of every file of a result: browsers load nothing else."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def file_response(path: Path, asked: Headers | None = None) -> Response:
 
 
 def _takes_packed(asked: Headers, kind: str) -> bool:
-    """Whether a client takes a compressed file: of pages, those for browsers alone are."""
+    """Return whether a client takes a compressed file: for pages, only browsers do."""
     is_for_it = not kind.startswith("text/html") or "text/html" in asked.get("accept", "")
     return is_for_it and takes_gzip(asked)
 

@@ -1,4 +1,4 @@
-"""How the service says no: to programs in JSON, to people by a page."""
+"""Refusals of the service: in JSON for programs, as a page for people."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
 _FOR_PROGRAMS = ("/api/", "/healthz", "/readyz", "/metrics")
 CAUSE = "refused"
-"""Where the state of a request says why it was refused, for logs and metrics."""
+"""Key in the state of a request with the reason of a refusal, for logs and metrics."""
 _LOG = logging.getLogger(LOGGER)
 
 
 class Problem(BaseModel):
-    """Why a request is refused.
+    """Reason why a request is refused.
 
     Attributes:
-        error: What is wrong.
+        error: The fault.
         advice: What to do about it.
     """
 
@@ -55,7 +55,7 @@ def refusal_answer(request: Request, refused: Refused) -> Response:
 
 
 def _is_read_by_people(request: Request) -> bool:
-    """Whether a browser opens an address of the API, such as that of a report."""
+    """Return whether a browser opens an address of the API, such as that of a report."""
     opens = request.scope["method"] in ("GET", "HEAD")
     return opens and "text/html" in request.headers.get("accept", "")
 

@@ -93,7 +93,7 @@ class Watchers:
 
     @property
     def idle(self) -> bool:
-        """Whether nothing is looked at."""
+        """True if no check is watched."""
         return self._task is None
 
     @contextmanager

@@ -79,10 +79,10 @@ class Admission:
         return admit
 
     def recognizes(self, request: HTTPConnection) -> bool:
-        """Whether a request brings one of the tokens.
+        """Return whether a request has one of the tokens.
 
         Raises:
-            Refused: Too many wrong ones came from its address; even a right one is refused.
+            Refused: Too many wrong tokens came from its address; even a valid one is refused.
         """
         token, client = bearer(request), client_of(request)
         if not token:
@@ -100,7 +100,7 @@ class Admission:
         return hashlib.sha256(who.encode("utf-8", "replace")).hexdigest()[:_SENDER_DIGITS]
 
     def knows(self, token: str) -> bool:
-        """Whether it is one of the tokens; as slow for a good guess as for a bad one."""
+        """Return whether it is one of the tokens; valid and invalid ones take the same time."""
         secret = token.strip().encode()
         return sum(secrets.compare_digest(secret, token) for token in self._tokens) > 0
 

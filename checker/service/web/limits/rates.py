@@ -1,4 +1,4 @@
-"""How much one client may do, and all of them at once."""
+"""Rate limits of one client, and of all clients."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a check is, in words and steps."""
+"""Progress of a check in words and steps."""
 
 from __future__ import annotations
 
@@ -122,11 +122,11 @@ class Step(Record):
 
 
 class Headline(Record):
-    """What a check comes to.
+    """Headline of a check.
 
     Attributes:
         lead: A word or two.
-        rest: What follows behind a colon; may be empty.
+        rest: The text after a colon; may be empty.
         mood: The verdict by which it is coloured, or empty.
         advice: What to do; may be empty.
     """
@@ -158,7 +158,7 @@ class PackageLine(Record):
 
     @property
     def is_file(self) -> bool:
-        """Whether it is no package, but a world or another file by itself."""
+        """True if it is not a package, but a world or another single file."""
         return self.kind in FILES
 
 

@@ -22,7 +22,7 @@ OF_THE_SITE = (
     *("upload.js", "choosing.js", "parts.js", "zip.js", "sending.js", "watch.js"),
 )
 OF_THE_REPORT = ("report.css",)
-"""What the site shares with the reports, so that both look the same."""
+"""Files that the site shares with the reports, so that both look the same."""
 FOR_EVER = "public, max-age=31536000, immutable"
 
 

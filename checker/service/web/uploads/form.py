@@ -221,5 +221,5 @@ def signature_mismatch(name: str, head: bytes) -> str:
 
 
 def _is_xml(head: bytes) -> bool:
-    """Whether a tag, a comment or a declaration comes first."""
+    """Return whether a tag, a comment or a declaration comes first."""
     return head.removeprefix(_UTF8_MARK).lstrip().startswith(b"<") or head.startswith(_UTF16_TAG)

@@ -153,10 +153,10 @@ def _announced(request: Request, config: Config) -> int:
 
 @dataclass
 class _Patience:
-    """How long an upload is waited for: each byte of it buys time.
+    """Time limit of an upload, which grows with each received byte.
 
     Attributes:
-        longest: Seconds that it may last, however fast it comes.
+        longest: Greatest number of seconds that it may last.
         started: The start time by the monotonic clock.
         received: Bytes so far.
     """
