@@ -85,7 +85,7 @@ def said(path: Path, profile: str, options: Options) -> list[Said]:
     """Return what rules report of a package, place by place."""
     settings = Settings(select=tuple(options), options=options, trial=False)
     if profile:
-        settings = settings.overridden(profile=profile)
+        settings = settings.with_overrides(profile=profile)
     return [
         (finding.rule, place.message or finding.message, _file(package.path, place), place)
         for package in check_package(path, settings).packages

@@ -118,7 +118,7 @@ class Task(Record):
         if path.is_file() and not package.only:
             inside = folders_above(package.root, top=package.workspace.directories[0])
             folders = chain(inside, folders_above(path.parent))
-        return find_settings(folders).overridden(**self.wishes)
+        return find_settings(folders).with_overrides(**self.wishes)
 
     def display_path_of(self, package: Package) -> str:
         """Return the package's path as the user would write it."""

@@ -111,7 +111,7 @@ def _place(where: Where) -> Place:
 
 def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE) -> Fix:
     """Return the fix that writes `replacement` over the text of `where`."""
-    return Fix(safety, (where.span.replaced_by(replacement),))
+    return Fix(safety, (where.span.replacement(replacement),))
 
 
 class Context(Record):
@@ -133,17 +133,17 @@ class Context(Record):
     distro: str = ""
 
     @property
-    def of_submissions(self) -> bool:
+    def is_subt(self) -> bool:
         """True if every model is a robot of SubT that drives by itself."""
         return self.release == "dome"
 
     @property
-    def of_gazebo_sim(self) -> bool:
+    def is_gazebo_sim(self) -> bool:
         """True if the target is a release of Gazebo later than the one of SubT."""
         return self.release in ("fortress", "harmonic", "ionic", "jetty")
 
     @property
-    def of_classic(self) -> bool:
+    def is_classic(self) -> bool:
         """True if the target is Gazebo Classic with ROS 2."""
         return self.release == "classic" and bool(self.distro)
 
@@ -200,7 +200,7 @@ class Rule(Record, dict=True):
         return {name: need.kind for name, need in self._needs}
 
     @cached_property
-    def spares(self) -> frozenset[str]:
+    def optional_parts(self) -> frozenset[str]:
         """Names of the parameters for parts that a rule can do without: `Specification | None`."""
         return frozenset(name for name, need in self._needs if need.optional)
 

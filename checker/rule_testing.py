@@ -101,7 +101,7 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
     """
     package = write_example(example, folder)
     with open_input(package) as opened:
-        settings = find_settings([package]).overridden(thorough=True)
+        settings = find_settings([package]).with_overrides(thorough=True)
         cache = Cache(cache_folder())
         subject = Subject(opened.packages[0], cache, xacro_args=settings.xacro_args)
         rules = [rule, *_companions(example)]

@@ -99,7 +99,7 @@ class Settings(Record):
         """Return whether the user selects this rule itself, not only its group or concern."""
         return any(name in self.select for name in rule.names)
 
-    def overridden(self, **changes: Any) -> Settings:
+    def with_overrides(self, **changes: Any) -> Settings:
         """Return settings in which those that are not None replace these."""
         wanted = {key: value for key, value in changes.items() if value is not None}
         chosen = self.profile_chosen or "profile" in wanted
@@ -112,7 +112,7 @@ class Settings(Record):
             return InvalidSettings(None, f"--{name.replace('_', '-')}: {words}")
         return InvalidSettings(self.source, words)
 
-    def suiting(self, package: Package) -> Settings:
+    def for_package(self, package: Package) -> Settings:
         """Return the settings for what is checked: without a choice, its usual profile counts.
 
         Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
@@ -132,7 +132,7 @@ class Settings(Record):
     def _told_by(self, package: Package) -> Settings:
         """Return the settings with the target detected from the content of a ROS 2 package."""
         target = detect_target(package, self.distro)
-        profile = CLASSIC_ROS_2 if target.of_classic else self.profile
+        profile = CLASSIC_ROS_2 if target.is_classic else self.profile
         return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)
 
     @property
@@ -396,7 +396,7 @@ def _expected(value: object, choices: Iterable[str]) -> str:
     """Return the end of a message: the word that may be meant, else all that are known."""
     known = list(choices)
     word = str(value)[:100].lower().replace("_", "-")
-    near = word if word in known else Suggestions(known).near(word)
+    near = word if word in known else Suggestions(known).closest(word)
     return f"; did you mean {near!r}?" if near else f", expected one of {', '.join(known)}"
 
 

@@ -77,7 +77,7 @@ class Ask(Protocol):
         """Return all parts of a type; at least one."""
         ...
 
-    def beside(self, package: Any) -> AbstractContextManager[Ask]:
+    def parts_of(self, package: Any) -> AbstractContextManager[Ask]:
         """Return the parts of another package, to compare with."""
         ...
 

@@ -38,7 +38,7 @@ class Suggestions:
         self._sure: dict[str, str | None] = {}
         self._effort = EFFORT
 
-    def near(self, word: str) -> str | None:
+    def closest(self, word: str) -> str | None:
         """Return the known word that is nearest to another, if one is near enough."""
         if word not in self._found and self._effort >= len(self._known):
             self._effort -= len(self._known)
@@ -46,12 +46,12 @@ class Suggestions:
             self._found[word] = matches[0] if matches else None
         return self._found.get(word)
 
-    def sure(self, word: str) -> str | None:
+    def correction(self, word: str) -> str | None:
         """Return the one known word of which another is a misspelling; None if several may be.
 
         A fix writes it: at most `SLIP` characters differ, and no digit, which distinguishes parts.
         """
-        if word not in self._sure and self.near(word) is not None:
+        if word not in self._sure and self.closest(word) is not None:
             matches = get_close_matches(word[:200], self._known, n=len(self._known), cutoff=0.8)
             slips = [known for known in matches if _is_slip(word, known)]
             self._sure[word] = slips[0] if len(slips) == 1 else None
@@ -59,14 +59,14 @@ class Suggestions:
 
     def hint(self, word: str) -> str:
         """Return the end of a message: `; did you mean 'wheel'?`, or nothing."""
-        near = self.near(word)
+        near = self.closest(word)
         return f"; did you mean {near!r}?" if near else ""
 
 
 # Values in a sentence.
 
 
-def either(values: Iterable[float]) -> str:
+def or_list(values: Iterable[float]) -> str:
     """Return numbers as a choice: `512, 1024 or 2048`."""
     words = [f"{value:g}" for value in values]
     return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
@@ -82,7 +82,7 @@ def count(number: int, noun: str) -> str:
     return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
-def listed(words: Sequence[str]) -> str:
+def and_list(words: Sequence[str]) -> str:
     """Return `a`, `a and b`, `a, b and c`."""
     if len(words) < 2:
         return "".join(words)

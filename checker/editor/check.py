@@ -52,7 +52,7 @@ class Checked:
         known = rules(cache)
         check_against_rules(settings, known)
         self.package = package
-        self.settings = settings.overridden(trial=False).suiting(package)
+        self.settings = settings.with_overrides(trial=False).for_package(package)
         devices, args = known_devices(settings.devices), settings.xacro_args
         self.subject = Subject(
             package, cache, devices=devices, processes=processes, xacro_args=args

@@ -85,7 +85,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         return None
     key, checked = state.unit.key, state.checked
     wishes = {"trial": True, "display": True if display else None}
-    check = FullCheck(checked.package, checked.settings.overridden(**wishes))
+    check = FullCheck(checked.package, checked.settings.with_overrides(**wishes))
     # Results of the earlier text are no longer needed.
     if (earlier := server.measuring.get(key)) is not None:
         earlier.stop()

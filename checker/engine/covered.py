@@ -19,20 +19,20 @@ Cover = tuple[str, GradedFinding]
 """The id of a rule and what it says."""
 
 
-class Parted(Record):
+class SplitFindings(Record):
     """Findings of a rule, without and with those that a more precise rule reports.
 
     Attributes:
-        told: The findings that it reports.
+        reported: The findings that it reports.
         covered: The findings that repeat one of a more precise rule, each with that one.
     """
 
     rule: Rule
-    told: list[GradedFinding]
+    reported: list[GradedFinding]
     covered: list[tuple[GradedFinding, Cover]]
 
 
-def split_covered(said: Sequence[Said]) -> list[Parted]:
+def split_covered(said: Sequence[Said]) -> list[SplitFindings]:
     """Separate the findings that a rule of `covered_by` reports at no lower severity.
 
     A rule reports the same fault if it reports the same place; or all related places, which are
@@ -42,27 +42,29 @@ def split_covered(said: Sequence[Said]) -> list[Parted]:
         said: What all rules found that ran.
     """
     covering = {id for _, found in said for finding in found for id in finding.covered_by}
-    told = {rule.id: _Told(found) for rule, found in said if rule.id in covering}
+    covering_places = {
+        rule.id: _ReportedPlaces(found) for rule, found in said if rule.id in covering
+    }
 
     def cover_of(finding: GradedFinding) -> Cover | None:
-        others = (id for id in finding.covered_by if id in told)
-        covers = ((id, told[id].telling(finding)) for id in others)
+        others = (id for id in finding.covered_by if id in covering_places)
+        covers = ((id, covering_places[id].cover(finding)) for id in others)
         return next(((id, cover) for id, cover in covers if cover), None)
 
-    parted = []
+    shares = []
     for rule, found in said:
         covers = [(each, cover_of(each)) for each in found]
-        parted.append(
-            Parted(
+        shares.append(
+            SplitFindings(
                 rule,
                 [each for each, cover in covers if cover is None],
                 [(each, cover) for each, cover in covers if cover is not None],
             )
         )
-    return parted
+    return shares
 
 
-class _Told:
+class _ReportedPlaces:
     """Places that a rule reports, each with the most severe finding there."""
 
     def __init__(self, findings: Iterable[GradedFinding]) -> None:
@@ -74,7 +76,7 @@ class _Told:
                 for element in _around(place.element):
                     _keep_gravest(self._around, (place.file, element), finding)
 
-    def telling(self, finding: GradedFinding) -> GradedFinding | None:
+    def cover(self, finding: GradedFinding) -> GradedFinding | None:
         """Return the finding, at least as severe, that has the places of another rule's."""
         main, *suspects = finding.places
         at_main = self._main.get(_key(main))

@@ -60,8 +60,8 @@ ENTRIES_AROUND_A_FILE = 5_000
 
 def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
-    suiting = replace(settings.suiting(package), commanded=())
-    options = json.dumps(msgspec.to_builtins(suiting, enc_hook=str))
+    resolved = replace(settings.for_package(package), commanded=())
+    options = json.dumps(msgspec.to_builtins(resolved, enc_hook=str))
     parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
     parts += _content(package)
     limit = ENTRIES_AROUND_A_FILE if package.only else ENTRIES_LIMIT

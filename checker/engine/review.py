@@ -130,7 +130,7 @@ def judge_package(
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
-    settings = settings.suiting(package)
+    settings = settings.for_package(package)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
     devices = known_devices(settings.devices)
     subject = Subject(package, cache, stages, devices, processes, settings.xacro_args)
@@ -154,7 +154,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
-    settings = settings.suiting(package)
+    settings = settings.for_package(package)
     devices = known_devices(settings.devices)
     subject = Subject(package, cache, devices=devices, xacro_args=settings.xacro_args)
     try:

@@ -16,7 +16,7 @@ from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts, type_name
 from checker.base.record import Record
 from checker.base.words import shortened
-from checker.engine.covered import Cover, Parted, Said, split_covered
+from checker.engine.covered import Cover, Said, SplitFindings, split_covered
 from checker.engine.grouping import (
     TEXT_LIMIT,
     bounded_places,
@@ -115,7 +115,7 @@ def _reported(
         rule = each.rule
         covered += _report(rule, [found for found, _ in each.covered], {})
         for suppression, group in split_suppressed(
-            rule.id, each.told, matcher, partial(_spot, rule)
+            rule.id, each.reported, matcher, partial(_spot, rule)
         ).items():
             reported = _report(rule, group, repeats)
             if suppression is None:
@@ -129,7 +129,7 @@ def _reported(
     return replace(outcome, covered=tuple(covered))
 
 
-def _repeats(shares: Sequence[Parted]) -> dict[Cover, list[Repeat]]:
+def _repeats(shares: Sequence[SplitFindings]) -> dict[Cover, list[Repeat]]:
     """Return the findings of less precise rules, by the finding reported in their place."""
     covers = {(each.rule.id, found): cover for each in shares for found, cover in each.covered}
     repeats: dict[Cover, list[Repeat]] = {}
@@ -232,7 +232,7 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
         had = (context,) if kind == type_name(Context) else parts.part(kind)
         if not isinstance(had, NotAvailable):
             wanted[name] = had
-        elif name in rule.spares and not had.applicable:
+        elif name in rule.optional_parts and not had.applicable:
             wanted[name] = (None,)
         else:
             return had

@@ -142,7 +142,7 @@ class Subject(Record, eq=False):
         return replace(self, package=package, ends=ExitStack(), _made={})
 
     @contextmanager
-    def beside(self, package: Package) -> Iterator[Subject]:
+    def parts_of(self, package: Package) -> Iterator[Subject]:
         """Return the parts of another package, to compare with."""
         other = Subject(package)
         try:

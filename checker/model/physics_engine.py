@@ -42,15 +42,15 @@ class PhysicsEngine(Record):
         return lacking
 
 
-def engine_of(world: World | None, told: str = "") -> PhysicsEngine | None:
+def engine_of(world: World | None, chosen: str = "") -> PhysicsEngine | None:
     """Return the engine of a world; None for one that is not known.
 
     Args:
         world: The world; None for one of Gazebo's own.
-        told: The command line's value of `--physics-engine`; empty for none.
+        chosen: The command line's value of `--physics-engine`; empty for none.
     """
     named = engine_name(world) if world is not None else None
-    name = told or (named.value if named is not None else "")
+    name = chosen or (named.value if named is not None else "")
     if not name:
         return _engine(table("physics_engines")["default"], is_default=True)
     match = _LIBRARY.fullmatch(engine_library(name))

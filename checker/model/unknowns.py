@@ -78,10 +78,10 @@ def _tied_by_broken_joints(tree: LinkTree, apart: Iterable[str]) -> tuple[set[st
     unclear = None
     for tie in tree.broken:
         name = tie.joint.scope + tie.missing.value
-        near = suggestions.near(name)
+        near = suggestions.closest(name)
         if near is not None:
             meant.add(near)
-        elif anywhere.near(name) is None:
+        elif anywhere.closest(name) is None:
             unclear = tie.joint
     return meant, unclear
 

@@ -55,12 +55,12 @@ class DetectedTarget(Record):
     """Target of a package, as far as its content shows it.
 
     Attributes:
-        of_classic: Whether the simulator is Gazebo Classic.
+        is_classic: Whether the simulator is Gazebo Classic.
         distro: ROS 2 distribution; empty where unknown.
         reason: The reason, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
     """
 
-    of_classic: bool = False
+    is_classic: bool = False
     distro: str = ""
     reason: str = ""
 

@@ -51,7 +51,7 @@ class ReleasedNames:
         for spelled in (name.replace("-", "_"), name.replace("_", "-")):
             if spelled != name and self._has(spelled):
                 return spelled
-        near = self._suggestions.sure(name) if len(name) >= _SHORTEST else None
+        near = self._suggestions.correction(name) if len(name) >= _SHORTEST else None
         alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)
         return near if alike else None
 

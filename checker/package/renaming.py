@@ -77,7 +77,7 @@ def _edits(package: Package, path: str, old: str, new: str) -> tuple[Edit, ...] 
             continue
         if written not in instead or not _means_package(source, word.start(), old):
             return None
-        edits.append(Span(source, *word.span()).replaced_by(instead[written]))
+        edits.append(Span(source, *word.span()).replacement(instead[written]))
     return tuple(edits)
 
 

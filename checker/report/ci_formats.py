@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Severity
 from checker.report.finding_text import MESSAGE_LIMIT, path_of
 from checker.report.ownership import each_once
@@ -141,7 +141,7 @@ def to_github(report: Report) -> str:
         count(sum(reported.severity is severity for _, reported in findings), _COMMAND[severity])
         for severity in Severity
     ]
-    lines.append(f"{listed(numbers)} in all; GitHub shows the first ten of each")
+    lines.append(f"{and_list(numbers)} in all; GitHub shows the first ten of each")
     lines += [_uncommanding(f"{summary.name}: {sentence(summary)}") for summary in report.packages]
     return "\n".join(lines) + "\n"
 

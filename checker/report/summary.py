@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from checker.base.record import Record
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Concern, Severity
 from checker.report.markdown_text import escaped, fitting
 from checker.report.ownership import each_once, is_foreign
@@ -64,7 +64,7 @@ def sentence(package: PackageReport) -> Sentence:
 def _errors(package: PackageReport) -> str:
     """Return `2 errors of the robot and 1 of the paperwork to fix, and 3 in base_robot`."""
     inherited = Counter(owner for owner in map(_owner, package.errors) if owner)
-    others = listed([f"{number} in {plain(name)}" for name, number in sorted(inherited.items())])
+    others = and_list([f"{number} in {plain(name)}" for name, number in sorted(inherited.items())])
     own = Counter(found.concern for found in package.errors if not _owner(found))
     if not own:
         where = f": {others}" if len(inherited) > 1 else f" in {plain(*inherited)}"
@@ -72,7 +72,7 @@ def _errors(package: PackageReport) -> str:
     (first, number), *more = ((concern, own[concern]) for concern in Concern if own[concern])
     phrases = [f"{count(number, 'error')} of {first.label}"]
     phrases += [f"{number} of {concern.label}" for concern, number in more]
-    return f"{listed(phrases)} to fix" + (f", and {others}" if others else "")
+    return f"{and_list(phrases)} to fix" + (f", and {others}" if others else "")
 
 
 def _owner(found: ReportedFinding) -> str:
@@ -86,7 +86,7 @@ def _unseen(package: PackageReport) -> str:
     robots = list(dict.fromkeys(spot.reason for spot in unseen if spot.rule == ROBOT))
     others = [spot for spot in unseen if spot.rule != ROBOT]
     reasons = robots or list(dict.fromkeys(spot.reason for spot in others))
-    shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
+    shown = plain(shortened(and_list(reasons[:3]), _REASON_LIMIT))
     blind = len({spot.rule for spot in others})
     what = "no robot was read" if robots else f"{count(blind, 'rule')} could not run"
     return f"{what}: {shown}"
@@ -185,7 +185,9 @@ def what_was_checked(kinds: Iterable[str]) -> str:
         kinds: The kind of each, as in `PackageReport.kind`.
     """
     numbers = Counter(map(_noun, kinds))
-    return listed([count(numbers[noun], noun) for noun in _NOUNS if numbers[noun]]) or "0 packages"
+    return (
+        and_list([count(numbers[noun], noun) for noun in _NOUNS if numbers[noun]]) or "0 packages"
+    )
 
 
 def what_is_ready(verdicts: Iterable[tuple[str, str]]) -> str:
@@ -199,7 +201,7 @@ def what_is_ready(verdicts: Iterable[tuple[str, str]]) -> str:
         numbers[_noun(kind)] += 1
         ready[_noun(kind)] += verdict == VerdictKind.READY
     phrases = [f"{ready[noun]} of {count(numbers[noun], noun)}" for noun in _NOUNS if numbers[noun]]
-    return f"{listed(phrases) or '0 packages'} ready"
+    return f"{and_list(phrases) or '0 packages'} ready"
 
 
 def _noun(kind: str) -> str:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Severity
 from checker.report.concise_report import concise_text
 from checker.report.figures import Row, facts_in_words, rows_of
@@ -262,7 +262,7 @@ def _inherited(package: PackageReport) -> Iterator[str]:
         source = part.package + ("" if part.at_hand else " (not found)")
         by_source.setdefault(source, []).append(part.part)
     for source, parts in by_source.items():
-        yield f"inherited from {plain(source)}: {plain(listed(parts))}"
+        yield f"inherited from {plain(source)}: {plain(and_list(parts))}"
 
 
 def _unread_robots(package: PackageReport) -> Iterator[str]:

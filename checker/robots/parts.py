@@ -182,7 +182,7 @@ def lowest_configuration(package: Package, ask: Ask) -> FirstConfiguration | Not
     first = first_configuration(package)
     if first is None:
         return NotAvailable("no earlier configuration is available to compare", applicable=False)
-    with ask.beside(first) as parts:
+    with ask.parts_of(first) as parts:
         plain = parts.one(PlainRobots)
     if isinstance(plain, NotAvailable):
         return NotAvailable(f"{first.name} cannot be compared: {plain.reason}")

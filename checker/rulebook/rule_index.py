@@ -31,7 +31,7 @@ class IndexedRule(Record):
         id: The id as in `Rule`; `name`, `severity`, `concern` and `page` likewise.
         module: The module that contains it.
         needs: Names of the types of the parts that it needs, by parameter.
-        spares: Parameters for parts that it can do without.
+        optional_parts: Parameters for parts that it can do without.
         options: Their defaults; lists represent tuples.
         judges: Figures of the trial that it judges.
     """
@@ -43,7 +43,7 @@ class IndexedRule(Record):
     page: str
     module: str
     needs: dict[str, str]
-    spares: frozenset[str]
+    optional_parts: frozenset[str]
     options: dict[str, Any]
     judges: tuple[str, ...]
 
@@ -78,7 +78,7 @@ def _indexed(rule: Rule) -> IndexedRule:
         rule.page,
         rule.check.__module__,
         rule.needs,
-        rule.spares,
+        rule.optional_parts,
         rule.options,
         rule.judges,
     )
@@ -98,7 +98,7 @@ def _rule(known: IndexedRule) -> Rule:
     )
     options = {name: _as_tuple(value) for name, value in known.options.items()}
     # What is otherwise read from the function's signature.
-    vars(rule).update(needs=known.needs, spares=known.spares, options=options)
+    vars(rule).update(needs=known.needs, optional_parts=known.optional_parts, options=options)
     return rule
 
 

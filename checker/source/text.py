@@ -152,9 +152,9 @@ class Span(Record, eq=False):
         """First line, in the file that a person would open."""
         return self.place().line
 
-    def replaced_by(self, replacement: str) -> Edit:
-        """Return the edit that puts another text here."""
-        return Edit(self.place(), replacement, self.text)
+    def replacement(self, text: str) -> Edit:
+        """Return the edit that replaces the text by another."""
+        return Edit(self.place(), text, self.text)
 
     def place(self, note: str = "") -> Place:
         """Return the place in the file that a person would open."""

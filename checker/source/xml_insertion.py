@@ -29,7 +29,7 @@ def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
         lines: Their text, two blanks in front of a line for each step of depth.
     """
     span, text = insertion(parent, lines)
-    return span.replaced_by(text)
+    return span.replacement(text)
 
 
 def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
@@ -57,7 +57,7 @@ def insert_behind(element: Element, lines: Sequence[str]) -> Edit:
     parent = element.parent or element
     end = _behind_comments(element.source, element.position.end)
     span = Span(element.source, end, end, parent)
-    return span.replaced_by(_written(parent, lines)[1])
+    return span.replacement(_written(parent, lines)[1])
 
 
 def _written(parent: Element, lines: Sequence[str]) -> tuple[str, str]:
@@ -87,7 +87,7 @@ def _behind_comments(source: SourceText, offset: int) -> int:
 
 def removal(element: Element) -> Edit:
     """Return the edit that takes an element out; see `with_blanks`."""
-    return with_blanks(element.whole_span).replaced_by("")
+    return with_blanks(element.whole_span).replacement("")
 
 
 def with_blanks(span: Span) -> Span:

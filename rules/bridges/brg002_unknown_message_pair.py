@@ -11,7 +11,7 @@ Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
 
 from collections.abc import Iterator
 
-from checker.base.words import listed
+from checker.base.words import and_list
 from checker.launch.ros2.bridges.entry import GZ_PREFIXES, BridgeEntry
 from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import (
@@ -46,7 +46,7 @@ def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Findi
     if not gz.value.startswith(GZ_PREFIXES) or not partners:
         yield _unknown_message(gz, ros.value)
     elif ros.value not in partners and not behind.intersection(gz_messages(ros.value)):
-        expected = listed(partners)
+        expected = and_list(partners)
         said = f"the bridge does not convert {gz.value} to {ros.value}"
         if meant := meant_ros_type(ros.value, partners):
             yield finding(ros, f"{said}; expected {meant}")
@@ -62,7 +62,7 @@ def _unknown_message(gz: Located[str], ros: str) -> Finding:
     if meant:
         return finding(gz, f"Gazebo has no message {gz.value!r:.200}; expected gz.msgs.{meant}")
     near = gz_messages(ros)
-    hint = f"; for {ros} it knows {listed([f'gz.msgs.{name}' for name in near])}" if near else ""
+    hint = f"; for {ros} it knows {and_list([f'gz.msgs.{name}' for name in near])}" if near else ""
     return finding(
         gz,
         f"the bridge is not known to convert {gz.value:.200}{hint}",

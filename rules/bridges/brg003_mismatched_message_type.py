@@ -8,7 +8,7 @@ Fix: write the message that the sensor or system publishes, or the topic that ca
 Source: gz-sensors and Gazebo's systems; gazebosim/gz-sensors issue 175.
 """
 
-from checker.base.words import listed
+from checker.base.words import and_list
 from checker.launch.ros2.bridges.entry import GZ_PREFIXES
 from checker.ros.bridge_types import ros_types
 from checker.ros.simulation import Simulations
@@ -28,7 +28,7 @@ def check(simulations: Simulations) -> Findings:
                 continue
             if entry.gz_name not in messages:
                 expected = " or ".join(f"gz.msgs.{name}" for name in messages)
-                owners = listed(list(dict.fromkeys(topic.owner_name for topic in behind)))
+                owners = and_list(list(dict.fromkeys(topic.owner_name for topic in behind)))
                 yield finding(
                     stated,
                     f"the bridge reads {entry.gz_topic} as {stated.value}, but {owners} "

@@ -13,7 +13,7 @@ Source: ros_gz_bridge, mappings.py and `create_service_bridge`.
 import re
 from collections.abc import Iterator
 
-from checker.base.words import listed
+from checker.base.words import and_list
 from checker.launch.ros2.bridges.entry import BridgedService, gz_name
 from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import meant_service, service_messages
@@ -62,7 +62,7 @@ def _world(service: BridgedService, simulation: Simulation) -> Iterator[Finding]
         yield finding(
             service.name,
             f"the service is of the world {named.group(1)!r}, but the launch file loads "
-            f"{listed([*sorted(worlds)])}",
+            f"{and_list([*sorted(worlds)])}",
             severity=Severity.WARNING,
         )
 

@@ -25,7 +25,7 @@ def check(control: ControlSystem) -> Findings:
         for joint in controller.joints:
             known = control.joints.get(joint.value)
             if known is None:
-                sure = names.sure(joint.value)
+                sure = names.correction(joint.value)
                 yield finding(
                     joint,
                     f"{_label(controller)} controls joint {joint.value!r}, "

@@ -59,7 +59,7 @@ def _misspelt(control: ControlSystem) -> dict[str, Controller]:
     """Return the controllers meant by names that are spawned but not configured."""
     names = Suggestions(control.namesakes)
     spawned = {controller.name for controller in control.spawned_controllers}
-    near = {name: names.near(name) for name in sorted(spawned - control.namesakes.keys())}
+    near = {name: names.closest(name) for name in sorted(spawned - control.namesakes.keys())}
     return {name: control.namesakes[meant] for name, meant in near.items() if meant}
 
 

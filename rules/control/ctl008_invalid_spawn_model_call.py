@@ -64,7 +64,7 @@ def _misspelt_names(control: ControlSystem, model: SpawnedModel) -> Findings:
     """Report a name that is close to, but not, the robot's name or its namespace."""
     known = {robot.value for robot in control.robots}
     known |= {namespace.rpartition("/")[2] for namespace in control.namespaces}
-    near = Suggestions(sorted(known - {""})).near(model.model)
+    near = Suggestions(sorted(known - {""})).closest(model.model)
     if "-model" in model.options and near and not _same(model.model, known):
         yield finding(
             model.options["-model"],

@@ -23,7 +23,7 @@ def check(package: Package, robot: Robot, context: Context) -> Findings:
     """
     moved = robot.locomotion
     if package.kind is PackageKind.BASE_MODEL or moved.kind is not DriveKind.NONE:
-        if moved.rotors and not moved.copters and context.of_submissions:
+        if moved.rotors and not moved.copters and context.is_subt:
             yield from _uncommanded_rotors(robot)
         return
     reason = robot.unread_plugins or robot.missing_parts

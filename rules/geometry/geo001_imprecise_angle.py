@@ -57,7 +57,7 @@ def check(
     wheels = {link.scoped_name for link in robot.wheels}
     for pose, link in robot.poses():
         for angle, quarters, off in _quarter_turns(pose, tolerance, typos):
-            if off <= harmless and context.of_gazebo_sim:
+            if off <= harmless and context.is_gazebo_sim:
                 continue
             of_wheel = link in wheels and off > harmless
             meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")

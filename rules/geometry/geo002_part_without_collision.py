@@ -52,9 +52,9 @@ def _without_any(robot: Robot, context: Context) -> Finding:
     if robot.conventions.has_massless_links and not robot.mass:
         message = f"{what}, and none has a mass: the model is only visible"
         return finding(robot, message, severity=Severity.INFO)
-    if robot.drives or (robot.stands_alone and context.of_submissions):
+    if robot.drives or (robot.stands_alone and context.is_subt):
         return finding(robot, f"{what}: the robot falls through the ground")
-    alone = len(robot.links) > 1 or not context.of_gazebo_sim
+    alone = len(robot.links) > 1 or not context.is_gazebo_sim
     return finding(
         robot,
         f"{what}: nothing touches the robot",

@@ -33,7 +33,7 @@ def check(
         lightest: Mass of all links of the robot, kilograms; less is reported.
         heaviest: Mass of all links of the robot, kilograms; more is reported.
     """
-    if robot.is_static or not (robot.drives or context.of_submissions):
+    if robot.is_static or not (robot.drives or context.is_subt):
         return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)

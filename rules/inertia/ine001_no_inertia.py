@@ -36,7 +36,7 @@ def check(masses: MassProperties, context: Context) -> Findings:
     if robot.conventions.has_massless_links:
         return
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
-    is_prop = robot.is_prop and not context.of_submissions
+    is_prop = robot.is_prop and not context.is_subt
     for link in robot.links:
         if link.scoped_name not in robot.tree.links_fixed_to_world and not robot.is_still(link):
             for found in _missing(link, automatic=automatic):

@@ -43,7 +43,7 @@ def check(
     """
     if masses.robot.is_static:
         return
-    is_prop = masses.robot.is_prop and not context.of_submissions
+    is_prop = masses.robot.is_prop and not context.is_subt
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
     for name, inertia in masses.weighed.items():

@@ -47,9 +47,9 @@ def check(
             flat ground.
     """
     robot = masses.robot
-    if robot.is_static or not (robot.drives or (robot.stands_alone and context.of_submissions)):
+    if robot.is_static or not (robot.drives or (robot.stands_alone and context.is_subt)):
         return
-    if robot.flies and not context.of_submissions:
+    if robot.flies and not context.is_subt:
         return  # It stands on level ground, on an undercarriage as narrow as that of a plane.
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
@@ -60,8 +60,8 @@ def check(
     if angle is None or centre is None or ground is None:
         return
     degrees = math.degrees(angle)
-    least = warning_below_degrees if context.of_submissions else indoors_below_degrees
-    grave = degrees < (error_below_degrees if context.of_submissions else 0.0)
+    least = warning_below_degrees if context.is_subt else indoors_below_degrees
+    grave = degrees < (error_below_degrees if context.is_subt else 0.0)
     if degrees >= least:
         return
     at = ", ".join(f"{part:.3f}" for part in centre[:2])

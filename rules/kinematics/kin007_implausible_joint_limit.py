@@ -67,7 +67,7 @@ def check(
                 yield from _missing(joint, axis)
                 yield from _zero_limits(joint, axis, hardware, limited=limited)
             elif driver is None and not stated and not joint.immovable:
-                held = context.of_gazebo_sim and robot.is_for_gazebo
+                held = context.is_gazebo_sim and robot.is_for_gazebo
                 yield from _still(joint, axis, held=held)
 
 

@@ -25,7 +25,7 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     if not robot.is_static:
         yield from _canonical(robot)
     # A file for no simulator may not be a robot, but a barrel.
-    is_prop = robot.is_prop and not context.of_submissions
+    is_prop = robot.is_prop and not context.is_subt
     if not context.release or not robot.links or base in robot.links_by_name or is_prop:
         return
     if robot.missing_parts:

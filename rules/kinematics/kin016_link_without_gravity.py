@@ -37,7 +37,7 @@ def check(robot: Robot, context: Context) -> Findings:
             ignored = "Gazebo's default engine ignores it; in others, no force moves the link"
             message = (
                 f"<kinematic> of link {link.name.value!r} is {link.kinematic.span.text}: "
-                f"{ignored if context.of_gazebo_sim else 'no force moves the link'}"
+                f"{ignored if context.is_gazebo_sim else 'no force moves the link'}"
             )
             yield finding(link.kinematic, message, key="kinematic")
 

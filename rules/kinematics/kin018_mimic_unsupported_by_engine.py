@@ -29,7 +29,7 @@ _SHOWS = ("JointStatePublisher", "PosePublisher")
 @rule("KIN018", "mimic-unsupported-by-engine", Severity.WARNING, Concern.ROBOT)
 def check(simulations: Simulations | None, world: World | None, context: Context) -> Findings:
     """Report mimicking joints of robots that are spawned, and of models that are in the world."""
-    if not context.of_gazebo_sim or context.release == "fortress":
+    if not context.is_gazebo_sim or context.release == "fortress":
         return
     for use in engine_uses(simulations, world):
         for model in use.models:

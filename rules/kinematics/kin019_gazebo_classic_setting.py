@@ -21,7 +21,7 @@ _FALSE = ("0", "false")
 @rule("KIN019", "gazebo-classic-setting", Severity.INFO, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report settings of one kind once, with the other places."""
-    if not context.of_gazebo_sim or not robot.is_for_gazebo:
+    if not context.is_gazebo_sim or not robot.is_for_gazebo:
         return
     for kind, settings in table("physics_engines")["not_read"].items():
         found = list(_elements_at(robot, settings.get(robot.format, [])))

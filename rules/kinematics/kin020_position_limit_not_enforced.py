@@ -20,7 +20,7 @@ _BY_SPEED = "JointController"
 @rule("KIN020", "position-limit-not-enforced", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report joints with position limits and no effort limit that JointController turns."""
-    if not context.of_gazebo_sim:
+    if not context.is_gazebo_sim:
         return
     for name, plugin in robot.driven_joints.items():
         joint = robot.joints_by_name.get(name)

@@ -24,7 +24,7 @@ def check(launch: Ros2Launch) -> Findings:
             names = Suggestions(include.accepts)
             for name, value in include.arguments.items():
                 if name not in include.accepts:
-                    near = names.near(name)
+                    near = names.closest(name)
                     yield finding(
                         value,
                         f"{include.path or display_path(include.target.value)} neither declares "

@@ -37,7 +37,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     yield finding(
                         described.span,
                         f"{file} neither declares nor uses argument {name!r}{declared.hint(name)}",
-                        severity=Severity.WARNING if declared.near(name) else None,
+                        severity=Severity.WARNING if declared.closest(name) else None,
                         key=f"{file} {name}",
                     )
 

@@ -25,7 +25,7 @@ def check(launch: Ros2Launch) -> Findings:
         others = Suggestions(sorted(graph.used - declared))
         for argument in graph.arguments:
             if argument.name not in graph.used:
-                near = others.near(argument.name)
+                near = others.closest(argument.name)
                 yield finding(
                     argument,
                     f"argument {argument.name!r} is declared, but never used in this launch"

@@ -32,7 +32,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         return
     manifest, build = paperwork.manifest, paperwork.build
     name, said = package.declared_name, f"package.xml names the package {package.declared_name!r}"
-    if context.of_submissions and NAME.fullmatch(package.name):
+    if context.is_subt and NAME.fullmatch(package.name):
         name, said = package.name, f"its folder is {package.name!r}"
     elif manifest is None or not manifest.name.stated:
         build = None  # Nothing says how the package is called.

@@ -55,7 +55,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     manifest = paperwork.manifest
     if manifest is None:
         return
-    yield from _required(manifest, None if context.of_submissions else Severity.WARNING)
+    yield from _required(manifest, None if context.is_subt else Severity.WARNING)
     yield from _people(manifest)
     yield from _left_from_copying(package, manifest)
     if not manifest.build_type.value and not manifest.depends_on("catkin"):

@@ -46,7 +46,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         if component.value.casefold() in lower or _brought(package, paperwork, component.value):
             continue
         # Few of the packages of ROS are in the list: what resembles none of them may exist.
-        if meant := suggestions.near(component.value):
+        if meant := suggestions.closest(component.value):
             yield finding(
                 component,
                 f"catkin has no component {component.value}; did you mean {meant}?",

@@ -31,7 +31,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
 
     One of a world that nothing takes the place of is a warning: the world works without it.
     """
-    if context.of_classic:
+    if context.is_classic:
         return
     if host.unread:
         yield unchecked(host.unread)
@@ -43,7 +43,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
         if known is None:
             continue
         needless = host.robot is None and known.get("action") == "remove"
-        advice = _advice(known) if context.of_submissions else _later_advice(known)
+        advice = _advice(known) if context.is_subt else _later_advice(known)
         yield finding(
             plugin.filename,
             f"{plugin.filename.value} is a plugin of Gazebo {_whose(context)}: {advice}",
@@ -60,7 +60,7 @@ def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
 
 
 def _whose(context: Context) -> str:
-    return "9" if context.of_submissions else "Classic"
+    return "9" if context.is_subt else "Classic"
 
 
 def _later_advice(entry: dict[str, Any]) -> str:

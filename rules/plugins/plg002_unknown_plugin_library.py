@@ -52,16 +52,16 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
         stem = library_stem(plugin.filename.value)
         if stem in ("", _NONE) or stem in known or _is_told_elsewhere(stem, context):
             continue
-        if not context.of_submissions and newer_name(stem) in known:
+        if not context.is_subt and newer_name(stem) in known:
             continue  # PLG010 says so.
-        if lenders.unknown and context.of_submissions:
+        if lenders.unknown and context.is_subt:
             yield unchecked(
                 f"{plugin.filename.value} may come from {', '.join(lenders.unknown)}, which is not "
                 "available"
             )
             continue
         successor = _successor(stem, package, context)
-        if not (context.of_submissions or successor) and _may_be_lent(stem, package, lenders):
+        if not (context.is_subt or successor) and _may_be_lent(stem, package, lenders):
             continue
         yield finding(
             plugin.filename,
@@ -96,7 +96,7 @@ def _successor(stem: str, package: Package, context: Context) -> str:
 
 def _elsewhere(stem: str, context: Context) -> str:
     """Say which release or package has the library, as the end of a sentence."""
-    if context.of_submissions:
+    if context.is_subt:
         return ""
     if lender := package_of_library(stem):
         return f"; it is of {lender}, on which package.xml does not depend"
@@ -105,7 +105,7 @@ def _elsewhere(stem: str, context: Context) -> str:
 
 def _is_told_elsewhere(stem: str, context: Context) -> bool:
     """Return whether PLG001 reports the library, or PLG012 as one of ROS 1."""
-    if context.of_classic:
+    if context.is_classic:
         return stem in table("gazebo_classic_ros2")["ros_1"]["libraries"]
     return classic_plugin(stem) is not None
 
@@ -117,10 +117,10 @@ def _severity(stem: str, context: Context, suggestions: Suggestions) -> Severity
     simulator's paths; only those that bear Gazebo's own name are expected to be its own. Those of
     Gazebo Classic have no such name: one that is a misspelling of another is an error.
     """
-    if context.of_submissions or is_of_gazebo(stem):
+    if context.is_subt or is_of_gazebo(stem):
         return None
-    if context.of_classic and stem.startswith("gazebo_ros"):
-        return None if suggestions.sure(stem) else Severity.INFO
+    if context.is_classic and stem.startswith("gazebo_ros"):
+        return None if suggestions.correction(stem) else Severity.INFO
     return Severity.WARNING if package_of_library(stem) else Severity.INFO
 
 

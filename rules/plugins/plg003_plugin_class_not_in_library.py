@@ -41,9 +41,9 @@ def check(host: PluginHost, context: Context) -> Findings:
         library = libraries.get(library_stem(plugin.filename.value))
         if library is None or not plugin.name.stated or library.has_class(plugin.name.value):
             continue
-        if context.of_classic:
+        if context.is_classic:
             continue  # There, a name is free to choose.
-        if not plugin.name.value and not context.of_submissions:
+        if not plugin.name.value and not context.is_subt:
             continue  # Later releases take the first class of the library.
         if library.has_class(newer_name(plugin.name.value)):
             continue  # PLG010 says so.

@@ -57,11 +57,11 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         if library is None or library.parameters is None:
             continue
         suggestions = Suggestions(sorted(library.parameters))
-        of_ros_1 = _of_ros_1(stem) if context.of_classic else frozenset()
+        of_ros_1 = _of_ros_1(stem) if context.is_classic else frozenset()
         for element in _unread(plugin.element, library):
             if element.tag in of_ros_1:
                 continue  # PLG012 says so.
-            meant = _MEANT.get(element.tag) or suggestions.near(element.tag)
+            meant = _MEANT.get(element.tag) or suggestions.closest(element.tag)
             hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
             yield finding(
                 element,

@@ -42,7 +42,7 @@ def check(
     """
     loaded = {library_stem(each.filename.value) for each in host.plugins} if host else set()
     for file in package.index.with_suffix(".so"):
-        if not context.of_submissions and library_stem(file.path) not in loaded:
+        if not context.is_subt and library_stem(file.path) not in loaded:
             continue
         data = package.read_bytes(file.path, largest)
         if isinstance(data, NotReadable):

@@ -43,7 +43,7 @@ _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 @rule("PLG012", "ros-1-plugin", Severity.ERROR, Concern.INTERFACE)
 def check(host: PluginHost, package: Package, context: Context) -> Findings:
     """Report libraries and parameters that only the plugins of ROS 1 have."""
-    if not context.of_classic:
+    if not context.is_classic:
         return
     if host.unread:
         yield unchecked(host.unread)

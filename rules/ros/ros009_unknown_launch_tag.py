@@ -64,7 +64,7 @@ def _children(
             message = f"<{child.tag}> has no effect inside <{parent.tag}>"
             yield finding(child, message, severity=Severity.WARNING)
         else:
-            near = tags.near(child.tag)
+            near = tags.closest(child.tag)
             hint = f"; did you mean <{near}>?" if near else ""
             yield finding(child, f"<{child.tag}> is not a tag of roslaunch{hint}")
 
@@ -79,7 +79,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
     for name in stated:
         if name in tag.attributes or ":" in name:
             continue
-        near, sure = names.near(name), names.sure(name)
+        near, sure = names.closest(name), names.correction(name)
         if near is None and len(missing) == 1:
             near = missing[0]
         missing = [attribute for attribute in missing if attribute != near]

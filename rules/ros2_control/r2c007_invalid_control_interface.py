@@ -42,7 +42,7 @@ def _misspelt(
     joint: HardwareJoint, interface: Interface, suggestions: Suggestions
 ) -> Iterator[Finding]:
     name = interface.name.value
-    if name not in STANDARD_INTERFACES and (near := suggestions.near(name)):
+    if name not in STANDARD_INTERFACES and (near := suggestions.closest(name)):
         yield finding(
             interface.name,
             f"joint {joint.name.value!r} has the interface {name!r}, which no controller "

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from checker.base.words import Suggestions, listed
+from checker.base.words import Suggestions, and_list
 from checker.model.controllers import Controller
 from checker.package.package import Package
 from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
@@ -79,7 +79,7 @@ def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iter
         names = [interface.name.value for interface in offered]
         for name in needed:
             if name not in names:
-                has = f"it offers {listed(names)}" if names else "it offers none"
+                has = f"it offers {and_list(names)}" if names else "it offers none"
                 yield finding(
                     claim.joint,
                     f"{controller.label} needs the {kind} interface {name!r} of joint "

@@ -11,7 +11,7 @@ Source: parameter files of ros2_controllers, by branch; rclcpp, `InvalidParamete
 
 from collections.abc import Iterator, Mapping
 
-from checker.base.words import Suggestions, listed
+from checker.base.words import Suggestions, and_list
 from checker.model.controllers import Controller
 from checker.model.ros_parameters import Parameter
 from checker.ros.ros2_control.distributions import (
@@ -75,7 +75,7 @@ def _missing(
     if not wanting:
         return
     own = controller.block is not None
-    lacks = f"has no {listed(wanting)}" if own else f"has no block, but needs {listed(wanting)}"
+    lacks = f"has no {and_list(wanting)}" if own else f"has no block, but needs {and_list(wanting)}"
     yield finding(
         controller.span,
         f"{controller.label} {lacks}{'' if own else blocks.hint(controller.name)}",

@@ -42,8 +42,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     parents = {element.parent or sdf.root for element in unknown}
     there = {parent: {child.tag for child in parent.children} for parent in parents}
     for element, siblings in _with_known_siblings(sdf, unknown):
-        sure = siblings.sure(element.tag)
-        near = siblings.near(element.tag) or anywhere.near(element.tag)
+        sure = siblings.correction(element.tag)
+        near = siblings.closest(element.tag) or anywhere.closest(element.tag)
         parent = element.parent or sdf.root
         meant = near is not None and not is_unread(near, context.release)
         grave = (meant or parent.tag in GRAVE_PARENTS) and not is_appearance(element)
@@ -74,7 +74,7 @@ def _with_known_siblings(
 
 def _renaming_fix(element: Element, tag: str) -> Fix:
     names = (element.name_span, element.end_name_span)
-    return Fix(Safety.SAFE, tuple(name.replaced_by(tag) for name in names if name is not None))
+    return Fix(Safety.SAFE, tuple(name.replacement(tag) for name in names if name is not None))
 
 
 GOOD = [

@@ -33,7 +33,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             if later is not None and name in later.attributes:
                 continue
             suggestions = Suggestions(known)
-            sure = suggestions.sure(name)
+            sure = suggestions.correction(name)
             place = element.attribute_name_span(name)
             yield finding(
                 place,

@@ -172,7 +172,7 @@ def _wrapping_fix(element: Element, kind: ElementType | None) -> Fix | None:
     outer = "" if indentation is None else newline_of(source, start) + indentation
     inner = f"{outer}  " if outer else ""
     text = f"<{kind.name}>{inner}{element.whole_span.text}{outer}</{kind.name}>"
-    return Fix(Safety.SAFE, (element.whole_span.replaced_by(text),))
+    return Fix(Safety.SAFE, (element.whole_span.replacement(text),))
 
 
 GOOD = [

@@ -43,7 +43,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report siblings with the same name, and reserved names."""
     version = sdf_version(sdf.document)
     # Until 1.8 such a name was valid: newer parsers make nested models of it.
-    divides = version >= (1, 8) or context.of_submissions
+    divides = version >= (1, 8) or context.is_subt
     for element, kind in sdf.typed_as(context.reads):
         if kind is None or kind.free:
             continue

@@ -28,7 +28,7 @@ def check(sdf: SdfDocument, package: Package, context: Context) -> Findings:
     yield from _without_links(sdf)
     if context.release and not any(sdf.root.child(tag) for tag in _SPAWNED):
         yield finding(sdf.root, "the file contains no model")
-    if context.of_submissions and package.kind is not PackageKind.WORLD:
+    if context.is_subt and package.kind is not PackageKind.WORLD:
         yield from _no_robot(sdf)
 
 

@@ -36,7 +36,7 @@ def check(robot: Robot, context: Context) -> Findings:
                 sensor.type, f"{message}, which {target} does not know{hint}", key=f"unknown {type}"
             )
         elif type in types.lost:
-            instead = _IN_CLASSIC.get(type) if context.of_classic else None
+            instead = _IN_CLASSIC.get(type) if context.is_classic else None
             hint = f": expected {instead!r}" if instead else ""
             yield finding(
                 sensor.type,

@@ -60,8 +60,8 @@ def check(robot: Robot, context: Context, package: Package) -> Findings:
 
 def _type_fix(sensor: Sensor, type: str, safety: Safety) -> Fix:
     """Return the fix that writes another type, and `<lidar>` for `<ray>`."""
-    edits = [sensor.type.span.replaced_by(type)]
-    edits += [name.replaced_by("lidar") for name in _old_names(sensor)]
+    edits = [sensor.type.span.replacement(type)]
+    edits += [name.replacement("lidar") for name in _old_names(sensor)]
     return Fix(safety, tuple(edits))
 
 

@@ -64,7 +64,7 @@ def _one_way(
         yield finding(
             scan.lower,
             f"{phrase}: expected -π to π",
-            severity=None if context.of_submissions else Severity.INFO,
+            severity=None if context.is_subt else Severity.INFO,
             key="from 0",
             # It would turn ray 0 to the back, which only SubT requires.
             fix=_angles_fix(scan, *_AROUND) if context.profile == "subt" else None,
@@ -85,8 +85,8 @@ def _angles_fix(scan: Scan, lower: float, upper: float) -> Fix | None:
     if not scan.lower.stated or not scan.upper.stated:
         return None
     edits = (
-        scan.lower.span.replaced_by(repr(lower)),
-        scan.upper.span.replaced_by(repr(upper)),
+        scan.lower.span.replacement(repr(lower)),
+        scan.upper.span.replacement(repr(upper)),
     )
     return Fix(Safety.UNSAFE, edits)
 

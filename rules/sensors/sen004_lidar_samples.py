@@ -14,7 +14,7 @@ names others, figure by figure.
 import math
 from collections.abc import Iterator
 
-from checker.base.words import either
+from checker.base.words import or_list
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
@@ -111,7 +111,7 @@ def _finding(
     from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
     return finding(
         samples,
-        f"{message}, expected {either(expected)} ({known.device.name})",
+        f"{message}, expected {or_list(expected)} ({known.device.name})",
         severity=Severity.INFO if from_memory else None,
         key=f"{known.device.id} {samples.value:g} {rate:g}",
         related=[(known.words, "names the device")],

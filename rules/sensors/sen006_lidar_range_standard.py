@@ -10,7 +10,7 @@ Source: reviews of SubT models, which required 0.01 instead of 0.003 and 0.03 fo
 """
 
 from checker.base.resources import table
-from checker.base.words import either
+from checker.base.words import or_list
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevices
 from checker.model.robot import Robot
@@ -59,7 +59,7 @@ def check(
                 f"lidar {sensor.name.value!r} has "
                 + (f"no noise in its <{lidar.element.tag}>" if noise is None else "noise 'none'")
                 + ", expected a standard deviation of "
-                f"{either(_expected_figures(device, 'noise_stddev'))} m",
+                f"{or_list(_expected_figures(device, 'noise_stddev'))} m",
                 key="no noise",
             )
         for figure, value in figures.items():
@@ -90,7 +90,7 @@ def _finding(
     return finding(
         value,
         f"lidar {sensor.name.value!r} has {_WORDS[figure]} {value.value:g} m, "
-        f"expected {either(expected)} m" + (f" ({own.name})" if own is not None else ""),
+        f"expected {or_list(expected)} m" + (f" ({own.name})" if own is not None else ""),
         severity=None if sure else Severity.INFO,
         key=f"{figure} {value.value:g} {own.id if own is not None else ''}",
     )

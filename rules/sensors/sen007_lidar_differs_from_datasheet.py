@@ -16,7 +16,7 @@ Source: reviews of SubT models; `devices.json` names others, figure by figure.
 from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
-from checker.base.words import either
+from checker.base.words import or_list
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.devices.known import KnownDevices, devices_of_shape, vertical_degrees
@@ -95,7 +95,7 @@ def _rows(lidar: Lidar, device: Device) -> Iterator[_Difference]:
     variants = rows if isinstance(rows, list) else [rows]
     if lidar.rows not in variants:
         stated = f"has {lidar.rows:g} rows"
-        yield _Difference(lidar.vertical.samples, "rows", stated, either(variants))
+        yield _Difference(lidar.vertical.samples, "rows", stated, or_list(variants))
 
 
 def _vertical(lidar: Lidar, device: Device, tolerance: float) -> Iterator[_Difference]:
@@ -120,7 +120,10 @@ def _farthest(lidar: Lidar, named: SensorDevice, tolerance: float) -> Iterator[_
     value = lidar.range_max
     if value.stated and not _is_near(value.value, farthest, tolerance):
         yield _Difference(
-            value, "range_max", f"has a maximum range of {value.value:g} m", f"{either(farthest)} m"
+            value,
+            "range_max",
+            f"has a maximum range of {value.value:g} m",
+            f"{or_list(farthest)} m",
         )
 
 
@@ -135,7 +138,7 @@ def _nearest(
         and all(abs(value.value - m) > min(tolerance, share * m) + _ROUNDED for m in nearest)
     ):
         stated = f"has a minimum range of {value.value:g} m"
-        yield _Difference(value, "range_min", stated, f"{either(nearest)} m")
+        yield _Difference(value, "range_min", stated, f"{or_list(nearest)} m")
 
 
 def _known_values(named: SensorDevice, figure: str) -> list[float]:
@@ -155,7 +158,7 @@ def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Differe
     rates = [float(rate) for rate in device.values.get("rates", ())]
     rate = sensor.update_rate
     if rate.stated and rate.value > 0 and not _is_near(rate.value, rates, tolerance):
-        yield _Difference(rate, "rates", f"measures at {rate.value:g} Hz", f"{either(rates)} Hz")
+        yield _Difference(rate, "rates", f"measures at {rate.value:g} Hz", f"{or_list(rates)} Hz")
 
 
 def _is_near(value: float, expected: Sequence[float], tolerance: float) -> bool:
@@ -188,7 +191,7 @@ def _by_shape(
         yield finding(
             reach,
             f"lidar {sensor.name.value!r} has the rows of a {alike[0].name} and a maximum range "
-            f"of {reach.value:g} m, expected, as for lidars of this shape, {either(ranges)} m",
+            f"of {reach.value:g} m, expected, as for lidars of this shape, {or_list(ranges)} m",
             severity=Severity.INFO,
             key=f"shape {reach.value:g}",
         )

@@ -92,7 +92,7 @@ def _wrong_centre(intrinsics: Intrinsics, picture: Pinhole, tolerance: float) ->
 
 def _fix(intrinsics: Intrinsics, wrong: Sequence[_Wrong]) -> Fix:
     edits = [
-        entry.value.span.replaced_by(f"{entry.expected:.6g}")
+        entry.value.span.replacement(f"{entry.expected:.6g}")
         for entry in wrong
         if entry.value.stated
     ]

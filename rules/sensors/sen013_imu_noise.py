@@ -105,12 +105,12 @@ def _wrong(noise: Noise, standard: _Figures, tolerance: float) -> _Figures:
 def _figures_fix(noise: Noise, standard: _Figures, tolerance: float) -> Fix:
     wrong = _wrong(noise, standard, tolerance)
     stated = {tag: value for tag, value in wrong.items() if noise.figures[tag].stated}
-    edits = [noise.figures[tag].span.replaced_by(f"{value:g}") for tag, value in stated.items()]
+    edits = [noise.figures[tag].span.replacement(f"{value:g}") for tag, value in stated.items()]
     missing = [f"<{tag}>{value:g}</{tag}>" for tag, value in wrong.items() if tag not in stated]
     if missing:
         edits.append(append_to(noise.element, missing))
     if noise.type.value not in _GAUSSIAN and noise.type.stated:
-        edits.append(noise.type.span.replaced_by("gaussian"))
+        edits.append(noise.type.span.replacement("gaussian"))
     return Fix(Safety.UNSAFE, tuple(edits))
 
 

@@ -52,9 +52,9 @@ def _fix(sensor: Sensor) -> Fix:
     elif within is None:
         edit = insert_into(imu.element, [_OFF])
     elif within.text.stated:
-        edit = within.text.span.replaced_by("0")
+        edit = within.text.span.replacement("0")
     else:
-        edit = within.whole_span.replaced_by(_OFF)
+        edit = within.whole_span.replacement(_OFF)
     misplaced = (removal(element) for element in sensor.element.all("enable_orientation"))
     return Fix(Safety.SAFE, (edit, *misplaced))
 

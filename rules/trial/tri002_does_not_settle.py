@@ -55,7 +55,7 @@ def check(
         rest_penetration_above: Metres that the deepest contact may be in the ground in the last 0.5
             s; more is an error.
     """
-    if not (driven.robot.drives or context.of_submissions):
+    if not (driven.robot.drives or context.is_subt):
         return
     if driven.invalid_reason:
         yield unchecked(driven.invalid_reason)

@@ -43,7 +43,7 @@ def _renaming_fix(hinge: Element | None) -> Fix | None:
     if hinge is None:
         return None
     names = (hinge.name_span, hinge.end_name_span)
-    return Fix(Safety.UNSAFE, tuple(name.replaced_by(_KEPT) for name in names if name is not None))
+    return Fix(Safety.UNSAFE, tuple(name.replacement(_KEPT) for name in names if name is not None))
 
 
 def _robot(tag: str, kind: str = "fixed") -> dict[str, object]:

@@ -26,7 +26,7 @@ def check(world: World, package: Package, context: Context) -> Findings:
     """Report the library in `<engine>`."""
     name = engine_name(world)
     known = libraries_of(context.release)
-    if name is None or not context.of_gazebo_sim or name.value.startswith(_IN_PLACE):
+    if name is None or not context.is_gazebo_sim or name.value.startswith(_IN_PLACE):
         return
     stem = engine_library(name.value)
     if stem in known or stem in available_packages(package).libraries():

@@ -42,7 +42,7 @@ class _Loss(Record, eq=False):
 @rule("WLD009", "engine-lacks-feature", Severity.WARNING, Concern.ROBOT)
 def check(simulations: Simulations | None, world: World | None, context: Context) -> Findings:
     """Report what the engines that worlds and launch files name ignore."""
-    if not context.of_gazebo_sim:
+    if not context.is_gazebo_sim:
         return
     for use in engine_uses(simulations, world):
         for model in use.models if use.engine.lacks else ():

@@ -19,7 +19,7 @@ def check(world: World, context: Context) -> Findings:
     """Report a type that is not DART's, in a world that names no engine."""
     physics = world.element.child("physics")
     asked = physics.attribute("type") if physics is not None else None
-    if asked is None or asked.value not in _OTHERS or not context.of_gazebo_sim:
+    if asked is None or asked.value not in _OTHERS or not context.is_gazebo_sim:
         return
     if engine_name(world) is None:
         yield finding(

@@ -37,5 +37,5 @@ def test_every_distribution_has_a_profile() -> None:
 
 def test_gazebo_classic_stays_whatever_the_distribution() -> None:
     context = profile("ros2-classic", "iron").context
-    assert (context.release, context.distro, context.of_classic) == ("classic", "iron", True)
-    assert not profile("urdf").context.of_classic
+    assert (context.release, context.distro, context.is_classic) == ("classic", "iron", True)
+    assert not profile("urdf").context.is_classic

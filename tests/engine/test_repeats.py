@@ -47,7 +47,7 @@ def _told(rule: str, places: Sequence[Place]) -> Iterator[Told]:
 
 def differences(package: Package, *, trial: bool) -> list[str]:
     """Return what rules selected alone report of a package and the full run does not."""
-    settings = Settings(trial=trial).suiting(package)
+    settings = Settings(trial=trial).for_package(package)
     judge = Judge(profile(settings.profile), settings)
 
     def selecting(rule: Rule) -> Judge:

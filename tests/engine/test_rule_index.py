@@ -24,11 +24,11 @@ def indexed(tmp_path: Path) -> tuple[Rule, ...]:
 
 def test_the_index_says_what_the_modules_say(indexed: tuple[Rule, ...]) -> None:
     said = [
-        (it.id, it.name, it.severity, it.concern, it.page, it.needs, it.spares, it.options)
+        (it.id, it.name, it.severity, it.concern, it.page, it.needs, it.optional_parts, it.options)
         for it in indexed
     ]
     assert said == [
-        (it.id, it.name, it.severity, it.concern, it.page, it.needs, it.spares, it.options)
+        (it.id, it.name, it.severity, it.concern, it.page, it.needs, it.optional_parts, it.options)
         for it in all_rules()
     ]
     assert all(

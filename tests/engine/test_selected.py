@@ -46,7 +46,7 @@ def test_the_whole_check_shows_what_each_rule_shows_alone(sample: Path) -> None:
 
 def compare(package: Package) -> None:
     known = rules(NO_CACHE)
-    settings = Settings(trial=False, cache=False).suiting(package)
+    settings = Settings(trial=False, cache=False).for_package(package)
     judge = Judge.from_settings(settings)
     subject = Subject(package)
     shown, repeats = told(run_and_set_aside(known, known, subject, judge))

@@ -162,7 +162,7 @@ def test_the_search_ends_where_it_is_told_to(tmp_path: Path) -> None:
 
 def test_the_command_line_replaces_what_it_names() -> None:
     settings = Settings(profile="sdf", ignore=("SEN",))
-    changed = settings.overridden(profile=None, ignore=("INE",))
+    changed = settings.with_overrides(profile=None, ignore=("INE",))
     assert changed == replace(settings, ignore=("INE",), commanded=("ignore",))
 
 

@@ -24,13 +24,13 @@ JOINTS = ("front_left_wheel", "front_right_wheel", "rear_left_wheel", "arm_1", "
     ],
 )
 def test_slips(written: str, meant: str | None) -> None:
-    assert Suggestions(JOINTS).sure(written) == meant
+    assert Suggestions(JOINTS).correction(written) == meant
 
 
 def test_the_only_wheel_that_there_is_may_still_be_another_one() -> None:
-    assert Suggestions(["front_left_wheel_joint"]).near("front_right_wheel_joint") is not None
-    assert Suggestions(["front_left_wheel_joint"]).sure("front_right_wheel_joint") is None
+    assert Suggestions(["front_left_wheel_joint"]).closest("front_right_wheel_joint") is not None
+    assert Suggestions(["front_left_wheel_joint"]).correction("front_right_wheel_joint") is None
 
 
 def test_of_two_that_are_as_near_none_is_written() -> None:
-    assert Suggestions(["wheel_a", "wheel_b"]).sure("wheel_") is None
+    assert Suggestions(["wheel_a", "wheel_b"]).correction("wheel_") is None

@@ -94,5 +94,5 @@ def test_walk_tells_known_from_unknown(data: st.DataObject, version: str) -> Non
 
 def test_the_nearest_word() -> None:
     suggestions = Suggestions(all_tags("1.6"))
-    assert suggestions.near("horizondal_fov") == "horizontal_fov"
-    assert suggestions.near("zebra") is None
+    assert suggestions.closest("horizondal_fov") == "horizontal_fov"
+    assert suggestions.closest("zebra") is None

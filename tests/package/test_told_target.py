@@ -29,7 +29,7 @@ def opened(folder: Path, files: Mapping[str, object]) -> Package:
 
 
 def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple[str, str]:
-    settings = Settings(distro=distro).suiting(opened(folder, files))
+    settings = Settings(distro=distro).for_package(opened(folder, files))
     return settings.profile, settings.distro
 
 
@@ -96,7 +96,7 @@ def test_urdf_without_a_package_tells_by_its_content(
     (tmp_path / "arm.urdf").write_text(f'<robot name="arm">{inside}</robot>')
     workspace = Workspace((tmp_path.parent,))
     for package in (Package(tmp_path, workspace, "arm.urdf"), Package(tmp_path, workspace)):
-        settings = Settings().suiting(package)
+        settings = Settings().for_package(package)
         assert (settings.profile, settings.distro) == expected
 
 
@@ -104,7 +104,7 @@ def test_a_file_for_ros_2_in_a_package_of_ros_1_counts_by_its_content(tmp_path: 
     plugin = '<gazebo><plugin filename="libgazebo_ros2_control.so" name="p"/></gazebo>'
     folder = write_example({"@urdf": plugin}, tmp_path)
     package = Package(folder / "urdf", Workspace((tmp_path,)), "arm.urdf")
-    assert Settings().suiting(package).profile == "ros2-classic"
+    assert Settings().for_package(package).profile == "ros2-classic"
 
 
 CATKIN = """<package format="2">
@@ -131,7 +131,7 @@ def test_worlds_and_models_in_a_package_of_ros_1_are_no_submission(tmp_path: Pat
     world = Package(package.root / "worlds", workspace, "yard.world")
     model = Package(package.root / "box", workspace)
     robot = of_catkin(tmp_path, "acme_box", **{"model.sdf": BOX})
-    chosen = [Settings().suiting(each).profile for each in (package, world, model, robot)]
+    chosen = [Settings().for_package(each).profile for each in (package, world, model, robot)]
     assert chosen == ["urdf", "sdf", "sdf", "sdf"]
 
 
@@ -140,7 +140,7 @@ def test_what_names_subt_or_lies_beside_submissions_is_for_it(tmp_path: Path) ->
     suppressing = of_catkin(tmp_path / "b", **{"README.md": "Checked by subt-check."})
     of_catkin(tmp_path / "c", "acme_rover_sensor_config_1")
     beside = of_catkin(tmp_path / "c")
-    chosen = [Settings().suiting(each).profile for each in (named, suppressing, beside)]
+    chosen = [Settings().for_package(each).profile for each in (named, suppressing, beside)]
     assert chosen == ["subt", "urdf", "subt"]
 
 
@@ -148,11 +148,11 @@ def test_a_model_is_judged_as_the_package_around_it(tmp_path: Path) -> None:
     model = '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>'
     folder = write_example({"@ros2": SPAWN, "models/rover/model.sdf": model}, tmp_path)
     package = Package(folder / "models" / "rover", Workspace((tmp_path,)))
-    assert Settings().suiting(package).profile == "gazebo-classic"
+    assert Settings().for_package(package).profile == "gazebo-classic"
 
 
 def test_the_report_says_by_what(tmp_path: Path) -> None:
-    settings = Settings().suiting(opened(tmp_path, {"@ros2": SPAWN}))
+    settings = Settings().for_package(opened(tmp_path, {"@ros2": SPAWN}))
     assert settings.target_reason == (
         "Gazebo Classic 11, whose support ended in January 2025: "
         "launch/arm.launch.py:20 names gazebo_ros"

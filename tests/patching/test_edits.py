@@ -17,7 +17,7 @@ def edited(text: str) -> EditedText:
 
 
 def fix(text: EditedText, *changes: tuple[int, int, str]) -> Fix:
-    edits = (Span(text.source, start, end).replaced_by(new) for start, end, new in changes)
+    edits = (Span(text.source, start, end).replacement(new) for start, end, new in changes)
     return Fix(Safety.SAFE, tuple(edits))
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Concern, Place, Severity
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
@@ -274,6 +274,6 @@ def test_nothing_checked_says_nothing() -> None:
 
 def test_wording() -> None:
     assert [count(n, "error") for n in (0, 1, 2)] == ["0 errors", "1 error", "2 errors"]
-    assert [listed(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
+    assert [and_list(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
     assert (shortened("abc", 3), shortened("abcd", 3)) == ("abc", "ab…")
     assert plain("a\x1b[31m\n\u202e\udcff") == "a\ufffd[31m\ufffd\ufffd\ufffd"

@@ -73,7 +73,7 @@ def found(folder: Path, before: str = "", more: Mapping[str, str] | None = None)
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text)
     package = folder / "arm_bringup"
-    settings = find_settings([package]).overridden(trial=False, cache=False)
+    settings = find_settings([package]).with_overrides(trial=False, cache=False)
     (report,) = check_package(package, settings).packages
     return [finding.message for finding in report.findings if finding.rule == "LCH012"]
 

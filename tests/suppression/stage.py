@@ -35,7 +35,7 @@ def checked(example: str | Mapping[str, Any], folder: Path, *select: str) -> Pac
 
 
 def checked_again(package: Path, *select: str, profile: str | None = None) -> PackageReport:
-    settings = find_settings([package]).overridden(
+    settings = find_settings([package]).with_overrides(
         select=("CFG", *(select or ("KIN001",))),
         trial=False,
         thorough=True,

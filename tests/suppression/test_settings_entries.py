@@ -65,7 +65,7 @@ def test_settings_for_many_packages_need_not_serve_each(tmp_path: Path) -> None:
     package = write_example(axle(), tmp_path)
     settings = find_settings([tmp_path])
     assert settings.source == tmp_path / "subt-check.toml"
-    chosen = settings.overridden(select=("CFG", "KIN001"), trial=False, cache=False)
+    chosen = settings.with_overrides(select=("CFG", "KIN001"), trial=False, cache=False)
     (report,) = check_package(package, chosen).packages
     (idle,) = report.findings
     assert (idle.severity, str(idle.places[0])) == ("info", ".:1:1")

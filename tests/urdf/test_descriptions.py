@@ -63,5 +63,5 @@ def test_a_urdf_robot_gets_its_own_profile(describe: Describe, tmp_path: Path) -
     quick = Settings(select=("URD003",), trial=False)
     for path in (tmp_path / NAME, tmp_path / FILE):
         assert profile_of(path, quick) == "urdf"
-        assert profile_of(path, quick.overridden(profile="sdf")) == "sdf"
-        assert profile_of(path, quick.overridden(profile="subt")) == "subt"
+        assert profile_of(path, quick.with_overrides(profile="sdf")) == "sdf"
+        assert profile_of(path, quick.with_overrides(profile="subt")) == "subt"

@@ -48,7 +48,7 @@ def judged(folder: Path, body: str, *others: tuple[str, str]) -> PackageReport:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
     package = folder / "acme_description"
-    settings = find_settings([package]).overridden(trial=False, cache=False)
+    settings = find_settings([package]).with_overrides(trial=False, cache=False)
     (report,) = check_package(package, settings).packages
     return report
 

@@ -58,7 +58,7 @@ def package_with(folder: Path, default: str = "") -> Path:
 
 
 def judged(package: Path) -> PackageReport:
-    settings = find_settings([package]).overridden(trial=False, cache=False)
+    settings = find_settings([package]).with_overrides(trial=False, cache=False)
     (report,) = check_package(package, settings).packages
     return report
 

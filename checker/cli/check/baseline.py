@@ -8,7 +8,7 @@ from pathlib import Path
 
 from checker.base.errors import CheckerError, InvalidSettings
 from checker.base.output import write
-from checker.base.words import count, listed, plain
+from checker.base.words import and_list, count, plain
 from checker.report.report import PackageReport, Report, ReportedFinding
 from checker.rulebook.suppression.baseline import (
     Baseline,
@@ -64,7 +64,7 @@ def _refuse_equal_names(report: Report) -> None:
     for name, places in paths.items():
         if len(places) > 1:
             raise CheckerError(
-                f"{listed(places[:3])} are packages with the same name, {name}, which a baseline "
+                f"{and_list(places[:3])} are packages with the same name, {name}, which a baseline "
                 "cannot distinguish; write a baseline for each, with --baseline FILE"
             )
 

@@ -15,7 +15,7 @@ from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import CheckerError, UnreadableInput
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, say_progress, show, write
 from checker.base.record import Record
-from checker.base.words import count, listed, plain
+from checker.base.words import and_list, count, plain
 from checker.engine.review import findings_of
 from checker.finding import Safety
 from checker.fix.rounds import FindingsOf, Fixed, FixedFile, fix_package, patch
@@ -204,7 +204,7 @@ def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Packag
 
 def _judge(settings: Settings) -> FindingsOf:
     """Return how a package is checked between rounds: without a trial, which mends nothing."""
-    still = settings.overridden(trial=False, thorough=False)
+    still = settings.with_overrides(trial=False, thorough=False)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     return lambda package: findings_of(package, still, cache)
 
@@ -251,7 +251,7 @@ def apply_fixes(
 def _summary(package: FixedPackage) -> Iterator[str]:
     fixed = package.fixed
     if fixed.findings:
-        where = listed([plain(file.path) for file in fixed.files])
+        where = and_list([plain(file.path) for file in fixed.files])
         yield f"fixed {count(len(fixed.findings), 'finding')} in {where} ({_rules(fixed.findings)})"
     else:
         yield "nothing to fix"
@@ -263,7 +263,7 @@ def _summary(package: FixedPackage) -> Iterator[str]:
         ]
         files = sorted({plain(edit.place.file) for edit in edits})
         findings = count(len(fixed.elsewhere), "finding")
-        yield f"{findings} to fix in {listed(files)}: check the package that contains it"
+        yield f"{findings} to fix in {and_list(files)}: check the package that contains it"
     if fixed.withheld:
         findings = count(len(fixed.withheld), "finding")
         yield (

@@ -139,7 +139,7 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
         there = {child.tag for child in element.children}
         for child in element.children:
             known = _children().get(path, frozenset())
-            if child.tag not in known and (meant := Suggestions(known - there).near(child.tag)):
+            if child.tag not in known and (meant := Suggestions(known - there).closest(child.tag)):
                 yield MisspeltPart(f"<{child.tag}>", element.tag, f"<{meant}>", child.span, path)
         spec = _elements().get(path, {})
         # What is required and missing is reported as such.
@@ -190,7 +190,7 @@ def _advice(part: Element, path: str, owner: Element) -> str | None:
 def _suggestion(name: str, known: list[str]) -> str | None:
     """Return the word with the same letters, or the nearest one."""
     same = (word for word in known if sorted(word) == sorted(name))
-    return next(same, None) or Suggestions(known).near(name)
+    return next(same, None) or Suggestions(known).closest(name)
 
 
 @cache

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.base.record import Record
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Severity
 from checker.report.figures import NOT_JUDGED, Row, rows_of
 from checker.report.html.findings import anchor_of, in_order
@@ -65,7 +65,7 @@ def _unseen(package: PackageReport) -> Iterator[Task]:
     """Yield what keeps rules from looking that may hide an error, one task in all."""
     spots = [spot for spot in package.blind_spots if spot.may_hide_error]
     rules = len({spot.rule for spot in spots})
-    reasons = listed(list(dict.fromkeys(spot.reason for spot in spots))[:2])
+    reasons = and_list(list(dict.fromkeys(spot.reason for spot in spots))[:2])
     message = f"{count(rules, 'rule')} could not run: {reasons}"
     yield Task("", plain(shortened(message, _TEXT_LIMIT)), "not-checked", "", 0)
 
@@ -87,7 +87,7 @@ def trial_sentences(
     # A trial without a verdict shows what is wrong with the model, not how the robot drives.
     unjudged = bool(unseen and open_ones)
     done = [] if unjudged else list(_done(_Told(trial)))
-    sentences = [f"In MuJoCo {name} {listed(done)}."] if done else []
+    sentences = [f"In MuJoCo {name} {and_list(done)}."] if done else []
     if trial.get("not_driven"):
         why = plain(shortened(trial["not_driven"], _TEXT_LIMIT))
         sentences.append(f"It was not driven: {why}.")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.base.resources import templates
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Concern, Severity
 from checker.report.html.findings import grades_of, rule_pages
 from checker.report.html.index import common_problems, entry_of
@@ -153,7 +153,7 @@ def _trial_sentences(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
     if len(robots) == 1:
         return trial_sentences(driven.trial, unseen=unseen)
     others = [each.name for each in robots if each is not driven and each.has_fault]
-    also = [f"Faults in the trials of others: {listed(others)}."] if others else []
+    also = [f"Faults in the trials of others: {and_list(others)}."] if others else []
     return [*trial_sentences(driven.trial, driven.name, unseen), *also]
 
 

@@ -17,7 +17,7 @@ from msgspec import field
 from checker.base.errors import CheckerError, UnreadableInput
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.package.archives.index import ArchiveLimits
 from checker.package.formats import single_file_suffixes
 from checker.package.index import EntryKind, FileEntry, FileIndex
@@ -199,7 +199,7 @@ def _words_of_left_out(entries: list[FileEntry]) -> list[str]:
         paths = [plain(shortened(entry.path, 200)) for entry in entries if entry.kind is kind]
         if paths:
             more = [f"{len(paths) - _NAMED} more"] * (len(paths) > _NAMED)
-            named = listed([*paths[:_NAMED], *more])
+            named = and_list([*paths[:_NAMED], *more])
             words.append(
                 f"{count(len(paths), noun)} left out, because archives cannot contain them: {named}"
             )

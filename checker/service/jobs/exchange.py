@@ -15,7 +15,7 @@ from checker.base.record import Record
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import hold_files_to, tighten
 from checker.base.sandbox.usage import Usage
-from checker.base.words import listed, plain, shortened
+from checker.base.words import and_list, plain, shortened
 from checker.finding import Severity
 from checker.report.files import package_folders
 from checker.report.report import Report, VerdictKind
@@ -104,7 +104,7 @@ def _words(report: Report) -> str:
         return str(sentence(report.packages[0]))
     kinds = Counter(package.verdict for package in report.packages)
     verdicts = [f"{kinds[kind]} {kind.replace('_', ' ')}" for kind in VerdictKind if kinds[kind]]
-    return f"{what_was_checked(each.kind for each in report.packages)}: {listed(verdicts)}"
+    return f"{what_was_checked(each.kind for each in report.packages)}: {and_list(verdicts)}"
 
 
 def read_summary(key: str, data: Any) -> Checked | None:

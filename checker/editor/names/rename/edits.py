@@ -39,7 +39,7 @@ def _edits(rename: Rename) -> Iterator[Edit]:
     files = rename.index.files
     places = {(it.path, it.start, it.end) for it in rename.mentions}
     for path, start, end in sorted(places):
-        yield Span(files[path].source, start, end).replaced_by(rename.new)
+        yield Span(files[path].source, start, end).replacement(rename.new)
 
 
 def _invalid(rename: Rename) -> str:

@@ -69,7 +69,7 @@ class Draft:
     def edits(self) -> tuple[Edit, ...]:
         """The changes as edits of the file."""
         return tuple(
-            Span(self.source, start, end).replaced_by(new)
+            Span(self.source, start, end).replacement(new)
             for start, end, new in sorted(self.changes)
         )
 

@@ -107,7 +107,7 @@ def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]
         for scoped, start in _suffixes(match.group()):
             if scoped in names.changed:
                 span = Span(source, match.start() + start, match.end())
-                yield scoped, span.replaced_by(names.flat_name(scoped))
+                yield scoped, span.replacement(names.flat_name(scoped))
                 break
     for match in _TOPIC.finditer(source.text):
         steps = match.group(1).removesuffix("/").split("/")[1::2]
@@ -116,7 +116,7 @@ def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]
             if scoped in names.changed:
                 before = sum(len(f"model/{step}/") for step in steps[:number])
                 span = Span(source, match.start() + before, match.end())
-                yield scoped, span.replaced_by(f"{match.group(2)}/{names.flat_name(scoped)}")
+                yield scoped, span.replacement(f"{match.group(2)}/{names.flat_name(scoped)}")
                 break
 
 
@@ -128,7 +128,7 @@ def topic_mentions(source: SourceText, names: FlatNames) -> Iterator[Edit]:
             named = "/".join(steps[:number])
             if named in names.changed:
                 span = Span(source, match.start(1), match.start(1) + len(named))
-                yield span.replaced_by(names.flat_name(named))
+                yield span.replacement(names.flat_name(named))
                 break
 
 

@@ -37,4 +37,4 @@ class Renaming(Record):
         for plugin in self.robot.all_plugins:
             for named in names_in(plugin):
                 if named.value in self.names.changed:
-                    yield named.span.replaced_by(self.names.flat_name(named.value))
+                    yield named.span.replacement(self.names.flat_name(named.value))

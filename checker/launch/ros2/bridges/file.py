@@ -82,7 +82,7 @@ def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
         yield BridgeFault(BridgeFaultKind.DROPPED, entry.span, message)
         return
     unknown = [key for key, _ in entry.entries if _text(key) not in _KNOWN]
-    meant = {_NEAR.get(_text(key)) or suggestions.near(_text(key)) or "": key for key in unknown}
+    meant = {_NEAR.get(_text(key)) or suggestions.closest(_text(key)) or "": key for key in unknown}
     dropped: list[BridgeFault] = []
     if any(entry.get(key) is not None for key in _SERVICE):
         yield from _service(entry)

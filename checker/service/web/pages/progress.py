@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from checker.base.record import Record
-from checker.base.words import count, listed, plain, shortened
+from checker.base.words import and_list, count, plain, shortened
 from checker.report.importance import importance
 from checker.report.json_report import report_from_json
 from checker.report.report import ReportedFinding, VerdictKind
@@ -251,7 +251,7 @@ def _found(packages: Sequence[PackageLine]) -> str:
         "error": sum(package.errors for package in packages),
         "warning": sum(package.warnings for package in packages),
     }
-    return listed([count(number, noun) for noun, number in numbers.items() if number])
+    return and_list([count(number, noun) for noun, number in numbers.items() if number])
 
 
 def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]:
