@@ -42,7 +42,7 @@ class PlaceJson(Record):
     note: str
     snippet: Annotated[str, Meta(description="The text of the line.")] = ""
     message: Annotated[
-        str, Meta(description="What is wrong here, where it differs from the finding's message.")
+        str, Meta(description="The fault here, if it differs from the finding's message.")
     ] = ""
 
 
@@ -88,7 +88,7 @@ class FindingJson(Record):
     fix: FixJson | UnsetType = UNSET
     repeats: Annotated[
         tuple[RepeatJson, ...] | UnsetType,
-        Meta(description="What less precise rules say of the same fault."),
+        Meta(description="Findings of less precise rules about the same fault."),
     ] = UNSET
 
 
@@ -99,7 +99,7 @@ class SuppressedJson(Record):
     by: SuppressedBy
     reason: str
     place: Annotated[
-        PlaceJson | None, Meta(description="Of the comment; null for what stands elsewhere.")
+        PlaceJson | None, Meta(description="Of the comment; null for suppressions elsewhere.")
     ]
 
 
@@ -109,7 +109,9 @@ class NotCheckedJson(Record):
     rule: Word
     reason: str
     cause: Cause
-    severity: Annotated[Severity | None, Meta(description="Of what it may have missed.")] = None
+    severity: Annotated[
+        Severity | None, Meta(description="Of the findings that it may have missed.")
+    ] = None
     concern: Concern | None = None
 
 
@@ -132,7 +134,9 @@ class MeasurementJson(TypedDict):
     unit: Annotated[str, Meta(description="SI; empty for ratios.")]
     part: Annotated[str, Meta(description="Link or joint that it is about; empty for the robot.")]
     other: Annotated[str, Meta(description="The second part of a pair; `ground` for the ground.")]
-    rule: Annotated[str, Meta(description="That judges it; empty for what only informs.")]
+    rule: Annotated[
+        str, Meta(description="Rule that judges it; empty if it is for information only.")
+    ]
     limits: Annotated[
         Mapping[Word, float], Meta(description="Options of that rule, as they were used.")
     ]
@@ -154,23 +158,21 @@ class TrialJson(TypedDict):
         Annotated[
             int,
             Meta(
-                description="Which of several robots: 0 the first, whose `facts` those are,"
-                " 1 the first of `other_robots`."
+                description="Number of the robot, if there are several: 0 for the robot of"
+                " `facts`, 1 for the first of `other_robots`."
             ),
         ]
     ]
     not_driven: NotRequired[
-        Annotated[str, Meta(description="Why a robot that moves was only let stand.")]
+        Annotated[str, Meta(description="Reason why a robot that can move was not driven.")]
     ]
     drive: str
     versions: Annotated[Mapping[str, str], Meta(description="Of MuJoCo and of the course.")]
     course: Annotated[
         list[LegJson],
-        Meta(description="What was commanded; empty when MuJoCo refused the model."),
+        Meta(description="Commands; empty if MuJoCo refused the model."),
     ]
-    refused: Annotated[
-        str, Meta(description="Why MuJoCo does not take the model; empty if it does.")
-    ]
+    refused: Annotated[str, Meta(description="Reason why MuJoCo refused the model; else empty.")]
     refused_part: str
     measurements: list[MeasurementJson]
     repairs: list[RepairJson]
@@ -190,12 +192,18 @@ _VECTOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "num
 _TENSOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": _VECTOR}
 _FACTS: Mapping[str, Any] = {
     "robot": {"type": "string"},
-    "file": {"type": "string", "description": "Where several robots are in one package."},
-    "not_driven": {"type": "string", "description": "Why one of several robots has no trial."},
-    "assumed": {"type": "string", "description": "Values of arguments that nobody gives."},
+    "file": {
+        "type": "string",
+        "description": "File of the robot, if a package has several robots.",
+    },
+    "not_driven": {
+        "type": "string",
+        "description": "Reason why the robot, one of several, has no trial.",
+    },
+    "assumed": {"type": "string", "description": "Values chosen for arguments that are not given."},
     "also_tried": {
         "type": "string",
-        "description": "Values of xacro's arguments that make other robots, which are judged too.",
+        "description": "Values of xacro's arguments that give other robots, which are judged too.",
     },
     "mass_kg": {"type": "number"},
     "links": {"type": "integer"},
@@ -208,7 +216,10 @@ _FACTS: Mapping[str, Any] = {
     "visual_triangles": {"type": "integer", "description": "Of meshes."},
     "centre_of_mass_m": _VECTOR | {"description": "In the robot's frame."},
     "inertia_kg_m2": _TENSOR | {"description": "About the centre of mass, rows."},
-    "tip_angle_deg": {"type": "number", "description": "How far the ground can tilt."},
+    "tip_angle_deg": {
+        "type": "number",
+        "description": "Greatest tilt of the ground at which the robot stands.",
+    },
     "thrust_to_weight": {"type": "number"},
 }
 
@@ -219,29 +230,29 @@ class PackageJson(Record, kw_only=True):
     name: str
     path: Annotated[str, Meta(description="As given to the checker.")]
     kind: Annotated[Word, Meta(extra_json_schema={"enum": list(map(str, PackageKind))})]
-    profile: Annotated[Word, Meta(description="What judged it.")]
+    profile: Annotated[Word, Meta(description="Profile that judged it.")]
     target_reason: Annotated[
         str,
-        Meta(description="Simulator or ROS 2 distribution that its content tells, and by what."),
+        Meta(description="Simulator or ROS 2 distribution found in its content, and the place."),
     ] = ""
-    settings: Annotated[
-        str, Meta(description="What a settings file changed; empty without one.")
-    ] = ""
+    settings: Annotated[str, Meta(description="Changes of a settings file; empty without one.")] = (
+        ""
+    )
     fail_on: Annotated[
-        Severity, Meta(description="Findings at or above it make the command fail.")
+        Severity, Meta(description="Findings of this severity or above make the command fail.")
     ] = Severity.ERROR
     verdict: VerdictKind
     inherited: tuple[InheritedPart, ...]
     findings: tuple[FindingJson, ...]
     suppressed: Annotated[
-        tuple[SuppressedJson, ...], Meta(description="What was found and does not count.")
+        tuple[SuppressedJson, ...], Meta(description="Findings that do not count.")
     ]
     not_checked: tuple[NotCheckedJson, ...]
     trial: TrialJson | None = None
     facts: Annotated[
         Mapping[str, Any],
         Meta(
-            description="What is known of the robot; what no rule had to look at is left out.",
+            description="Facts about the robot; those that no rule needed are missing.",
             extra_json_schema={"properties": _FACTS},
         ),
     ]
@@ -263,7 +274,7 @@ class NotOpenedJson(Record):
     path: str
     reason: str
     failed: Annotated[
-        bool, Meta(description="Whether it was asked for by name, so that the run has failed.")
+        bool, Meta(description="Whether the user named it, so that the run has failed.")
     ] = False
 
 

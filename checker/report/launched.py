@@ -12,7 +12,7 @@ from checker.base.record import Record
 class LaunchedNode(Record):
     """A node, controller, plugin or bridge."""
 
-    name: Annotated[str, Meta(description="As messages call it.")]
+    name: Annotated[str, Meta(description="Name in messages.")]
     publishes: Annotated[tuple[str, ...], Meta(description="Topics, absolute.")] = ()
     reads: Annotated[tuple[str, ...], Meta(description="Topics, absolute.")] = ()
 

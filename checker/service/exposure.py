@@ -101,7 +101,7 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
 
 
 def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]]) -> str:
-    """Return a warning where uploads of others are read without a sandbox; else nothing.
+    """Return a warning if uploads of others are read without a sandbox; else nothing.
 
     Args:
         environment: The variables with the permission to upload and to take the risk.
@@ -120,7 +120,7 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
         return f"no sandbox layer hides files: {_RISK} (--without-sandbox)"
     raise CheckerError(
         f"no sandbox layer hides files from uploads ({_missing(held)}); install bubblewrap or use "
-        "a kernel with Landlock (`subt-check doctor` tells more), or accept the risk with "
+        "a kernel with Landlock (see `subt-check doctor`), or accept the risk with "
         f"--without-sandbox: {_RISK}"
     )
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from checker.source.ruby import RubyNode
-from checker.source.ruby_repairs import SyntaxFault
+from checker.source.ruby_repairs import SyntaxFault, missing_comma, unexpected
 from checker.source.text import Span
 
 _RESERVED = frozenset({"end", "do", "else", "elsif", "then", "when", "ensure"})
@@ -69,18 +69,14 @@ def _reserved_name(node: RubyNode) -> Iterator[SyntaxFault]:
         return
     for child in node.children:
         if child.type == "identifier" and child.text in _RESERVED:
-            yield child.span, f"this {child.text} has nothing to {_belonging(child.text)}"
-
-
-def _belonging(word: str) -> str:
-    return "close" if word == "end" else "belong to"
+            yield unexpected(child)
 
 
 def _lonely_else(node: RubyNode) -> Iterator[SyntaxFault]:
     kinds = {child.type: child for child in node.children}
     if node.type in _ELSE_NEEDS_RESCUE and "else" in kinds and "rescue" not in kinds:
         opening = kinds["else"].children[:1] or [kinds["else"]]
-        yield opening[0].span, "this else has nothing to belong to"
+        yield opening[0].span, "unexpected else: the block has no rescue"
 
 
 def _missing_comma(node: RubyNode) -> Iterator[SyntaxFault]:
@@ -89,7 +85,7 @@ def _missing_comma(node: RubyNode) -> Iterator[SyntaxFault]:
         parts = node.parts
         for part in parts:
             if (end := _end_of_first(part, alone=len(parts) == 1)) is not None:
-                yield Span(node.source, end - 1, end), "a comma is missing behind this"
+                yield missing_comma(node.source, end)
 
 
 def _has_parentheses(arguments: RubyNode) -> bool:
@@ -97,7 +93,7 @@ def _has_parentheses(arguments: RubyNode) -> bool:
 
 
 def _end_of_first(part: RubyNode, *, alone: bool) -> int | None:
-    """Return the end of the first of two values that only a blank parts."""
+    """Return the end of the first of two values that only a blank separates."""
     method, arguments = part.fields.get("method"), part.fields.get("arguments")
     if part.type == "element_reference" and len(part.children) > 1:
         value, bracket = part.children[:2]
@@ -117,13 +113,13 @@ def _strings_of_two_lines(node: RubyNode) -> Iterator[SyntaxFault]:
         for one, other in pairwise(node.children):
             between = node.source.text[one.end : other.start]
             if "\n" in between and "\\" not in between:
-                yield Span(node.source, one.end - 1, one.end), "a comma is missing behind this"
+                yield missing_comma(node.source, one.end)
 
 
 def _call_of_a_value(node: RubyNode) -> Iterator[SyntaxFault]:
     method = node.fields.get("method")
     if node.type == "call" and method is not None and _GLOBAL.fullmatch(method.text):
-        yield method.span, "a variable cannot be called"
+        yield method.span, f"the variable {method.text[:60]} cannot be called with arguments"
 
 
 def _leading_zeros(node: RubyNode) -> Iterator[SyntaxFault]:

@@ -107,11 +107,11 @@ def _opened(tree: RubyNode, token: RubyNode) -> SyntaxFault:
     """Return the fault of a token that nothing closes."""
     span = Span(tree.source, token.start, token.end)
     if token.type in _CLOSING:
-        return span, f"this {token.type} is never closed"
+        return span, f"this {token.type} is not closed; write {_CLOSING[token.type]}"
     if token.type in _QUOTES:
-        return span, "the string is never closed"
-    what = "the definition that" if token.type == "def" else "what"
-    return span, f"an end is missing: {what} starts here is never closed"
+        return span, f"the string is not closed; write {token.type} at its end"
+    what = "the definition" if token.type == "def" else "the statement"
+    return span, f"missing end: {what} that starts here is not closed"
 
 
 def _grammars(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
@@ -164,11 +164,19 @@ def _closed_at_the_end(tree: RubyNode, opened: Sequence[RubyNode]) -> Iterator[_
 def _removals(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_Repair]:
     text = tree.source.text
     for token in surplus[:_SUSPECTS]:
-        yield text[: token.start] + text[token.end :], _unopened(token)
+        yield text[: token.start] + text[token.end :], unexpected(token)
 
 
-def _unopened(token: RubyNode) -> SyntaxFault:
-    return token.span, f"this {token.type} has nothing to close"
+def unexpected(token: RubyNode) -> SyntaxFault:
+    """Return the fault of an `end`, an `else` or a bracket without a start."""
+    if token.text in _CLOSERS:
+        return token.span, f"unexpected {token.text}: nothing is open that it closes"
+    return token.span, f"unexpected {token.text}: no statement here can have one"
+
+
+def missing_comma(source: SourceText, end: int) -> SyntaxFault:
+    """Return the fault of a list without a comma after the value that ends at an offset."""
+    return Span(source, end - 1, end), "missing comma: write ',' after this"
 
 
 def _opening_brackets(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_Repair]:
@@ -176,7 +184,7 @@ def _opening_brackets(tree: RubyNode, surplus: Sequence[RubyNode]) -> Iterator[_
     opening = {closing: opening for opening, closing in _CLOSING.items() if len(opening) == 1}
     for token in surplus[:_SUSPECTS]:
         for at in range(_line(text, token.start)[0], token.start):
-            yield _insert(text, at, opening.get(token.type, "")), _unopened(token)
+            yield _insert(text, at, opening.get(token.type, "")), unexpected(token)
 
 
 def _heredocs(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
@@ -189,7 +197,8 @@ def _heredocs(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
     for node in nodes:
         alone = node.type == "constant" and node.start in starts
         if alone and ends[node.text] > opened[node.text]:
-            fault = (node.span, f"no heredoc is open that this {node.text} closes")
+            message = f"{node.text} closes no heredoc; write <<-{node.text} before its text"
+            fault = (node.span, message)
             for at in inner[:_SUSPECTS]:
                 end = _line(text, text.rfind("\n", 0, at))[1]
                 yield _insert(text, end, f" <<-{node.text}"), fault
@@ -237,7 +246,8 @@ def _quotes(tree: RubyNode, suspects: Sequence[int]) -> Iterator[_Repair]:
         for quote in _QUOTES:
             if line.count(quote) % 2:
                 at = start + line.index(quote)
-                fault = (Span(tree.source, at, at + 1), "the quotes of this line are not paired")
+                message = f"the line has an odd number of {quote}; add one"
+                fault = (Span(tree.source, at, at + 1), message)
                 yield from ((_insert(text, i, quote), fault) for i in _gaps(text, start, end))
 
 

@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from checker.source.ruby import RubyNode, heredoc_identifier
 from checker.source.ruby_refusals import first_refusal
-from checker.source.ruby_repairs import SyntaxFault, find_repair, innermost
+from checker.source.ruby_repairs import SyntaxFault, find_repair, innermost, missing_comma
 from checker.source.text import Span
 
 _QUOTES = frozenset({'"', "'"})
@@ -98,7 +98,7 @@ def _open_heredoc(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> Synt
         word = heredoc_identifier(node)
         ends = last_indented if _may_be_indented(node) else last
         if word and ends.get(word, 0) <= tree.source.position(node.end)[0]:
-            return node.span, f"the heredoc {node.text} is never closed by a line '{word}'"
+            return node.span, f"the heredoc {node.text} is not closed; expected a line '{word}'"
     return None
 
 
@@ -148,7 +148,8 @@ def _open_string(tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> Synta
             for child in node.children
         )
         if token:
-            return Span(tree.source, first, first + 1), "the string is never closed"
+            message = f"the string is not closed; write {text[first]} at its end"
+            return Span(tree.source, first, first + 1), message
     return None
 
 
@@ -168,5 +169,5 @@ def _side_by_side(_tree: RubyNode, nodes: Sequence[RubyNode], first: int) -> Syn
                     and between.isspace()
                     and first in (one.start, other.start)
                 ):
-                    return Span(node.source, one.end - 1, one.end), "a comma is missing behind this"
+                    return missing_comma(node.source, one.end)
     return None

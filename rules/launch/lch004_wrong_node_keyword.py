@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import Span
 
 OLD: Mapping[str, str] = {
     "node_name": "name",
@@ -26,8 +27,13 @@ def check(launch: Ros2Launch) -> Findings:
         for fault in graph.faults:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:
                 new = OLD.get(fault.name)
-                hint = f": write {new}" if new else ""
+                hint = f"; write {new}" if new else f"; add {_executable(fault.span)}"
                 yield finding(fault, f"{fault.message}{hint}", key=fault.message)
+
+
+def _executable(node: Span) -> str:
+    """Return the spelling of the keyword in a launch file: Python, or XML and YAML."""
+    return "executable" if node.source.file.endswith(".py") else "exec"
 
 
 GOOD = [{"@ros2": True}]

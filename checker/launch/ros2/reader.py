@@ -154,7 +154,7 @@ class LaunchReader:
         if isinstance(source, str):
             return FileRead(reason=source)
         if source.file in context.files:
-            message = f"{source.file} includes itself"
+            message = f"{source.file} includes itself; remove the include"
             context.fault(LaunchFaultKind.INCLUDE_LOOP, target.span, message, source.file)
             return FileRead(path=source.file, reason="it includes itself")
         self._read += 1

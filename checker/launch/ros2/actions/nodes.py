@@ -170,7 +170,7 @@ def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]
 def _keywords(made: Made, context: Context) -> None:
     for name in _OLD_KEYWORDS.intersection(made.values):
         where = made.keywords.get(name, made.span)
-        message = f"{made.name} takes no keyword {name!r}"
+        message = f"{made.name} has no keyword {name!r}"
         context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
     # Containers have a usual program in newer releases.
     stated = {"executable", "node_executable"}.intersection(made.values)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from checker.base.words import shortened
 from checker.launch.ros1.graph import Remap, resolve_name
 from checker.launch.ros2.actions.node_parameters import UNKNOWN
 from checker.launch.ros2.actions.parts import parameters_of, text_or_unknown, with_place
@@ -58,7 +59,8 @@ def declare(visitor: Visitor, made: Made, context: Context) -> None:
 def _check_choice(name: str, choices: tuple[str, ...], context: Context, span: Span) -> None:
     value = context.state.configurations[name]
     if choices and isinstance(value, str) and is_known(value) and str(value) not in choices:
-        message = f"argument {name!r} is {str(value)!r}, which is none of its choices"
+        expected = shortened(", ".join(choices), 200)
+        message = f"argument {name!r} is {str(value)!r}, expected one of its choices: {expected}"
         where = span_of(value, span)
         context.fault(LaunchFaultKind.UNKNOWN_CHOICE, where, message, name)
 

@@ -25,6 +25,12 @@ DIRECTIONS: Mapping[str, Direction] = {
 }
 _TOPICS = ("topic_name", "ros_topic_name", "gz_topic_name")
 _TYPES = ("ros_type_name", "gz_type_name")
+_REQUIRED = {
+    "topic_name": "TOPIC",
+    "ros_type_name": "PACKAGE/msg/TYPE",
+    "gz_type_name": "gz.msgs.TYPE",
+}
+"""Keys that an entry needs, each with a value to fill in."""
 _OLD = {"ign_topic_name": "gz_topic_name", "ign_type_name": "gz_type_name"}
 _SERVICE = ("service_name", "gz_req_type_name", "gz_rep_type_name")
 _OTHERS = ("direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id")
@@ -61,13 +67,13 @@ def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
             yield BridgeFault(
                 BridgeFaultKind.UNREADABLE,
                 fault.span,
-                f"the file is not valid YAML: {fault.message}",
+                f"the file is not valid YAML, so nothing is bridged: {fault.message}",
             )
     root = document.root
     if root is None:
         return
     if root.kind != "sequence":
-        message = f"the file holds a {root.kind} instead of a sequence: nothing is bridged"
+        message = f"the file contains a {root.kind}, expected a sequence: nothing is bridged"
         hint = "; write '- ' in front of each entry" if root.kind == "mapping" else ""
         yield BridgeFault(BridgeFaultKind.NO_SEQUENCE, root.span, message + hint)
         return
@@ -78,7 +84,7 @@ def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
 
 def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
     if entry.kind != "mapping":
-        message = f"an entry is a {entry.kind} instead of a mapping: it is left out"
+        message = f"the entry is a {entry.kind}, expected a mapping: the bridge ignores it"
         yield BridgeFault(BridgeFaultKind.DROPPED, entry.span, message)
         return
     unknown = [key for key, _ in entry.entries if _text(key) not in _KNOWN]
@@ -91,10 +97,10 @@ def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
         if not dropped and all(entry.get(key) is None for key in _OLD):
             yield from _passed(entry)
     yield from dropped
-    told = {id(fault.span) for fault in dropped}
+    reported = {id(fault.span) for fault in dropped}
     names = {id(key): name for name, key in meant.items()}
     for key in unknown:
-        if id(key.span) not in told:
+        if id(key.span) not in reported:
             name = names.get(id(key))
             hint = f"; expected {name}" if name else ""
             message = f"the bridge ignores the key {_text(key)!r:.60}{hint}"
@@ -102,38 +108,38 @@ def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
 
 
 def _dropped(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
-    """Yield why the bridge leaves an entry out."""
+    """Yield the faults for which the bridge ignores an entry."""
     both = entry.get("topic_name")
     for key in ("ros_topic_name", "gz_topic_name"):
         if both is not None and _text(both) and _text(entry.get(key)):
-            yield _left_out(both, f"topic_name and {key} exclude each other")
+            message = f"topic_name and {key} are both set, expected one of them"
+            yield _ignored(both, message, "; remove topic_name")
     # Files of older releases spell these with ign: whether they are still read is not known.
     if not any(entry.get(key) is not None for key in _OLD):
         yield from _missing(entry, misspelt)
     direction = entry.get("direction")
     if direction is not None and _text(direction) not in DIRECTIONS:
-        expected = ", ".join(DIRECTIONS)
-        said = f"the direction {direction.plain()!r:.60} is none of {expected}"
-        yield _left_out(direction, said)
+        message = f"direction is {direction.plain()!r:.60}, expected one of {', '.join(DIRECTIONS)}"
+        yield _ignored(direction, message)
 
 
 def _missing(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
-    """Yield the keys that an entry needs and has not; one that is misspelt is named."""
+    """Yield the required keys that an entry lacks, each with its misspelling if there is one."""
     first = entry.entries[0][0] if entry.entries else entry
     named = any(_text(entry.get(key)) for key in _TOPICS)
     topic = next((key for key in _TOPICS if key in misspelt), _TOPICS[0])
     missing = [key for key in _TYPES if not _text(entry.get(key))]
     for key in missing if named else [topic, *missing]:
         written = misspelt.get(key)
-        what = key if written is not None or key in _TYPES else "topic"
-        said = f"the entry has no {what}"
         if written is not None:
-            said += f", but a key {_text(written)!r:.60}, which the bridge ignores"
-        yield _left_out(written or first, said)
+            yield _ignored(written, f"the key is {_text(written)!r:.60}, expected {key}")
+        else:
+            yield _ignored(first, f"the entry has no {key}", f"; write '{key}: {_REQUIRED[key]}'")
 
 
-def _left_out(node: YamlNode, message: str) -> BridgeFault:
-    return BridgeFault(BridgeFaultKind.DROPPED, node.span, f"{message}: the entry is left out")
+def _ignored(node: YamlNode, message: str, advice: str = "") -> BridgeFault:
+    text = f"{message}: the bridge ignores the entry{advice}"
+    return BridgeFault(BridgeFaultKind.DROPPED, node.span, text)
 
 
 def _passed(entry: YamlNode) -> Iterator[Passed]:
@@ -157,7 +163,7 @@ def _passed(entry: YamlNode) -> Iterator[Passed]:
 
 
 def _service(entry: YamlNode) -> Iterator[BridgedService]:
-    """Yield a service; of one without its name or type, it is not known what becomes."""
+    """Yield a service; the effect of one without its name or type is not known."""
     name, ros_type = entry.get("service_name"), entry.get("ros_type_name")
     if name is not None and ros_type is not None and _text(ros_type):
         stated = (entry.get(key) for key in _SERVICE[1:])

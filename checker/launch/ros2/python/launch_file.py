@@ -32,7 +32,7 @@ def parse_source(source: SourceText) -> ast.Module | str:
     except SyntaxError as error:
         return f"line {error.lineno}: {error.msg}"
     except (ValueError, RecursionError, MemoryError):
-        return "is nested too deeply, or holds characters that Python does not read"
+        return "it is nested too deeply, or contains characters that are not allowed"
 
 
 def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
@@ -42,18 +42,18 @@ def read_python(source: SourceText, allowance: Allowance, world: World, found: G
         # Newer releases of Python read f-strings that this one does not.
         return Unknown(f"the file is not read: {tree}", source.whole())
     if isinstance(tree, str):
-        message = f"the launch file is not Python that can be read: {tree}"
+        message = f"Python cannot read the launch file: {tree}"
         found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))
         return Unknown(message, source.whole())
     run = Interpreter(source, allowance, world)
     for name in undefined_names(tree, ENTRY):
-        message = f"name {name.id!r} is not defined in the launch file"
+        message = f"name {name.id!r} is not defined; define or import it"
         found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, run.span(name), message))
     scope = run.module_scope(tree)
     function = scope.values.get(ENTRY)
     if not isinstance(function, LocalFunction):
         if function is None:
-            message = f"the file defines no function {ENTRY}()"
+            message = f"the file has no function {ENTRY}(), which ros2 launch calls"
             found.faults.append(
                 LaunchFault(LaunchFaultKind.NO_DESCRIPTION, source.whole(), message)
             )
