@@ -1,0 +1,97 @@
+"""Trials beside Gazebo's physics: a line for each robot of some folders, and what agrees.
+
+    python -m bench.oracle [FOLDER...]
+
+Without folders, SUBT_CHECK_CORPUS, SUBT_CHECK_MODERN and the samples. Debian's
+`libignition-physics-dev` and `libsdformat-dev` are needed.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import statistics
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from checker.base.parts import NotAvailable
+from checker.engine.subject import Subject
+from checker.model.robot import Robot
+from checker.package.inputs import open_input
+from checker.package.package import Package
+from support.fortress import Refused, compiled, is_installed
+from support.fortress.comparison import Comparison, Figures, compared
+
+ROOT = Path(__file__).parent.parent
+
+
+def folders(named: list[str]) -> list[Path]:
+    """Return the folders to look at."""
+    if named:
+        return [Path(name) for name in named]
+    variables = ("SUBT_CHECK_CORPUS", "SUBT_CHECK_MODERN")
+    return [*(Path(os.environ[name]) for name in variables if name in os.environ), ROOT / "samples"]
+
+
+def robots(folder: Path) -> Iterator[tuple[Package, Robot]]:
+    """Yield the robots of all packages of a folder."""
+    with open_input(folder) as opened:
+        for package in opened.packages:
+            found = Subject(package).all(Robot)
+            if not isinstance(found, NotAvailable):
+                yield from ((package, robot) for robot in found)
+
+
+def line(robot: Robot, result: Comparison | str) -> str:
+    """Return a robot's line: what moved it, and each figure here / there."""
+    name = f"{robot.name.value[:32]:32} "
+    if isinstance(result, str):
+        return name + result
+    pairs = [
+        f"{label} {getattr(result.here, member):.3f}/{getattr(result.there, member):.3f}"
+        for label, member in LABELS.items()
+    ]
+    return f"{name}{result.plan.kind:20} {'  '.join(pairs)}"
+
+
+LABELS = {"sink": "sink", "v": "speed", "stop": "stop", "turn": "turn", "full": "full"}
+
+
+def summary(results: list[Comparison]) -> Iterator[str]:
+    """Yield how far the figures are apart: of those in Gazebo, the share."""
+    for label, member in LABELS.items():
+        apart = [_apart(result.here, result.there, member) for result in results]
+        known = sorted(each for each in apart if math.isfinite(each))
+        if known:
+            least = known[int(0.9 * (len(known) - 1))]
+            yield f"{label:5} median {statistics.median(known):.2%}  90 % within {least:.2%}"
+
+
+def _apart(here: Figures, there: Figures, member: str) -> float:
+    one, other = getattr(here, member), getattr(there, member)
+    return float(abs(one - other) / max(abs(other), 1e-3))
+
+
+def main() -> None:
+    """Compare all robots."""
+    if not is_installed():
+        sys.exit("libignition-physics-dev and libsdformat-dev are not installed")
+    results = []
+    with tempfile.TemporaryDirectory() as work:
+        program = compiled(Path(work))
+        for folder in folders(sys.argv[1:]):
+            for package, robot in robots(folder):
+                try:
+                    result = compared(program, package, robot)
+                except Refused as refusal:
+                    result = f"Gazebo refuses it: {refusal}"
+                print(line(robot, result), flush=True)
+                results.append(result)
+    for each in summary([result for result in results if isinstance(result, Comparison)]):
+        print(each)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,60 @@
+"""Trials beside the same courses in the physics of Gazebo Fortress."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.base.parts import NotAvailable
+from checker.engine.subject import Subject
+from checker.model.robot import Robot
+from checker.package.inputs import open_input
+from support.fortress import Refused, compiled, driven, is_installed
+from support.fortress.comparison import Comparison, compared
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+
+
+@pytest.fixture(scope="session")
+def fortress(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Debian's ign-physics 5, in a program that is compiled once."""
+    if not is_installed():
+        pytest.skip("libignition-physics-dev is not installed")
+    shared: pytest.Cache | None = getattr(pytestconfig, "cache", None)
+    return compiled(shared.mkdir("oracle") if shared else tmp_path_factory.mktemp("oracle"))
+
+
+def comparison_of(folder: Path, program: Path) -> Comparison:
+    with open_input(folder) as opened:
+        package = opened.packages[0]
+        robots = Subject(package).all(Robot)
+        assert not isinstance(robots, NotAvailable)
+        result = compared(program, package, robots[0])
+    assert isinstance(result, Comparison), result
+    return result
+
+
+@pytest.mark.parametrize(
+    "sample",
+    ["acme_scout", "husky_migration_sensor_config_1", "subtcheck_buggy_sensor_config_1"],
+)
+def test_a_robot_stands_drives_and_stops_as_in_gazebo(sample: str, fortress: Path) -> None:
+    result = comparison_of(SAMPLES / sample, fortress)
+    here, there = result.here, result.there
+    assert here.sink == pytest.approx(there.sink, abs=0.002)
+    assert here.speed == pytest.approx(there.speed, rel=0.01)
+    assert here.full == pytest.approx(there.full, rel=0.01)
+    assert here.stop == pytest.approx(there.stop, rel=0.05)
+
+
+def test_a_steered_robot_drives_the_same_circle(fortress: Path) -> None:
+    result = comparison_of(SAMPLES / "subtcheck_buggy_sensor_config_1", fortress)
+    assert result.here.turn == pytest.approx(result.there.turn, rel=0.05)
+
+
+def test_what_gazebo_refuses_is_said(fortress: Path, tmp_path: Path) -> None:
+    model = tmp_path / "model.sdf"
+    model.write_text("<sdf version='1.9'><model name='m'/></sdf>")
+    with pytest.raises(Refused, match="must have at least one link"):
+        driven(fortress, model, 0.0, 0.1, {})
