@@ -55,7 +55,7 @@ _AT_ONCE = 50
 _SOON = 3.0
 """Seconds until checks are under way."""
 _BEAT_FILES_SECONDS = 90.0
-"""Within which nothing that the dead have left may lie in `incoming`."""
+"""Within which nothing that the dead have left may be in `incoming`."""
 
 
 def robot(number: int) -> bytes:

@@ -1,8 +1,8 @@
 """Measure the load of the machine: others may use the same processors.
 
-What the host gives to others while something is measured says nothing of the program: such a figure
-is measured again. The speed of the processors differs as well, by two from hour to hour, as `pace`
-shows.
+What the host gives to others while something is measured states nothing of the program: such a
+figure is measured again. The speed of the processors differs too, by two from hour to hour, as
+`pace` shows.
 """
 
 from __future__ import annotations

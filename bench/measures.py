@@ -42,7 +42,7 @@ class Measure:
     Attributes:
         rule: Its id.
         what: The value, with its unit.
-        numbers: Options that hold the numbers that it is compared with.
+        numbers: Options that contain the numbers that it is compared with.
         pattern: Finds the value, or what it is computed from, in a message. Where a group is
             missing, its value is 0.
         options: Make the rule report all values.

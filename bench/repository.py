@@ -118,7 +118,7 @@ def _link(package: str, name: str, mesh: str) -> str:
 
 
 def _pairs(names: list[str]) -> Iterator[tuple[str, str, float]]:
-    """Yield parent, child and their distance: a spine, and four limbs that hang on it."""
+    """Yield parent, child and their distance: a spine, and four limbs that are connected to it."""
     spine = names[: len(_PARTS)]
     yield from ((parent, child, 0.15) for parent, child in pairwise(spine))
     for side in ("left", "right"):

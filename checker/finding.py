@@ -90,7 +90,7 @@ class Place(Record):
         element: Path of the XML element (`sdf/model[rover]/link[wheel]`), else empty.
         note: What this place has to do with the finding, when it is not the main one.
         snippet: The line's text, so that a report can show it without the file.
-        message: What is wrong here, where it differs from what is said of the first place.
+        message: What is wrong here, where it differs from what is stated about the first place.
     """
 
     file: str
@@ -121,7 +121,7 @@ class Edit(Record):
     Attributes:
         place: The place of the text.
         replacement: The new text.
-        original: What stands there. Where the file holds something else, as a spawner does that
+        original: What is there. Where the file contains something else, as a spawner does that
             puts a text together, the edit cannot be made.
     """
 
@@ -131,7 +131,7 @@ class Edit(Record):
 
 
 class Fix(Record):
-    """Text edits that together mend a finding."""
+    """Text edits that together correct a finding."""
 
     safety: Safety
     edits: tuple[Edit, ...]

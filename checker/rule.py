@@ -75,7 +75,7 @@ Findings = Iterator[Finding | Unchecked]
 
 
 def unchecked(reason: str) -> Unchecked:
-    """Say that a part of what the rule looks at is not available, and why."""
+    """State that a part of what the rule looks at is not available, and why."""
     return Unchecked(reason)
 
 
@@ -96,8 +96,8 @@ def finding(
         message: Present tense; names the thing, its value, and what was expected, with its unit.
         severity: The severity, if it differs from the rule's own.
         key: What repeated findings have in common; the message when empty.
-        related: Other places, each with a note that says what it has to do with the finding.
-        fix: Text edits that mend it.
+        related: Other places, each with a note that states what it has to do with the finding.
+        fix: Text edits that correct it.
         covered_by: Rules that report the same fault more precisely where they report the same
             place, or all the related ones.
     """
@@ -157,7 +157,7 @@ class Rule(Record, dict=True):
     Attributes:
         id: Three letters of its group and a number: `SEN005`.
         name: What is wrong, in words joined by hyphens.
-        severity: Unless a finding says otherwise.
+        severity: Unless a finding states otherwise.
         concern: What its findings are about.
         check: The function.
         page: The module's docstring: what, why, how to fix, source.
@@ -230,7 +230,7 @@ def rule(
     Args:
         id: The id, such as `SEN005`; never reused.
         name: What is wrong, such as `lidar-scan-resolution`.
-        severity: Unless a finding says otherwise.
+        severity: Unless a finding states otherwise.
         concern: What its findings are about.
         judges: Figures of the trial that it judges.
     """

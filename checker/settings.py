@@ -361,7 +361,7 @@ def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
 
 
 def _checked_path(key: str, value: Any, path: Path, kind: str) -> Path:
-    """Return the path that settings name: a stranger's may not name what lies elsewhere."""
+    """Return the path that settings name: a stranger's may not name what is elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
     if inside is None or not _lies_in(path.parent, inside):
         expected = f"expected the path of {kind} in or below the folder of these settings"
@@ -379,7 +379,7 @@ _READERS: Mapping[str, Callable[[Any, Path], Any]] = {
 
 
 def _lies_in(folder: Path, inside: str) -> bool:
-    """Say whether a path stays in a folder; not so one that cannot be followed to its end."""
+    """Return whether a path stays in a folder; not so one that cannot be followed to its end."""
     try:
         return (folder / inside).resolve().is_relative_to(folder.resolve())
     except (OSError, RuntimeError, ValueError):

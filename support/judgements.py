@@ -122,7 +122,7 @@ def findings(source: str, path: str, profile: str, *, trial: bool) -> tuple[Repo
 
 
 def is_reported(judgement: Judgement, found: tuple[ReportedFinding, ...]) -> bool:
-    """Say whether a judged finding is reported, at its severity or above."""
+    """Return whether a judged finding is reported, at its severity or above."""
     return any(
         finding.rule == judgement.place.rule
         and _RANK[finding.severity] >= _RANK[judgement.severity]
@@ -146,7 +146,7 @@ def _left_out(folder: Path) -> frozenset[str]:
 
 
 def is_of_the_copy(source: str, finding: ReportedFinding) -> bool:
-    """Say whether a finding is about a file that only the copy of the package lacks."""
+    """Return whether a finding is about a file that only the copy of the package lacks."""
     folder = folder_of(source)
     if folder is None or finding.rule != "REF002":
         return False

@@ -50,14 +50,14 @@ _QUICK = {
 
 
 class NotStarted(Exception):
-    """The server did not come up; the text is what it said."""
+    """The server did not come up; the text is what it stated."""
 
 
 @dataclass(frozen=True)
 class _Place:
     """The server's own folder; its programs are copied there.
 
-    The server's user need not be able to read this environment: it may lie below `/root`.
+    The server's user need not be able to read this environment: it may be below `/root`.
     """
 
     folder: Path

@@ -59,7 +59,7 @@ def judged_folders(variable: str) -> list[Path]:
 
 
 def judged_files(variable: str, name: str) -> list[Path]:
-    """Return the files of a name that lie in judged folders."""
+    """Return the files of a name that are in judged folders."""
     files = (folder / name for folder in judged_folders(variable))
     return [file for file in files if file.is_file()]
 

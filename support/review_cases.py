@@ -1,4 +1,4 @@
-"""Faults that maintainers had corrected, and what our rules say of them before and after.
+"""Faults that maintainers had corrected, and what our rules state about them before and after.
 
 SUBT_CHECK_REVIEWS names their folder: `<id>/before/<package>`, `<id>/after/<package>` and
 `cases.json`, which names the file and the rules of which any may report the fault.

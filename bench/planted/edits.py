@@ -1,6 +1,6 @@
 """Small edits of the files of a package, made at a place that chance picks.
 
-No edit moves the lines below it: what a sheet says of line numbers stays true.
+No edit moves the lines below it: what a sheet states about line numbers stays true.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from random import Random
 from lxml import etree
 
 Edit = Callable[[Path, Random], bool]
-"""Edits a package in place; says whether there was anything to edit."""
+"""Edits a package in place; states whether there was anything to edit."""
 
 Change = Callable[[etree._Element, Random], None]
 """Edits one element."""
@@ -130,7 +130,7 @@ def overwritten(file: str, content: str) -> Edit:
 
 
 def has(file: str, pattern: str) -> Edit:
-    """Return no edit: it only says whether a file has a text."""
+    """Return no edit: it only states whether a file has a text."""
 
     def edit(package: Path, _: Random) -> bool:
         return any(re.search(pattern, found.read_text("utf-8")) for found in _files(package, file))

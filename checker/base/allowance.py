@@ -131,9 +131,9 @@ class _Watch:
 
         Args:
             seconds: Seconds of processor time that the piece may take.
-            too_long: What is said of one that takes longer.
+            too_long: What is stated about one that takes longer.
             most: Bytes that the process may have meanwhile.
-            too_large: What is said of a piece that makes it larger.
+            too_large: What is stated about a piece that makes it larger.
         """
         self._begun, self._seconds, self._too_long = process_time(), seconds, too_long
         self._most, self._too_large = most, too_large

@@ -43,7 +43,7 @@ class Work(Record, Generic[T], eq=False):
     """The items that one process computes.
 
     Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with
-    a JSON list of as many results; in place of one, `failed` says why there is none.
+    a JSON list of as many results; in place of one, `failed` states why there is none.
 
     Attributes:
         kind: The kind of the results in the cache.
@@ -54,7 +54,7 @@ class Work(Record, Generic[T], eq=False):
             none: the answering process may be compromised.
         common: What all items need.
         files: Returns paths of files that go with items, and how many bytes each may have.
-        lasts: Whether a result holds next time as well.
+        lasts: Whether a result holds next time too.
         here: Computes one item in this process, where that takes less than to start another.
     """
 

@@ -29,7 +29,7 @@ from checker.base.sandbox.task import FAILED
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
 _STARTUP_SECONDS = 60.0
-"""For the imports, on a machine that does something else as well."""
+"""For the imports, on a machine that does something else too."""
 _CLOCK = 10.0
 """Seconds by the clock for one of processor time: a busy machine is no reason to stop anything."""
 _ENDS_SECONDS = 5.0
@@ -203,7 +203,7 @@ NONSENSE = (AttributeError, IndexError, KeyError, TypeError, ValueError)
 
 
 def from_json(answer: bytes) -> Any:
-    """Return what an answer says as JSON; the answering process may be compromised.
+    """Return what an answer states as JSON; the answering process may be compromised.
 
     Raises:
         ValueError: It is no JSON, or nests too deeply.
@@ -224,5 +224,5 @@ def _code(data: bytes) -> int | None:
 
 
 def overdue(limits: Limits) -> WorkerFailed:
-    """Return what is said of a process that was stopped."""
+    """Return what is stated about a process that was stopped."""
     return WorkerFailed(f"took longer than {limits.clock_seconds:g} s and was stopped", True)

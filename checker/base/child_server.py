@@ -1,7 +1,7 @@
 """A process with limits that answers one request after the other, so that it loads but once.
 
 Requests come one behind the other in one file, answers in another; two pipes give the place of
-each. No socket is needed, so that a process in the sandbox can have such a process as well.
+each. No socket is needed, so that a process in the sandbox can have such a process too.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ _MOMENTARY = frozenset(
 
 
 def is_momentary(error: BaseException) -> bool:
-    """Say whether the disk or the system failed: nothing that a package can do, and may pass."""
+    """Return whether the disk or the system failed: nothing that a package can do, and may pass."""
     return isinstance(error, OSError) and error.errno in _MOMENTARY
 
 
@@ -30,7 +30,7 @@ def momentary_cause(error: BaseException) -> str:
 
 
 class CheckerError(Exception):
-    """Something that the user can mend; its text is one sentence and reaches the terminal."""
+    """Something that the user can correct; its text is one sentence and reaches the terminal."""
 
 
 class Unreachable(CheckerError):
@@ -45,7 +45,7 @@ class InvalidSettings(CheckerError):
     """Settings that name what does not exist, or have the wrong type.
 
     Attributes:
-        path: The settings file; None when the command line says it.
+        path: The settings file; None when the command line states it.
         problem: What is wrong, and what is known instead; it may repeat what a stranger wrote.
     """
 

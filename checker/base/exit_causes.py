@@ -16,12 +16,12 @@ _MOMENTARY = {
 
 
 def timeout_failure(seconds: float) -> WorkerFailed:
-    """Return what is said of a process that needs more processor time than it has."""
+    """Return what is stated about a process that needs more processor time than it has."""
     return WorkerFailed(f"needs more than {seconds:g} s of processor time")
 
 
 def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
-    """Return what is said of a process that ended with an exit code other than 0.
+    """Return what is stated about a process that ended with an exit code other than 0.
 
     Args:
         code: The exit code, for a signal its negative number; None where there is none.

@@ -30,7 +30,7 @@ class Extra(Record):
 
     @property
     def missing_message(self) -> str:
-        """Say that it is not installed, and the remedy, as a sentence without its dot."""
+        """State that it is not installed, and the remedy, as a sentence without its dot."""
         return f"{self.name} is not installed: {self.remedy}"
 
     @property

@@ -20,7 +20,7 @@ UMASK = 0o077
 def make_folder(folder: Path) -> None:
     """Make a folder, and those above it that are missing, all for their owner alone.
 
-    `Path.mkdir` would make those above it as the umask says.
+    `Path.mkdir` would make those above it as the umask states.
     """
     if not folder.is_dir():
         make_folder(folder.parent)
@@ -28,7 +28,7 @@ def make_folder(folder: Path) -> None:
 
 
 def tighten_below(place: Path) -> None:
-    """Take from all others what a file, or a folder and all that it holds, allows them."""
+    """Take from all others what a file, or a folder and all that it contains, allows them."""
     tighten(place)
     for folder, folders, names in os.walk(place):
         for name in (*folders, *names):

@@ -58,7 +58,7 @@ class Parts(Protocol):
     """
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:
-        """Return the part; several when a file holds several robots.
+        """Return the part; several when a file contains several robots.
 
         Args:
             kind: The kind as `type_name` returns it.

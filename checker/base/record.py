@@ -36,7 +36,7 @@ def _text(value: object, depth: int) -> str:
 
 
 def _is_plain(value: object) -> bool:
-    """Say whether a value's own text is short by nature."""
+    """Return whether a value's own text is short by nature."""
     if isinstance(value, tuple | list | set | frozenset) and len(value) <= 8:
         return all(isinstance(item, str | int | float | None) for item in value)
     return value is None or isinstance(value, str | bytes | int | float | type)

@@ -106,7 +106,7 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 def _end_in_good_order() -> None:
-    """Let a request to terminate unwind, so that children and temporary folders go as well."""
+    """Let a request to terminate unwind, so that children and temporary folders go too."""
     import atexit
     import gc
     import signal

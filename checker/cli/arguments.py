@@ -21,7 +21,7 @@ EXITS = """exit codes:
 
 
 def add_exit_codes(parser: argparse.ArgumentParser) -> None:
-    """Say below the help of a command what its exit codes mean."""
+    """State below the help of a command what its exit codes mean."""
     parser.epilog = EXITS
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
 

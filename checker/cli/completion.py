@@ -85,7 +85,7 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 
 
 def _describe(action: argparse.Action, places: Mapping[str, object]) -> None:
-    """Say what an argument takes, for completion alone."""
+    """Report what an argument takes, for completion alone."""
     rules = all_rules()
     if action.dest == "id":
         action.choices = [name for rule in rules for name in (rule.id, rule.name)]

@@ -1,4 +1,4 @@
-"""`subt-check init`: writes what is missing, overwrites nothing, and says what it did."""
+"""`subt-check init`: writes what is missing, overwrites nothing, and states what it did."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def hook_entry() -> str:
 
 
 def has_hook(text: str) -> bool:
-    """Say whether a configuration runs the hook already, wherever it takes it from."""
+    """Return whether a configuration runs the hook already, wherever it takes it from."""
     content = _loaded(text)
     repositories = content.get("repos") if isinstance(content, dict) else None
     hooks = [
@@ -145,7 +145,7 @@ def guessed_profile(folder: Path) -> Guess:
 
 
 def _profile_of(package: Package) -> str:
-    """Return the profile that suits a package; empty for one that holds no robot."""
+    """Return the profile that suits a package; empty for one that contains no robot."""
     return "" if package.kind in _WITHOUT_ROBOT else usual_profile(package)
 
 

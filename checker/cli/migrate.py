@@ -1,4 +1,4 @@
-"""`subt-check migrate`: makes the package, checks it, and says what is left to do."""
+"""`subt-check migrate`: makes the package, checks it, and states what is left to do."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Make a package of a description, check it, and say what is left to do."""
+    """Make a package of a description, check it, and state what is left to do."""
     PHYSICS.require_for("migrate")
     wishes = MigrationOptions(
         options.organization,

@@ -44,7 +44,7 @@ def _option(option: Option) -> str:
 
 
 def _file(file: ShownFile) -> str:
-    """Show a file of an example, or say what is the matter with it."""
+    """Show a file of an example, or state what is the matter with it."""
     name = "the package" if file.path == "." else file.path
     return f"{name}:\n{_indented(file.text)}" if file.text else f"{name} {file.note}"
 

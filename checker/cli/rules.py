@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def rule_line(rule: Rule) -> str:
-    """Return what a list of rules says of one."""
+    """Return what a list of rules states about one."""
     title = parse_page(rule.page).title
     return f"{rule.id}  {rule.severity:<7}  {rule.concern:<11}  {rule.name:<32}  {title}\n"
 

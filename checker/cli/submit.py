@@ -136,7 +136,7 @@ def _path_in_upload(path: str) -> str:
 
 
 def _with_pages(report: Report) -> Report:
-    """Return a report with why and how at each finding whose rule is known here as well."""
+    """Return a report with why and how at each finding whose rule is known here too."""
     pages = {rule.id: parse_page(rule.page) for rule in all_rules()}
     packages = [
         replace(package, findings=tuple(_explained(finding, pages) for finding in package.findings))
@@ -166,7 +166,7 @@ def submit(options: argparse.Namespace, patience: Patience | None = None) -> Rep
         patience: The time limits for the service; the usual ones when None.
 
     Returns:
-        The report; None if the service could not finish, which is said.
+        The report; None if the service could not finish, which is stated.
 
     Raises:
         CheckerError: The package or the upload is refused, or the service cannot be used.
@@ -207,7 +207,7 @@ def _token(options: argparse.Namespace) -> str:
 
 
 def _waited(check: Check, say: Say) -> Standing:
-    """Wait for the end; an interrupt asks whether to cancel the check as well."""
+    """Wait for the end; an interrupt asks whether to cancel the check too."""
     try:
         return check.wait(say)
     except KeyboardInterrupt:
@@ -228,7 +228,7 @@ def _offer_to_cancel(check: Check) -> None:
 
 
 def _without_report(standing: Standing, server: Server) -> Report | None:
-    """Say why there is no report.
+    """Return the reason why there is no report.
 
     Raises:
         CheckerError: The package is at fault.

@@ -57,7 +57,7 @@ class Bodies(Record, eq=False):
         bodies: The bodies by the name of the link whose frame they have, parents before children.
         holders: The body that a link of the source is part of, by its name.
         poses: The pose of a link of the source in that body's frame.
-        left_out: Ties that would let a body hang on two others.
+        left_out: Ties that would let a body be connected to two others.
     """
 
     bodies: dict[str, Body] = field(default_factory=dict)
@@ -88,7 +88,7 @@ def bodies_of(robot: Robot, description: UrdfDescription, notes: Notes) -> Bodie
 
 
 def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
-    """Say whether a link becomes part of the one that it hangs on."""
+    """Return whether a link becomes part of the one that it is connected to."""
     if tie.joint.type.value != "fixed":
         return False
     if tie.joint.name.value not in kept:

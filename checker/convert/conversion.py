@@ -18,7 +18,7 @@ from checker.source.text import Span
 
 
 class Placed(Protocol):
-    """Anything that stands somewhere in the source."""
+    """Anything that is somewhere in the source."""
 
     @property
     def span(self) -> Span:
@@ -28,7 +28,7 @@ class Placed(Protocol):
 
 @dataclass
 class Notes:
-    """Sentences, each once, in the order in which they were said."""
+    """Sentences, each once, in the order in which they were stated."""
 
     _sentences: dict[str, None] = field(default_factory=dict)
 
@@ -47,7 +47,7 @@ class CarriedPlugin(Record, eq=False):
     """A plugin of the source that is in the result, for the caller to judge.
 
     Attributes:
-        plugin: The plugin as the source says it; its element leads to the file and line.
+        plugin: The plugin as the source states it; its element leads to the file and line.
         link: Name of the link of the result that its tag is about; empty for the whole robot.
         sensor: Name of the sensor that contains it; else empty.
         reference: Name, without prefix, of the link or joint that the source's tag is about.

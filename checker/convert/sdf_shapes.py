@@ -182,7 +182,7 @@ class ShapeWriter:
             paint.write(element, texture)
 
     def _blobs(self, element: etree._Element, part: PartOfBody) -> None:
-        """Add what a `<gazebo>` tag holds for each shape of the link; it replaces what is there."""
+        """Add the content of a `<gazebo>` tag to each shape of the link, or replace it."""
         for blob in self._settings_of(part).shapes:
             if blob.tag != element.tag:
                 continue

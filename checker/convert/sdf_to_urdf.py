@@ -33,7 +33,7 @@ class Step(Record):
         kind: Its type.
         pose: The pose of its frame, and so of its child's, in the robot's frame.
         axis: The axis in that frame; None for a fixed joint.
-        limits: What the source says of the axis, if anything.
+        limits: What the source states about the axis, if anything.
     """
 
     kind: str
@@ -46,7 +46,7 @@ def steps_of(robot: Robot, tie: Tie, child: Transform) -> Sequence[Step]:
     """Return the joints of URDF that let a link move as a tie does; the last one carries the link.
 
     Where a joint turns its child about a point that is not the child's origin, a frame without
-    mass stands at that point, so that the child's own frame stays where it is.
+    mass is at that point, so that the child's own frame stays where it is.
 
     Args:
         robot: The tie's.
@@ -65,7 +65,7 @@ def steps_of(robot: Robot, tie: Tie, child: Transform) -> Sequence[Step]:
 
 
 def _passes(motions: Sequence[Motion], place: Transform, child: Transform) -> bool:
-    """Say whether the joints may as well stand at the child's origin."""
+    """Return whether the joints may as well stand at the child's origin."""
     arm = tuple(a - b for a, b in zip(child.translation, place.translation, strict=True))
     if len(motions) > 1 or motions[0].freedom is Freedom.BALL:
         return math.hypot(*arm) <= _NEAR
@@ -189,7 +189,7 @@ class _Writer:
         return self.root
 
     def _top(self) -> str:
-        """Return the link that all others hang on: `world` where one is tied to it."""
+        """Return the link that all others are connected to: `world` where one is tied to it."""
         if any(tie.parent == WORLD for tie in self.spanning_tree.by.values()):
             return WORLD
         return next(

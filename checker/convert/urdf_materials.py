@@ -103,7 +103,7 @@ def _visuals(robot: Robot) -> list[Visual]:
 
 
 def _paint(material: Element, notes: Notes) -> Paint | None:
-    """Return what a material of URDF says; None for one that only names another."""
+    """Return what a material of URDF states; None for one that only names another."""
     colour, texture = material.child("color"), material.child("texture")
     if colour is None and texture is None:
         return None

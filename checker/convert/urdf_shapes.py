@@ -46,7 +46,7 @@ def shapes_of(geometry: Geometry, primitives: Collection[str]) -> tuple[Shape, .
     """Return a geometry in a format that knows meshes and some primitives.
 
     A capsule is a cylinder between two spheres where the format has none. Nothing is returned for
-    what it has no way to say.
+    what it has no way to state.
     """
     kind = geometry.shape
     if kind in primitives or (kind == "mesh" and geometry.uri is not None):

@@ -52,7 +52,7 @@ def sdf_of(
 
     Returns:
         The document with `<sdf>` outermost. Sensors, lights and plugins of `<gazebo>` tags are
-        copied as they stand, at the pose that they have after lumping, with prefixes removed.
+        copied as they are, at the pose that they have after lumping, with prefixes removed.
     """
     writer = _Writer(robot, description, naming_of(robot, namespace), mesh_uri)
     root = etree.Element("sdf", version=VERSION)
@@ -122,7 +122,7 @@ class _Writer:
                 self.copier.copy(element, link, link=own, reference=reference, pose=part.pose)
 
     def _settings(self, link: etree._Element, body: Body) -> None:
-        """Apply what tags say about the link itself; of lumped links it is noted."""
+        """Apply what tags state about the link itself; of lumped links it is noted."""
         for part in body.parts:
             for setting in self._settings_of(part.link.name.value).link:
                 if part.link is body.link:

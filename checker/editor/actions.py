@@ -134,7 +134,7 @@ def _fix_here(finding: ReportedFinding, diagnostic: lsp.Diagnostic) -> Fix | Non
 
 
 def _title(finding: ReportedFinding, edits: Sequence[Edit]) -> str:
-    """Say what a fix does, if it is one short edit; else which fault it mends."""
+    """Return what a fix does, if it is one short edit; else which fault it corrects."""
     if len(edits) == 1 and "\n" not in edits[0].original + edits[0].replacement:
         old, new = (shortened(text, _SHOWN) for text in (edits[0].original, edits[0].replacement))
         if old and new:

@@ -33,7 +33,7 @@ def card(title: str, rows: Iterable[tuple[str, str]], note: str = "") -> str:
 
     Args:
         title: The title in Markdown.
-        rows: Each a label and what it says, in Markdown; those that say nothing are left out.
+        rows: Each a label and what it states, in Markdown; those that state nothing are left out.
         note: A paragraph below, in Markdown.
     """
     told = [f"- {label}: {text}" for label, text in rows if text]

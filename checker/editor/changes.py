@@ -24,7 +24,7 @@ class Changes:
         """Begin with none.
 
         Args:
-            documents: The documents that are open; an edit of one says which version it is for.
+            documents: The documents that are open; an edit of one states which version it is for.
             columns: The client's unit of columns.
         """
         self._versions = {each.path: (each.uri, each.version) for each in documents}
@@ -39,7 +39,7 @@ class Changes:
             self._edits[location].append(edit)
 
     def add_edit(self, package: Package, edit: Edit) -> bool:
-        """Add an edit of a fix; return whether its file holds what it expects."""
+        """Add an edit of a fix; return whether its file contains what it expects."""
         source, entry = package.read(edit.place.file), package.resolve(edit.place.file)
         if entry is None or not isinstance(source, SourceText):
             return False

@@ -147,7 +147,7 @@ def _written(report: PackageReport) -> Path:
 
 
 def _drives(report: PackageReport) -> Sequence[str]:
-    """Say the result of the trial."""
+    """State the result of the trial."""
     if report.trial is None:
         return ["The robot was not driven: no drive detected."]
     name: Any = report.facts.get("name")

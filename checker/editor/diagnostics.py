@@ -41,7 +41,7 @@ def diagnostics_of(
     Args:
         document: The file.
         own: What is known of the package that it belongs to.
-        others: Packages whose rules may find something in it as well.
+        others: Packages whose rules may find something in it too.
         columns: The client's unit of columns.
     """
     found: dict[tuple[Any, ...], lsp.Diagnostic] = {}
@@ -93,7 +93,7 @@ def _related(
 
 
 def _blind_spots(state: State) -> Iterator[lsp.Diagnostic]:
-    """Say once, at the top of a file, which rules could not run, and why."""
+    """State once, at the top of a file, which rules could not run, and why."""
     spots = state.checked.blind_spots if state.checked is not None else ()
     reasons = dict.fromkeys(spot.reason for spot in spots)
     if reasons:
@@ -106,7 +106,7 @@ def _blind_spots(state: State) -> Iterator[lsp.Diagnostic]:
 
 
 def _problem(state: State, document: Document) -> Iterator[lsp.Diagnostic]:
-    """Say why nothing is checked: in the settings that are at fault, and elsewhere as a hint."""
+    """Yield why nothing is checked: in the settings that are at fault, and elsewhere as a hint."""
     problem = state.problem
     if problem is not None:
         is_there = problem.path is not None and problem.path.resolve() == document.path

@@ -93,7 +93,7 @@ def urdf_attributes(path: str) -> dict[str, AttributeSpec]:
 
 @cache
 def urdf_children(path: str) -> tuple[str, ...]:
-    """Return the elements that may stand below one of URDF, those that have to first.
+    """Return the elements that may be below one of URDF, those that have to first.
 
     Args:
         path: The path, as in `urdf_attributes`; `robot` for the robot itself.

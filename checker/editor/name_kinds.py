@@ -76,7 +76,7 @@ def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[N
 
 
 def _of_plugin(below: Sequence[str], attribute: str, plugin: str) -> tuple[NameKind, ...]:
-    """Return what a parameter names, as the table says, else as its own name does."""
+    """Return what a parameter names, as the table states, else as its own name does."""
     path = "/".join((*below, f"@{attribute}") if attribute else below)
     known = table("plugin_references")["plugins"].get(plugin, {})
     if path in known:

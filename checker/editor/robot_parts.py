@@ -137,7 +137,7 @@ def package_robots(subject: Subject) -> Iterator[Robot]:
 
 
 def _is_about(robot: Robot, document: XmlDocument) -> bool:
-    """Say whether a robot has parts that a document describes."""
+    """Return whether a robot has parts that a document describes."""
     source = robot.document.source
     if isinstance(source, ExpandedText):
         return any(it is not None and it.document is document for it in source.origins)

@@ -62,7 +62,7 @@ class Server(LanguageServer):
         self._checks = 0
 
     def begin(self, params: lsp.InitializeParams) -> None:
-        """Take over what the client says of itself."""
+        """Take over what the client states about itself."""
         folders = [folder.uri for folder in params.workspace_folders or ()]
         self.session.units.folders = real_folders(folders or [params.root_uri or ""])
         self.columns = Columns(

@@ -36,7 +36,7 @@ class Insertion(Record):
 def reason_comment(source: SourceText, rule: str, line: int) -> Insertion | None:
     """Return a comment that suppresses a rule at a line.
 
-    It stands above the line; behind it, where a start tag goes over several lines. None where
+    It is above the line; behind it, where a start tag goes over several lines. None where
     neither can be, or where files of this kind have no comments that count.
 
     Args:

@@ -16,7 +16,7 @@ K = TypeVar("K")
 Said = tuple[Rule, list[GradedFinding]]
 """A rule and what it found."""
 Cover = tuple[str, GradedFinding]
-"""The id of a rule and what it says."""
+"""The id of a rule and what it states."""
 
 
 class SplitFindings(Record):

@@ -34,7 +34,7 @@ _SERIES_DIGITS = 6
 def trials_of(
     subject: Subject, outcome: Outcome, known: Sequence[Rule]
 ) -> tuple[dict[str, Any], ...]:
-    """Return the trials of a package; of several robots, each says which one it is about."""
+    """Return the trials of a package; of several robots, each states which one it is about."""
     driven, robots = subject.cached_parts(RobotTrial), subject.all(Robot)
     if isinstance(robots, NotAvailable) or len(robots) < 2:
         return tuple(trial_facts(each, outcome, known) for each in driven)
@@ -48,13 +48,13 @@ def trials_of(
 def trial_facts(
     driven: RobotTrial, outcome: Outcome, known: Sequence[Rule], *, alone: bool = True
 ) -> dict[str, Any]:
-    """Return what JSON can express of a trial and of what the rules said about its figures.
+    """Return what JSON can express of a trial and of what the rules stated about its figures.
 
     Args:
         driven: The robot and its trial.
         outcome: The outcome of the rules.
         known: All rules.
-        alone: Whether all that they said is about this robot.
+        alone: Whether all that they stated is about this robot.
     """
     judges = _judges(known)
     verdicts = _verdicts(outcome, known)
@@ -125,7 +125,7 @@ def _verdicts(outcome: Outcome, known: Sequence[Rule]) -> _Verdicts:
 
 
 def _about(driven: RobotTrial, verdicts: _Verdicts) -> _Verdicts:
-    """Return what was said about one of several robots: some place of it is one of its parts."""
+    """Return what was stated about one of several robots: some place of it is one of its parts."""
     robot = driven.robot
     parts = (driven.drive, robot, *robot.links, *robot.joints, *robot.all_plugins)
     own = {_start(part.span.place()) for part in parts}
@@ -153,7 +153,7 @@ def _verdict(
 
 
 def _is_excused(measurement: Measurement, driven: RobotTrial, options: Mapping[str, Any]) -> bool:
-    """Say whether a torque is beyond its effort limit: a rule that is silent then takes no side."""
+    """Return whether a torque exceeds its effort limit, so that a silent rule does not count."""
     if measurement.name != "torque":
         return False
     efforts = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}

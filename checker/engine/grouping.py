@@ -23,7 +23,7 @@ _NAME = re.compile(r"'[^']*'|\S*[\d_/<>]\S*")
 def group_findings(findings: Iterable[GradedFinding]) -> list[list[GradedFinding]]:
     """Return the findings of one rule, grouped into those that are reported as one, in order.
 
-    Those with one key, or one message, are one fault. Many that say the same of different parts
+    Those with one key, or one message, are one fault. Many that state the same of different parts
     have one cause, as have those that the copies of one line of a macro show.
     """
     faults: dict[tuple[Severity, str], list[GradedFinding]] = {}

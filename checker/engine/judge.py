@@ -39,7 +39,7 @@ class Judge(Record):
         return cls(profile(settings.profile, settings.distro), settings)
 
     def is_selected(self, rule: Rule) -> bool:
-        """Say whether a rule is to run: one of the profile, or one that the user names itself."""
+        """Return whether a rule runs: it is in the profile, or the user names it."""
         needs_trial = not TRIALS.isdisjoint(rule.needs.values())
         return self._asked_for(rule) and (self.settings.trial or not needs_trial)
 

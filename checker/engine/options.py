@@ -55,7 +55,7 @@ _NAMED = 10
 
 
 def no_such_rule(name: str, known: Iterable[str]) -> str:
-    """Say that there is no such rule, and which one may be meant."""
+    """Return the message that there is no such rule, and which one may be meant."""
     names = sorted(known)
     begun = [known for known in names if known.startswith(name.upper())] if name else []
     near = get_close_matches(name.upper(), names, 1) or get_close_matches(name.lower(), names, 1)
@@ -99,7 +99,7 @@ def _typed(value: object, default: object) -> object:
 
 
 def _element(default: tuple[Any, ...]) -> Any:
-    """Return an element of a list; one that is empty as a rule has it holds texts."""
+    """Return an element of a list; one that is empty as a rule has it contains texts."""
     return default[0] if default else ""
 
 

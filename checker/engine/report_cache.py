@@ -91,7 +91,7 @@ def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless it may be another the next time.
 
     It may where a process or the system failed, a rule crashed or nothing could be drawn. A sibling
-    that was not found is no reason: the key holds which files lie beside the package.
+    that was not found is no reason: the key holds which files are beside the package.
     """
     undrawn = report.display is not None and not report.display.pictures
     lasts = cache.is_whole and not report.crashed and not report.disturbed

@@ -72,7 +72,7 @@ def run_and_set_aside(
         chosen: The rules to choose from; the selected ones run.
         every: All that there are, which suppressions may name.
         subject: The package.
-        judge: Says which are wanted, and how severe their findings are.
+        judge: States which are wanted, and how severe their findings are.
     """
     settings = judge.settings
     of_suppressions = [rule for rule in chosen if type_name(Suppressions) in rule.needs.values()]

@@ -105,7 +105,7 @@ def _reported(
     not_checked: list[NotChecked],
     looked: Mapping[str, Mapping[str, Any]],
 ) -> Outcome:
-    """Return what rules said as it is reported, what counts of it and what does not."""
+    """Return what rules stated as it is reported, what counts of it and what does not."""
     findings: list[ReportedFinding] = []
     suppressed: list[Suppressed] = []
     covered: list[ReportedFinding] = []
@@ -174,7 +174,7 @@ def _outcome(
 
 
 def join_outcomes(*outcomes: Outcome) -> Outcome:
-    """Return what different rules said together."""
+    """Return what different rules stated together."""
     looked: dict[str, Mapping[str, Any]] = {}
     for outcome in outcomes:
         looked.update(outcome.looked)
@@ -190,7 +190,7 @@ def join_outcomes(*outcomes: Outcome) -> Outcome:
 def _run_isolated(
     rule: Rule, parts: Parts, judge: Judge, allowance: Allowance
 ) -> list[Finding | Unchecked] | NotChecked:
-    """Run one rule; what goes wrong inside it is the checker's fault and says so."""
+    """Run one rule; what goes wrong inside it is the checker's fault and states it."""
     try:
         arguments = _arguments(rule, parts, judge.profile.context)
         if isinstance(arguments, NotAvailable):
@@ -206,7 +206,7 @@ def _run_isolated(
 
 
 def unfinished(what: str, error: Exception | Exceeded) -> NotChecked:
-    """Say why a part of the check did not come to its end.
+    """Return the reason why a part of the check did not come to its end.
 
     It may need more than it may use, and the disk or the system may have failed; all else is the
     checker's own fault.
@@ -244,7 +244,7 @@ def _report(
     findings: list[GradedFinding],
     repeats: Mapping[Cover, Sequence[Repeat]],
 ) -> Iterator[ReportedFinding]:
-    """Join findings that are one fault in many places, and add what the rule's page says."""
+    """Join findings that are one fault in many places, and add what the rule's page states."""
     page = parse_page(rule.page)
     for group in group_findings(findings):
         first = group[0]

@@ -22,7 +22,7 @@ _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.WORLD)
 
 
 def unread_robots(subject: Subject) -> Iterator[NotChecked]:
-    """Say why no robot of a package was read; nothing where one was, or where none is expected."""
+    """Yield why no robot of a package was read; nothing if one was, or none is expected."""
     package = subject.package
     if package.only or package.kind in _WITHOUT_ROBOT or _was_read(subject):
         return

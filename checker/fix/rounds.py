@@ -22,7 +22,7 @@ from checker.source.text import SourceText
 
 @dataclass(frozen=True, order=True)
 class Stretch:
-    """Characters `start` up to, not including, `end`, and what is to stand there."""
+    """Characters `start` up to, not including, `end`, and what is to be there."""
 
     start: int
     end: int
@@ -183,7 +183,7 @@ def _elsewhere(finding: ReportedFinding) -> bool:
 def _round(
     findings: Sequence[ReportedFinding], package: Package, edited: dict[str, SourceText]
 ) -> list[ReportedFinding]:
-    """Make the edits that go together, and return the findings that they mend."""
+    """Make the edits that go together, and return the findings that they correct."""
     paths = {edit.place.file for finding in findings if finding.fix for edit in finding.fix.edits}
     sources = {path: _own_text(package, path, edited) for path in sorted(paths)}
     texts = {path: EditedText(source) for path, source in sources.items() if source is not None}

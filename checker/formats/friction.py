@@ -36,7 +36,7 @@ class FrictionReader:
             self.extensions.setdefault(element.get("reference") or "", []).append(element)
 
     def friction_of(self, link: Link, collision: Collision) -> Friction:
-        """Return what is stated for a collision; the first engine that says anything counts."""
+        """Return what is stated for a collision; the first engine that states anything counts."""
         stated = collision.element.child("surface", "friction")
         for engine, first, second in _SDF:
             element = stated.child(engine) if stated is not None else None

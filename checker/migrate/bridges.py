@@ -94,7 +94,7 @@ def sensor_bridges(robot: Robot) -> list[SensorBridges]:
 
 
 def _is_wanted(sensor: Sensor, channel: Channel) -> bool:
-    """Say whether a channel is bridged: of a lidar the scan of one row, the points of several."""
+    """Return whether a channel is bridged: the scan of a lidar of one row, else the points."""
     if not channel.ros_types:
         return False
     if sensor.kind.is_lidar:

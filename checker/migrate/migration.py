@@ -84,7 +84,7 @@ class Migrated(Record):
         folder: The folder of the package.
         notes: What was decided, as sentences.
         open_points: What only the author can decide.
-        to_do: Places that say TODO, each with what must be filled in.
+        to_do: Places that state TODO, each with what must be filled in.
     """
 
     folder: Path
@@ -126,7 +126,7 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
 
 
 def _left_to_do(folder: Path) -> Iterator[str]:
-    """Yield the lines of the package's texts that say TODO."""
+    """Yield the lines of the package's texts that state TODO."""
     for path in sorted(folder.rglob("*")):
         if not path.name.endswith(_TEXTS) or not path.is_file():
             continue

@@ -11,7 +11,7 @@ from checker.base.record import Record
 
 
 class NotMigrated(CheckerError):
-    """A description that cannot be migrated; its text is one sentence and says what to do."""
+    """A description that cannot be migrated; its text is one sentence and states what to do."""
 
 
 class MigrationOptions(Record):

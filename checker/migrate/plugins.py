@@ -101,7 +101,7 @@ class Judged:
     Attributes:
         notes: Sentences, each with the file and line of the plugin.
         open_points: The replacements that the author has to add.
-        drives: Plugins that drove the robot, for what they say of its wheels.
+        drives: Plugins that drove the robot, for what they state about its wheels.
     """
 
     notes: list[str] = field(default_factory=list)

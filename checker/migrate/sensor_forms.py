@@ -11,13 +11,13 @@ from checker.convert.xml_writer import exact
 from checker.migrate.xml_parts import Tree, build, drop, number_at, put
 
 DEPTH_NEAR = 0.1
-"""Metres from which depth is measured where nothing is said."""
+"""Metres from which depth is measured where nothing is stated."""
 PICTURE_NEAR = 0.05
 """Metres from which a colour picture shows things; it hides no device that carries the camera."""
 _RATES = {"imu": 50.0, "gpu_lidar": 10.0, "magnetometer": 20.0, "air_pressure": 20.0}
 _PICTURE_RATE = 30.0
 _SIZE = (320, 240)
-"""Pixels where nothing is said, as SDFormat has it."""
+"""Pixels where nothing is stated, as SDFormat has it."""
 _FIELD_OF_VIEW = 1.047
 """Radians, likewise."""
 

@@ -32,7 +32,7 @@ _UNFIT = re.compile(r"[^\w.+-]")
 """Characters that are not allowed in names of topics and launch files."""
 _NAME_LIMIT = 100
 _CONE = 0.26
-"""Radians, of a sonar that does not say."""
+"""Radians, of a sonar that does not state it."""
 
 
 def rewrite_sensors(tree: etree._Element) -> list[str]:
@@ -111,7 +111,7 @@ def _is_range(plugin: etree._Element | None) -> bool:
 
 
 def _one_row(sensor: etree._Element) -> bool:
-    """Leave one row of rays to a sensor that represents a distance; say whether it had more."""
+    """Leave one row of rays to a sensor that represents a distance; state whether it had more."""
     scan = sensor.find("lidar/scan")
     if scan is None or number_at(scan, "vertical/samples", 1.0) <= 1.0:
         return False
@@ -157,7 +157,7 @@ def _rate(sensor: etree._Element, plugin: etree._Element | None, kind: str) -> f
 
 
 def _order(sensor: etree._Element) -> None:
-    """Put what says where and how often in front."""
+    """Put what states where and how often in front."""
     for place, tag in enumerate(name for name in _FIRST if sensor.find(name) is not None):
         child = sensor.find(tag)
         if child is not None:

@@ -173,7 +173,7 @@ _JOINTS_LIMIT = 2_000
 
 
 def _is_endless(joint: Joint) -> bool:
-    """Say whether a joint turns without end."""
+    """Return whether a joint turns without end."""
     return joint.type.value in ("revolute", "continuous") and any(
         math.isinf(axis.lower.value) and math.isinf(axis.upper.value) for axis in joint.axes[:1]
     )
@@ -189,7 +189,7 @@ def _lies_across(wheel: Wheel) -> bool:
 
 
 def _is_round(robot: Robot, wheel: Wheel) -> bool:
-    """Say whether the wheel rolls on a shape that is round about its axis."""
+    """Return whether the wheel rolls on a shape that is round about its axis."""
     rolls = tread(robot, wheel)
     if rolls is None or is_misaligned(robot, wheel):
         return False

@@ -57,7 +57,7 @@ Tree = Mapping[str, Content]
 
 
 def build(tag: str, content: Content) -> etree._Element:
-    """Return an element that holds what a mapping says."""
+    """Return an element that holds what a mapping states."""
     element = etree.Element(tag)
     if not isinstance(content, Mapping):
         element.text = _text(content)

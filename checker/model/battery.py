@@ -43,7 +43,8 @@ class Battery(Record, eq=False):
 
     Attributes:
         power_load: What drains it, watts; None if not stated.
-        minutes: The time that a full charge lasts in Gazebo Dome; None if its figures do not say.
+        minutes: The time that a full charge lasts in Gazebo Dome; None if its figures do not state
+            it.
         starts_on_motion: Whether `start_on_motion` is true.
         draining_topics: Topics whose first message makes it drain.
     """
@@ -78,7 +79,7 @@ def _battery(plugin: Plugin) -> Battery:
 def _minutes(plugin: Plugin) -> float | None:
     """Return how long the charge lasts at the mean voltage, minutes.
 
-    The formula is fitted to accepted endurances (`subt_standards.json`); robots whose plugin says
+    The formula is fitted to accepted endurances (`subt_standards.json`); robots whose plugin states
     `fix_issue_225` drain as their figures say, and are left out.
     """
     charge = plugin.number("initial_charge") or plugin.number("capacity")

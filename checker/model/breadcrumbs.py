@@ -58,7 +58,7 @@ def _breadcrumbs_of(plugin: Plugin) -> Breadcrumbs:
 
 
 def _drop(plugin: Plugin) -> Located[Vector] | None:
-    """Return where the dropped model stands; one without `<pose>` stands at the robot's origin."""
+    """Return where the dropped model stands; one without `<pose>` is at the robot's origin."""
     model = plugin.element.child("breadcrumb", "sdf", "model")
     if model is None:
         return None

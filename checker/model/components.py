@@ -24,7 +24,7 @@ UNLIMITED = 1e16
 
 
 _WITH_ALPHA = 4
-"""Numbers of a colour that says how opaque it is."""
+"""Numbers of a colour that states how opaque it is."""
 
 
 class Part(Record, eq=False):
@@ -107,7 +107,7 @@ class Plugin(Part):
     Attributes:
         filename: The library.
         owner: Name of the link or sensor that contains it; empty for the model.
-        nested_in: Scoped name of the nested model it stands in, else empty.
+        nested_in: Scoped name of the nested model it is in, else empty.
     """
 
     filename: Located[str]
@@ -130,7 +130,7 @@ class Plugin(Part):
         return [e.text for e in self.element.descendants() if e.tag in tags and e.text.stated]
 
     def at(self, path: str) -> Iterator[Located[str]]:
-        """Yield what stands at a path below: `a/b` in nested elements, `a/@x` in an attribute."""
+        """Yield what is at a path below: `a/b` in nested elements, `a/@x` in an attribute."""
         around, _, last = path.rpartition("/")
         holders = self.element.at(around) if around else [self.element]
         for holder in holders:
@@ -154,7 +154,7 @@ class Sensor(Part, dict=True):
     Attributes:
         type: The type as written (`gpu_lidar`).
         link: Name of the link (or joint) that carries it.
-        pose: The pose in that link's frame, unless it says otherwise.
+        pose: The pose in that link's frame, unless it states otherwise.
         topic: Empty for the default.
     """
 
@@ -325,7 +325,7 @@ class Model(Part):
 
     Attributes:
         scoped_name: `arm` for a model nested in the robot.
-        pose: The pose in the model around it, unless it says otherwise.
+        pose: The pose in the model around it, unless it states otherwise.
         definition: The `<model>` itself, which an include takes from another file.
         scope: What is in front of scoped names around it; empty for the robot.
         prefix: What is in front of scoped names inside it.

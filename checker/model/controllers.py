@@ -61,7 +61,7 @@ class Controller(Record, eq=False):
         return next((number for number in found if number is not None), None)
 
     def flag(self, name: str, *, default: bool) -> bool:
-        """Return what a parameter of true or false says."""
+        """Return what a parameter of true or false states."""
         parameter = self.parameters.get(name)
         value = parameter.node.scalar if parameter is not None else None
         return value if isinstance(value, bool) else default
@@ -92,7 +92,7 @@ class ControllerFile(Record, eq=False):
 
 
 def controllers_of(files: Iterable[ControllerFile]) -> tuple[Controller, ...]:
-    """Put together what files say about each controller; of two types, the last counts."""
+    """Put together what files state about each controller; of two types, the last counts."""
     blocks = [block for file in files for block in file.blocks]
     drafts: dict[str, _Draft] = {}
     for name, parameter, listed in _types(blocks):

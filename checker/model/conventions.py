@@ -17,12 +17,12 @@ class Conventions(Record):
         has_default_axis: Whether a joint without an axis has a default one.
         has_massless_links: Whether a link without mass is right: a frame with a name.
         merges_fixed_links: Whether the simulator makes one body of links with a fixed joint.
-        states_start: Whether it says where the robot stands and how its joints start.
+        states_start: Whether it states where the robot stands and how its joints start.
         states_devices: Whether it lists all sensors and all that drives joints; otherwise other
             files can add some.
         has_named_materials: Whether a visual can name a material of another one, or of the robot.
         read_by_gazebo: Whether Gazebo is its only reader.
-        extension_tag: Element with settings of Gazebo, in a format that others read as well.
+        extension_tag: Element with settings of Gazebo, in a format that others read too.
     """
 
     joint_types: str

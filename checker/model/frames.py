@@ -18,7 +18,7 @@ class FrameNode(Record, eq=False):
     Attributes:
         relative_to: Scoped name of that other frame; None for the root.
         transform: Pose in it.
-        span: The pose that says so.
+        span: The pose that states it.
         label: What a message calls it: `link 'wheel'`.
     """
 
@@ -94,7 +94,7 @@ class FrameGraph:
             self._poses[name] = None
 
     def pose_below(self, name: str, ancestor: str) -> Transform | None:
-        """Return the pose of a frame in one that it hangs on; None when it does not.
+        """Return the pose of a frame in one that it is connected to; None when it does not.
 
         Nothing is remembered, so that the ancestor itself may be placed later.
         """

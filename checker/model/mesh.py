@@ -28,13 +28,13 @@ class MeshTrouble(enum.StrEnum):
     """Reason why a mesh is not known."""
 
     MISSING = "missing"
-    """Its URI leads to no file (REF rules say so)."""
+    """Its URI leads to no file (REF rules state it)."""
     UNSUPPORTED = "unsupported"
     """A format that the checker does not read."""
     UNREADABLE = "unreadable"
     """Empty or corrupt."""
     MISSCALED = "misscaled"
-    """Its unit is wrong (MSH005 says so), so that its size means nothing."""
+    """Its unit is wrong (MSH005 states it), so that its size means nothing."""
     NOT_LOOKED_AT = "not checked"
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 
@@ -120,7 +120,7 @@ class NoMeshes(Record):
     """For a robot that was read without its package."""
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
-        """Say that the file is not available."""
+        """State that the file is not available."""
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not searched")
 
 
@@ -170,7 +170,7 @@ class MeshUse(Record, eq=False):
     Attributes:
         shape: The shape.
         uri: The URI as written.
-        file: What the whole file holds.
+        file: What the whole file contains.
     """
 
     shape: Collision | Visual

@@ -1,4 +1,4 @@
-"""The shared libraries that hold plugins: those of a Gazebo release, SubT's, and Classic's."""
+"""The shared libraries that contain plugins: those of a Gazebo release, SubT's, and Classic's."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ class PluginLibrary(Record):
     rewrites: Mapping[str, str] = field(default_factory=dict)
 
     def has_class(self, name: str) -> bool:
-        """Say whether a plugin of this library may have the name."""
+        """Return whether a plugin of this library may have the name."""
         name = _INLINE_NAMESPACE.sub("::", name)
         return name in self.classes or _rewritten(name, self.rewrites) in self.classes
 
     def reads(self, tag: str) -> bool:
-        """Say whether its source reads a tag; True where the source is not known."""
+        """Return whether its source reads a tag; True where the source is not known."""
         known = self.parameters is None or tag in self.parameters
         return known or bool(self.computed and re.fullmatch(self.computed, tag))
 
@@ -121,12 +121,12 @@ def _subt_libraries() -> dict[str, PluginLibrary]:
 
 
 def library_of_class(release: str, name: str) -> PluginLibrary | None:
-    """Return the library of a release that holds a class."""
+    """Return the library of a release that contains a class."""
     return next((lib for lib in plugin_libraries(release).values() if lib.has_class(name)), None)
 
 
 def package_of_library(stem: str) -> str:
-    """Return the ROS package that holds a library; empty where none is known."""
+    """Return the ROS package that contains a library; empty where none is known."""
     return str(table("gazebo_plugins")["ros_packages"].get(stem, ""))
 
 

@@ -57,7 +57,7 @@ class Robot(Part, dict=True):
         version: SDF version as written.
         plugins: The plugins of the model file and, in a package, of what the spawner emits.
         frame_graph: The poses of all frames.
-        faults: What could not be read as it stands.
+        faults: What could not be read as it is.
         unresolved_includes: URIs of includes whose model is not available.
         merges_unknown: Whether such a model would have given its parts to the one around it.
         unread_plugins: The reasons why plugins that the spawner adds are not among these; else
@@ -128,7 +128,7 @@ class Robot(Part, dict=True):
         return not (jointed or self.sensors or self.plugins)
 
     def is_still(self, link: Link) -> bool:
-        """Say whether a model around a link, this one or one nested in it, is static."""
+        """Return whether a model around a link, this one or one nested in it, is static."""
         element: Element | None = link.element
         while element is not None:
             if element.tag == "model" and states_static(element):
@@ -162,7 +162,7 @@ class Robot(Part, dict=True):
         return self.conventions.states_start or self.drives
 
     def is_mounted(self, name: str) -> bool:
-        """Say whether a link is of the base of a robot that does not stand alone."""
+        """Return whether a link is of the base of a robot that does not stand alone."""
         return not self.stands_alone and name in self.tree.base
 
     @cached_property
@@ -397,6 +397,6 @@ class Robot(Part, dict=True):
 
 
 def states_static(model: Element) -> bool:
-    """Say whether a `<model>` says that nothing moves it."""
+    """Return whether a `<model>` states that nothing moves it."""
     static = model.child("static")
     return static is not None and static.text.value.lower() in ("1", "true")

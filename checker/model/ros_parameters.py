@@ -112,7 +112,7 @@ class NodeBlock(Record, eq=False):
         return self.name.rpartition("/")[2]
 
     def is_for(self, node: str, namespace: str) -> bool:
-        """Say whether it is for a node of a name in a namespace such as `/robot`."""
+        """Return whether it is for a node of a name in a namespace such as `/robot`."""
         parts = [part for part in (*namespace.split("/"), node) if part]
         reached = {0}
         for wanted in self.name.strip("/").split("/"):
@@ -177,7 +177,7 @@ def key_name(key: YamlNode) -> str:
 
 
 def _flat(root: YamlNode) -> Iterator[tuple[str, Parameter]]:
-    """Yield what stands at the ends of nested mappings, under names with dots."""
+    """Yield what is at the ends of nested mappings, under names with dots."""
     waiting: list[tuple[YamlNode, str]] = [(root, "")]
     count = 0
     while waiting and count < _MOST:

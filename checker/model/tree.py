@@ -61,7 +61,7 @@ class LinkTree(Record, eq=False, dict=True):
 
     @cached_property
     def ties_above(self) -> dict[str, list[Tie]]:
-        """The ties by which each link hangs on another, by the link; of a tree, one at most."""
+        """Ties that connect each link to its parents, by the link; in a tree, one at most."""
         above: dict[str, list[Tie]] = {}
         for tie in self.ties:
             if tie.parent != tie.child:
@@ -114,7 +114,7 @@ class LinkTree(Record, eq=False, dict=True):
 
     @cached_property
     def base(self) -> frozenset[str]:
-        """Links that hang on nothing, and those that are fixed to them."""
+        """Links that have no parent, and those that are fixed to them."""
         return self._with_their_bodies(name for name in self.links if name not in self.ties_above)
 
     def _with_their_bodies(self, names: Iterable[str]) -> frozenset[str]:
@@ -123,7 +123,7 @@ class LinkTree(Record, eq=False, dict=True):
         return frozenset(name for body in wanted for name in bodies.links[body])
 
     def loops(self) -> Iterator[list[Tie]]:
-        """Yield the circles in which links hang on one another, each by its first tie above."""
+        """Yield the loops of links, each by its first tie above."""
         done: set[str] = set()
         for start in self.links:
             path: dict[str, Tie] = {}

@@ -24,7 +24,7 @@ class LooseGroup(Record):
     """Links that hang together, and that no joint connects to the robot.
 
     Attributes:
-        top: The link that the others hang on.
+        top: The link that the others are connected to.
         links: All of them, by scoped name.
         unclear: A joint with an unknown end, which may be meant to connect them.
     """

@@ -73,7 +73,7 @@ class ValueReader:
         return self.numbers_of(child, default)
 
     def numbers_of(self, element: Element, default: Sequence[float]) -> tuple[Located[float], ...]:
-        """Read the numbers that an element's text holds, as many as the default has."""
+        """Read the numbers that an element's text contains, as many as the default has."""
         read = self.numbers_in(element.text)
         return self._expect(element.text, read, default, f"<{element.tag}>")
 
@@ -147,7 +147,7 @@ def _words(text: Located[str]) -> list[tuple[str, Span]]:
     """Return the words of a text with their places.
 
     Entities, and comments amid a word, make the value differ from what is written: then each word
-    stands at the whole text's place.
+    is at the whole text's place.
     """
     span = text.span
     written = blank_markup(span.text)

@@ -225,7 +225,7 @@ def duplicate_files(package: Package) -> Iterator[Use]:
 
 
 def _place_of(element: Element, text: str) -> Place:
-    """Return the place of the attribute that holds a text, else that of the element's text."""
+    """Return the place of the attribute that contains a text, else that of the element's text."""
     names = (name for name, value in element.attributes.items() if value == text)
     name = next(names, None)
     return element.text.span.place() if name is None else _place(element, name)

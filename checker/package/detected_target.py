@@ -92,7 +92,7 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
 
 
 def is_described_for_ros_2(package: Package) -> bool:
-    """Say whether a URDF without a package has `<ros2_control>` or plugins of later Gazebos."""
+    """Return whether a URDF without a package has `<ros2_control>` or plugins of later Gazebos."""
     paths = (file.path for file in package.index.with_suffix(".urdf", ".xacro"))
     return any(_in_files(package, paths, {GZ: _OF_ROS_2}))
 

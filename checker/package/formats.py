@@ -77,7 +77,7 @@ def single_file_suffixes() -> tuple[str, ...]:
 
 
 def is_checked_by_itself(name: str) -> bool:
-    """Say whether a file outside of packages is checked by itself."""
+    """Return whether a file outside of packages is checked by itself."""
     return name.lower().endswith(_single_suffixes())
 
 

@@ -33,7 +33,7 @@ class FuelUri(Record):
 
 
 def is_on_fuel(uri: str) -> bool:
-    """Say whether a URI leads to Fuel, in whatever form."""
+    """Return whether a URI leads to Fuel, in whatever form."""
     return _FUEL.match(uri) is not None
 
 

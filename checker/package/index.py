@@ -38,7 +38,7 @@ class FileEntry(Record):
 
     Attributes:
         path: Relative to the package folder, with `/`.
-        kind: What stands at the path.
+        kind: What is at the path.
         size: The size of the file, in bytes; that of the target when a link is followed; 0 for
             folders.
         location: The place of the content on disk, links resolved.

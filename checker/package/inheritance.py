@@ -1,7 +1,7 @@
 """Parts that a package takes from a sibling: the model, launch files, Ruby code, specification.
 
 A second configuration of a robot often has a spawner only: the launcher hands it the model of
-the sibling that its roslaunch commands name, and everything else comes from there as well.
+the sibling that its roslaunch commands name, and everything else comes from there too.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Missing(Record):
 
     Attributes:
         part: Its path, or `model`.
-        reason: A clause that says why.
+        reason: A clause that states why.
         package_not_at_hand: The sibling it comes from, when that is not available: then nothing is
             known about the part. None when the package itself lacks it.
     """
@@ -78,8 +78,8 @@ class Inherited(Record):
 
     Attributes:
         part: The part.
-        package_name: The sibling that holds it, at the end of a chain of siblings.
-        how: The text that says so, in the package that inherits.
+        package_name: The sibling that contains it, at the end of a chain of siblings.
+        how: The text that states it, in the package that inherits.
         at_hand: Whether the sibling could be looked at.
     """
 
@@ -92,7 +92,7 @@ class Inherited(Record):
 def base_of(package: Package) -> Reference | None:
     """Return the mention of the sibling whose model a package without its own is given.
 
-    The first roslaunch command that names another robot says it, else a sibling's Ruby file
+    The first roslaunch command that names another robot states it, else a sibling's Ruby file
     that is loaded, else a dependency on another submission.
     """
     if own_model(package) is not None or not package.exists(SPAWNER):

@@ -124,7 +124,7 @@ def _archive_stem(shown: str) -> str:
 
 
 def _unwrapped(folder: Path) -> Path:
-    """Go down through folders that hold nothing but one folder, which is no package."""
+    """Go down through folders that contain nothing but one folder, which is no package."""
     for _ in range(MAX_WRAPPERS):
         inner = _subfolders(folder)
         if looks_like_package(folder) or len(inner) != 1 or looks_like_package(inner[0]):
@@ -181,7 +181,7 @@ def _opened(
 
 
 def _siblings(folder: Path, within: Path | None) -> tuple[Unit, ...]:
-    """Return what the package around a model folder or a file holds: its models' siblings."""
+    """Return what the package around a model folder or a file contains: its models' siblings."""
     enclosing = enclosing_package(folder.parent, FILE_LEVELS)
     if enclosing is None or (within is not None and not enclosing.is_relative_to(within)):
         return ()
@@ -189,7 +189,7 @@ def _siblings(folder: Path, within: Path | None) -> tuple[Unit, ...]:
 
 
 def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
-    """Yield the subfolders of a folder of packages that hold none."""
+    """Yield the subfolders of a folder of packages that contain none."""
     for place in sorted(folder.iterdir()):
         if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
             continue

@@ -32,7 +32,7 @@ IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 
 def looks_like_package(folder: Path) -> bool:
-    """Say whether a folder holds one of the files that only a package has."""
+    """Return whether a folder contains one of the files that only a package has."""
     return any(_is_file(folder / marker) for marker in MARKERS)
 
 
@@ -44,7 +44,7 @@ def _is_file(path: Path) -> bool:
 
 
 def holds_loose_models(folder: Path) -> bool:
-    """Say whether model files are in a folder, or in its `urdf/`, without a package around."""
+    """Return whether model files are in a folder, or in its `urdf/`, without a package around."""
     return any(
         name.lower().endswith(model_suffixes())
         for place in (folder, folder / "urdf")
@@ -89,7 +89,7 @@ class PackageKind(StrEnum):
 
 
 def kind_of(package: Package) -> PackageKind:
-    """Tell a package's kind from the files it holds.
+    """Tell a package's kind from the files it contains.
 
     A package that calls itself a submission, or bridges topics, is a robot even when its spawner
     was forgotten; otherwise the missing file would excuse itself.

@@ -19,7 +19,7 @@ from checker.source.text_file import TEXT_LIMIT, read_text
 
 
 class OverlayText(Record):
-    """A text, and the encoding in which its file holds or will hold it."""
+    """A text, and the encoding in which its file contains or will hold it."""
 
     text: str
     encoding: str = "utf-8"
@@ -73,6 +73,6 @@ class Overlay(Record, eq=False):
         return replace(index, entries=dict(sorted(entries.items())))
 
     def changed_paths(self, other: Overlay) -> frozenset[Path]:
-        """Return the places of files that hold another text in another overlay."""
+        """Return the places of files that contain another text in another overlay."""
         every = {*self.texts, *other.texts}
         return frozenset(at for at in every if self.texts.get(at) != other.texts.get(at))

@@ -80,7 +80,7 @@ class Package(Record, eq=False, dict=True):
     Attributes:
         root: Its folder, links resolved.
         workspace: The folder in which its siblings are looked up.
-        only: For a single file, its name; then the index holds nothing else, and neighbours
+        only: For a single file, its name; then the index contains nothing else, and neighbours
             are looked for when a path names them.
     """
 
@@ -111,7 +111,7 @@ class Package(Record, eq=False, dict=True):
 
         Args:
             workspace: The other state.
-            changed: Places of the files that hold another text there.
+            changed: Places of the files that contain another text there.
         """
         same = [path for path in self._texts if self._location(path) not in changed]
         package = Package(
@@ -200,7 +200,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def unloaded_files(self) -> frozenset[str]:
-        """Files that nothing loads, as the package itself says."""
+        """Files that nothing loads, as the package itself states."""
         return frozenset(filter(None, (unused_model(self),)))
 
     def folder_place(self) -> Place:
@@ -238,7 +238,7 @@ class Package(Record, eq=False, dict=True):
         return any(entry.target_state and entry.is_folder for entry in above if entry)
 
     def exists(self, path: str) -> bool:
-        """Say whether a file or folder is there."""
+        """Return whether a file or folder is there."""
         return self.resolve(path) is not None
 
     def read(self, path: str) -> SourceText | NotReadable:

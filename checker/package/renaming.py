@@ -31,7 +31,7 @@ _LOOK_BACK = 60
 
 
 def is_package_name(name: str) -> bool:
-    """Say whether a name can be that of a package: words of letters and digits."""
+    """Return whether a name can be that of a package: words of letters and digits."""
     return _VALID.fullmatch(name) is not None
 
 
@@ -105,7 +105,7 @@ def _is_used_beside(package: Package, name: str) -> bool:
 
 
 def is_mentioned_beside(package: Package, names: Collection[str]) -> bool:
-    """Say whether the text of a sibling package mentions a name, or cannot be read."""
+    """Return whether the text of a sibling package mentions a name, or cannot be read."""
     encoded = [name.encode() for name in names]
     for other in package.other_packages:
         for file in other.index.with_suffix(*TEXTS):
@@ -116,7 +116,7 @@ def is_mentioned_beside(package: Package, names: Collection[str]) -> bool:
 
 
 def leaves_mentions(package: Package, names: Collection[str], edits: Iterable[Edit]) -> bool:
-    """Say whether a text of the package would still mention a name after some edits."""
+    """Return whether a text of the package would still mention a name after some edits."""
     originals: dict[str, list[str]] = {}
     for edit in edits:
         originals.setdefault(edit.place.file, []).append(edit.original)

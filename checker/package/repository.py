@@ -37,7 +37,7 @@ class Unit(Record):
 
 
 class Units(Record):
-    """All that a folder holds.
+    """All that a folder contains.
 
     Attributes:
         units: The units by path, packages before what is in them.
@@ -66,7 +66,7 @@ def units_below(folder: Path) -> Units:
 
 
 def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
-    """Return the folders that hold units, those nearest to a place first.
+    """Return the folders that contain units, those nearest to a place first.
 
     Args:
         units: Loose files are no siblings of anything.
@@ -87,7 +87,7 @@ class _Search:
         self.ignored: list[Path] = []
 
     def at(self, folder: Path, *, inside: bool, depth: int) -> Iterator[Unit]:
-        """Yield a folder if it is a unit, and what it holds.
+        """Yield a folder if it is a unit, and what it contains.
 
         Args:
             folder: The folder to look into.

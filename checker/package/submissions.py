@@ -68,7 +68,7 @@ def stated_number(text: str) -> int | None:
 
 
 def is_same_robot(name: str, other: str) -> bool:
-    """Say whether two packages are configurations of one robot, organizations left out or not."""
+    """Return whether two packages are configurations of one robot, of any organization."""
     short, long = sorted((robot_of(name).casefold(), robot_of(other).casefold()), key=len)
     return f"_{long}".endswith(f"_{short}")
 
@@ -79,7 +79,7 @@ _WORD = re.compile(r"[_-]")
 
 
 def is_slip_for(written: str, meant: str) -> bool:
-    """Say whether a package's name is another one's with one word misspelt or left out.
+    """Return whether a package's name is another one's with one word misspelt or left out.
 
     Words with digits and short ones distinguish robots, and so does a first word that only one of
     them has: none of these is a slip.
@@ -118,7 +118,7 @@ def blank_xml_comments(text: str) -> str:
 def left_from_copying(text: str, own: str) -> Iterator[re.Match[str]]:
     """Yield the names of other robots' packages that no word in front explains.
 
-    `derived from x1_sensor_config_4` says where a robot comes from; `The x1_sensor_config_4
+    `derived from x1_sensor_config_4` states where a robot comes from; `The x1_sensor_config_4
     package` is left from a copy.
     """
     for match in NAME.finditer(text):

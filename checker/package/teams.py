@@ -11,7 +11,7 @@ from checker.base.resources import table
 from checker.package.submissions import NAME
 
 TEAM_OF = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+team\b", re.I)
-"""Words that say outright whose robot it is: `of the Acme team`."""
+"""Words that state outright whose robot it is: `of the Acme team`."""
 
 _CONFIGURED = (
     r"(?=\W{1,4}(?:[A-Z0-9][\w-]{0,40}\W{1,4}){0,3}?(?:with\W{1,4})?[Ss]ensor\W{1,4}[Cc]onfig)"
@@ -81,7 +81,7 @@ def other_teams(text: str, package: str) -> Iterator[re.Match[str]]:
     """Yield where a text speaks of a robot of another team than the package's.
 
     A sentence that names the package's own team as well speaks of both on purpose, and words such
-    as `based on` say where a robot comes from. Names of packages are no names of teams.
+    as `based on` state where a robot comes from. Names of packages are no names of teams.
     """
     own = f"{package.casefold()}_"
     blanked = NAME.sub(lambda match: " " * len(match.group()), text).replace("\n", " ")

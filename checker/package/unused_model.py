@@ -22,9 +22,9 @@ _UNUSED = re.compile(
 
 
 def unused_model(package: Package) -> str:
-    """Return the path of the model file if the README says that nothing loads it; else nothing.
+    """Return the path of the model file if the README states that nothing loads it; else nothing.
 
-    What the README says of it is in one sentence: "model.sdf is an unused copy of …".
+    What the README states about it is in one sentence: "model.sdf is an unused copy of …".
     """
     submission = package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION)
     if not submission or package.index.find(MODEL) is None:

@@ -15,7 +15,7 @@ MAX_DEPTH = 50
 SKIPPED_FOLDERS = frozenset({".git"})
 
 Inside = Callable[[Path], bool]
-"""Says whether a real path belongs to an available sibling package."""
+"""Whether a real path belongs to an available sibling package."""
 
 
 def build_index(root: Path, inside: Inside) -> FileIndex:
@@ -23,7 +23,7 @@ def build_index(root: Path, inside: Inside) -> FileIndex:
 
     Args:
         root: The folder, links resolved.
-        inside: Says whether a link's target outside the folder belongs to a sibling package.
+        inside: Whether a link's target outside the folder belongs to a sibling package.
     """
     return _Walk(root, inside).run()
 
@@ -35,7 +35,7 @@ def entry_at(location: Path, path: str, root: Path, inside: Inside) -> FileEntry
         location: Its expected place; links on the way are resolved.
         path: The name for the entry.
         root: The package folder.
-        inside: Says whether a target outside the folder belongs to a sibling package.
+        inside: Whether a target outside the folder belongs to a sibling package.
     """
     try:
         real = location.resolve(strict=True)

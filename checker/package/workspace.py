@@ -32,7 +32,7 @@ class Workspace(Record, eq=False, dict=True):
     """Folders whose direct subfolders are packages.
 
     Nothing above them is ever looked at, but for the challenge's own packages: in its repository
-    they lie beside the folder of all submissions.
+    they are beside the folder of all submissions.
 
     Attributes:
         directories: Links resolved. The first is where the checked packages lie; further ones
@@ -62,7 +62,7 @@ class Workspace(Record, eq=False, dict=True):
         return self._found[name]
 
     def ignores(self, name: str) -> bool:
-        """Say whether a file such as COLCON_IGNORE keeps the build out of a package's folder."""
+        """Return whether a file such as COLCON_IGNORE keeps the build out of a package's folder."""
         marks = (folder / name / mark for folder in self.directories for mark in IGNORED)
         try:
             return any(mark.exists() for mark in marks)
@@ -122,7 +122,7 @@ class Workspace(Record, eq=False, dict=True):
         return frozenset(word for text in readable for word in _WORD.findall(text.text))
 
     def holds(self, real: Path) -> bool:
-        """Say whether a real path is within a package of the workspace."""
+        """Return whether a real path is within a package of the workspace."""
         for directory in self.directories:
             if real.is_relative_to(directory) and real != directory:
                 first = real.relative_to(directory).parts[0]

@@ -183,7 +183,7 @@ def _data(text: str) -> str:
 
 
 def _property(text: str) -> str:
-    """Escape a property's value: what would end it as well."""
+    """Escape a property's value: what would end it too."""
     return _data(text).replace(":", "%3A").replace(",", "%2C")
 
 

@@ -160,7 +160,7 @@ class Fact(Record):
     Attributes:
         name: `mass`.
         value: The value with its unit: `18.5 kg`.
-        phrase: Both together as one says it: `mass 18.5 kg`, `8 joints`.
+        phrase: Both together as one states it: `mass 18.5 kg`, `8 joints`.
     """
 
     name: str
@@ -169,7 +169,7 @@ class Fact(Record):
 
 
 def facts_in_words(facts: Mapping[str, Any]) -> Iterator[Fact]:
-    """Yield the facts of a report that can be said in a few words."""
+    """Yield the facts of a report that can be stated in a few words."""
     for name, value in facts.items():
         words, _, unit = name.rpartition("_")
         if unit in UNITS and isinstance(value, float | list):

@@ -12,7 +12,7 @@ from checker.report.render_settings import RenderSettings
 from checker.report.report import PackageReport, Report
 
 Artefact = tuple[str, str | bytes]
-"""Path of a file, relative to the folder, and what it holds."""
+"""Path of a file, relative to the folder, and what it contains."""
 
 PAGE, INDEX, MODEL = "report.html", "index.html", "robot.glb"
 ARTEFACT_NAME = re.compile(

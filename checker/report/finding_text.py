@@ -1,4 +1,4 @@
-"""One finding for a person at a terminal: place, message, source line, why and how to mend it."""
+"""Text of one finding for a terminal: place, message, source line, reason and correction."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def finding_text(
         finding: What was found.
         package: The package of the finding; its path is in front of each file.
         palette: Colours.
-        explained: Whether why and how were said before, for another finding of the rule.
+        explained: Whether why and how were stated before, for another finding of the rule.
     """
     place = finding.places[0]
     message = plain(shortened(finding.message, MESSAGE_LIMIT))

@@ -75,7 +75,7 @@ class RepeatJson(Record):
 
 
 class FindingJson(Record):
-    """A finding without what its rule's page says."""
+    """A finding without what its rule's page states."""
 
     rule: RuleId
     name: Word

@@ -1,6 +1,6 @@
 """The report as JSON (`json_form` has its members), and read back, wherever it comes from.
 
-What the JSON does not hold is missing afterwards: what the rules' pages say (why, how, title,
+What the JSON does not hold is missing afterwards: what the rules' pages state (why, how, title,
 source), the key of a finding, the text that an edit replaces, the rules that looked and found
 nothing, the 3D view and the patch.
 """
@@ -45,7 +45,7 @@ SIZE_LIMIT = 128_000_000
 
 
 class NoReport(ValueError):
-    """A text that is no report of this version; it says why in a sentence without its dot."""
+    """A text that is no report of this version; it states why in a sentence without its dot."""
 
 
 def to_json(report: Report) -> str:
@@ -235,7 +235,7 @@ _TENSORS = ("inertia_kg_m2",)
 
 
 def _is_fact(name: str, value: Any) -> bool:
-    """Say whether a fact is a text, a number or a list of them; a later version may know others."""
+    """Return whether a fact is a text, a number or a list; a later version may have others."""
     if name in _TENSORS:
         return isinstance(value, list) and all(map(_is_vector, value))
     return isinstance(value, str) or _is_number(value) or _is_vector(value)

@@ -20,7 +20,7 @@ def identity(package: PackageReport, finding: ReportedFinding) -> Identity:
 
 
 def is_foreign(place: Place) -> bool:
-    """Say whether a place is outside the package that the report is about."""
+    """Return whether a place is outside the package that the report is about."""
     return place.file.startswith("../")
 
 

@@ -90,7 +90,7 @@ class RenderSettings(Record):
 
 
 def is_shown(finding: ReportedFinding, settings: RenderSettings) -> bool:
-    """Say whether the report for a terminal shows a finding."""
+    """Return whether the report for a terminal shows a finding."""
     return settings.infos or finding.severity is not Severity.INFO
 
 

@@ -106,11 +106,11 @@ class ReportedFinding(Record):
         fingerprint: The same as long as the fault is the same, wherever the lines move.
         why: First words of the rule's page.
         how: The way to correct it, from the rule's page.
-        key: What its places have in common, where the rule says so.
+        key: What its places have in common, where the rule states it.
         title: The title of the rule's page: what is wrong in general.
         source: The source of the rule.
         fixes: The fixes of its faults where it joins several places.
-        repeats: What less precise rules say of the same fault.
+        repeats: What less precise rules state about the same fault.
     """
 
     rule: str

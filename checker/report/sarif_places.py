@@ -90,7 +90,7 @@ def _context(place: Place) -> Json:
 
 
 def _is_whole(place: Place) -> bool:
-    """Say whether the snippet, which may be cut, holds the whole stretch."""
+    """Return whether the snippet, which may be cut, holds the whole stretch."""
     inside = place.column < place.end_column <= len(place.snippet) + 1
     return place.line == place.end_line and inside
 

@@ -51,7 +51,7 @@ class Sentence(Record):
 
 
 def sentence(package: PackageReport) -> Sentence:
-    """Say whether a package can be accepted, and what is left to do."""
+    """Return whether a package can be accepted, and what is left to do."""
     warnings = package.count(Severity.WARNING)
     phrases = [_errors(package)] if package.errors else []
     if package.verdict is VerdictKind.INCOMPLETE:
@@ -153,7 +153,7 @@ def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str,
 
 
 def has_suppressed(packages: Sequence[PackageReport]) -> bool:
-    """Say whether something of any package was found and does not count."""
+    """Return whether something of any package was found and does not count."""
     return any(package.suppressed for package in packages)
 
 

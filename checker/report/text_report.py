@@ -113,7 +113,7 @@ def suppressed_text(suppressed: Sequence[Suppressed]) -> Iterator[str]:
 
 
 def _words(suppressed: Suppressed) -> str:
-    """Say by what and why a finding does not count; what the baseline holds is one heap."""
+    """Return by what and why a finding does not count; what the baseline holds is one heap."""
     if suppressed.reason == IN_BASELINE:
         return f"by {_WHO[suppressed.by]}"
     reason = plain(shortened(suppressed.reason, _REASON_LIMIT))
@@ -123,7 +123,7 @@ def _words(suppressed: Suppressed) -> str:
 SHOWN_LIMIT = 200
 """Findings of one package that are shown in full; the rest is counted."""
 _RULES_NAMED = 5
-"""Rules that were left out for one reason the user gave; of more the number says enough."""
+"""Rules that were left out for one reason the user gave; of more the number states enough."""
 
 
 class TextReport:
@@ -135,7 +135,7 @@ class TextReport:
         Args:
             settings: What to show.
             awaited: Paths of the packages that are to come. What another package reports of a
-                file of theirs is said there.
+                file of theirs is stated there.
         """
         self._settings = settings
         self._owners: dict[Identity, str] = {}
@@ -163,7 +163,7 @@ class TextReport:
         yield from self.add(())
 
     def _must_wait(self, package: PackageReport) -> bool:
-        """Say whether a package reports a file of one that is still to come."""
+        """Return whether a package reports a file of one that is still to come."""
         if not self._awaited:
             return False
         paths = (path_of(found.places[0], package) for found in foreign_findings(package))
@@ -195,7 +195,7 @@ def closing_text(report: Report, settings: RenderSettings) -> str:
 
 
 def _hint(report: Report, settings: RenderSettings) -> str:
-    """Say where a rule is explained, by the first that was shown."""
+    """Return where a rule is explained, by the first that was shown."""
     shown = (found for package in report.packages for found in shown_findings(package, settings))
     first = next(shown, None)
     if first is None or settings.concise:

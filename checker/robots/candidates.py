@@ -32,7 +32,7 @@ class Candidate(Record):
         path: The path as the package lists it.
         args: Arguments for xacro.
         loaded: Whether a launch file loads it.
-        by_xacro: Whether xacro reads it, whatever it holds.
+        by_xacro: Whether xacro reads it, whatever it contains.
         missing: Arguments that a launch file leaves to the user, and that launch file.
         choices: The values that it allows for these, where it names them.
         offered: The values that it allows for arguments to which it gives one of them.
@@ -70,7 +70,7 @@ class StartedLoad(Record):
 
 
 def may_hold_description(package: Package) -> bool:
-    """Say whether a package holds a file that could be a URDF description."""
+    """Return whether a package contains a file that could be a URDF description."""
     return bool(_files(package))
 
 
@@ -140,7 +140,7 @@ def _outermost(package: Package) -> Iterator[str]:
 
 
 def _is_empty(package: Package, path: str) -> bool:
-    """Say whether a file holds nothing; one that is never loaded is only a leftover."""
+    """Return whether a file contains nothing; one that is never loaded is only a leftover."""
     source = package.read(path)
     return isinstance(source, SourceText) and not source.text.strip()
 
@@ -192,7 +192,7 @@ def _made_of(package: Package) -> Iterator[str]:
 
 
 def is_included(package: Package, path: str) -> bool:
-    """Say whether a file of this or another package includes a file, by a computed name or not."""
+    """Return whether a file of this or another package includes a file, by any kind of name."""
     name = posixpath.basename(path)
     own = (_text(package, other) for other in _files(package) if other != path)
     others = (_text(*other) for other in _xacro_elsewhere(package))

@@ -37,7 +37,7 @@ def empty_arguments(package: Package, candidate: Candidate, given: Collection[st
 
 
 def is_refused_alike(outcome: Outcome, other: Outcome) -> bool:
-    """Say whether a file is refused for the same reason with other arguments."""
+    """Return whether a file is refused for the same reason with other arguments."""
     if not isinstance(outcome, XacroFault) or not isinstance(other, XacroFault):
         return False
     return (outcome.message, outcome.span.place()) == (other.message, other.span.place())

@@ -176,7 +176,7 @@ class PackageDescriptions:
         return frozenset((*(candidate.path for candidate in self._candidates), *included))
 
     def _is_fragment(self, document: XmlDocument, candidate: Candidate) -> bool:
-        """Say whether a file is a part of a robot: joints lead out of it, and others include it."""
+        """Return whether a file is part of a robot: joints lead out of it, others include it."""
         root = document.root
         if candidate.loaded or self._package.only or root.tag != "robot":
             return False
@@ -190,12 +190,12 @@ class PackageDescriptions:
         return leads_out and is_included(self._package, candidate.path)
 
     def _may_be_given(self, candidate: Candidate, fault: XacroFault) -> bool:
-        """Say whether what starts a file may well give the argument that it lacks."""
+        """Return whether what starts a file may well give the argument that it lacks."""
         left = candidate.missing.keys() - self._args.keys()
         return not candidate.loaded or any(name in fault.message for name in left)
 
     def _unread(self, candidate: Candidate, reason: str) -> str:
-        """Return a reason; it says which arguments a launch file leaves to the user."""
+        """Return a reason; it states which arguments a launch file leaves to the user."""
         known = self._args.keys() | candidate.choices.keys()
         missing = [name for name in candidate.missing if name not in known]
         if not missing:
@@ -204,7 +204,7 @@ class PackageDescriptions:
         return f"{reason}; {file} has no value for {given}: set it with --xacro-arg"
 
     def _is_alone(self, document: XmlDocument, candidate: Candidate) -> bool:
-        """Say whether a file that holds nothing is the one to check, and no xacro of macros."""
+        """Return whether an empty file is the one to check, and not a xacro file of macros."""
         plain = candidate.path.lower().endswith(".urdf")
         return plain and bool(self._package.only) and document.root.tag == "robot"
 
@@ -320,7 +320,7 @@ def _refusal(outcome: Outcome, file: str) -> XacroFault | None:
 
 
 def _needs_xacro(package: Package, candidate: Candidate) -> bool:
-    """Say whether expanding a file can change it; a file that is empty has nothing to expand."""
+    """Return whether expanding a file can change it; a file that is empty has nothing to expand."""
     source = package.read(candidate.path)
     if not isinstance(source, SourceText) or not source.text.strip():
         return False
@@ -331,7 +331,7 @@ def _needs_xacro(package: Package, candidate: Candidate) -> bool:
 
 
 def _plain(package: Package, path: str) -> Outcome:
-    """Return a file that is loaded as it stands."""
+    """Return a file that is loaded as it is."""
     document = package.xml(path)
     if isinstance(document, NotReadable):
         return Unread(f"{path} {document.reason}")
@@ -344,7 +344,7 @@ def _plain(package: Package, path: str) -> Outcome:
 
 
 def _holds_robot(document: XmlDocument, candidate: Candidate) -> bool:
-    """Say whether a document is a robot; a file of macros alone expands to nothing."""
+    """Return whether a document is a robot; a file of macros alone expands to nothing."""
     if document.root.tag != "robot":
         return False
     tags = {child.tag for child in document.root.children}

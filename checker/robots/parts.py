@@ -88,7 +88,7 @@ def _first_description(ask: Ask) -> ModelFile | NotAvailable:
 
 
 def _document(package: Package, path: str, expander: Expander) -> XmlDocument | NotAvailable:
-    """Return a file as XML, or say why it cannot be had."""
+    """Return a file as XML, or state why it cannot be had."""
     document = package.xml(path)
     if isinstance(document, XmlFault):
         return NotAvailable(f"{path} is not well-formed")

@@ -16,8 +16,8 @@ _LATER = re.compile(r"(?:gz-sim|ignition-gazebo)\d*-[\w-]+-system|\b(?:gz|ign)_r
 def classic_by_default(robot: Robot, package: Package) -> str:
     """Return why the robot is for Gazebo Classic alone, as a clause; empty if it is not.
 
-    A xacro may serve both simulators: an argument chooses whose plugins it holds. With the defaults
-    of the arguments it can be for Classic, and be right for both.
+    A xacro may serve both simulators: an argument chooses whose plugins it contains. With the
+    defaults of the arguments it can be for Classic, and be right for both.
     """
     names = [plugin.filename.value for plugin in robot.all_plugins]
     if robot.conventions.read_by_gazebo or all(classic_plugin(name) is None for name in names):

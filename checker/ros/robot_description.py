@@ -31,7 +31,7 @@ class DescriptionFile(Record):
 
 
 class RobotDescription(Record, eq=False):
-    """A parameter that holds the robot's description.
+    """A parameter that contains the robot's description.
 
     Attributes:
         param: The parameter.

@@ -63,7 +63,7 @@ def simulated_topics(robot: Robot) -> Iterator[SimulatedTopic]:
 
 
 def unknown_owner(robot: Robot) -> str:
-    """Say which part of a robot may have topics that the table does not know; else nothing."""
+    """Return which part of a robot may have topics that the table does not know; else nothing."""
     known = table("simulated_topics")
     for sensor in robot.sensors:
         if sensor.plugins or _kind(sensor) not in known["sensors"]:
@@ -156,7 +156,7 @@ def _of_plugin(plugin: Plugin) -> Iterator[SimulatedTopic]:
 
 
 def _filled(plugin: Plugin, default: str) -> Iterator[str]:
-    """Yield a default topic with what the plugin states; nothing where it does not say."""
+    """Yield a default topic with what the plugin states; nothing where it does not state it."""
     values: dict[str, list[str]] = {}
     for match in _PARAMETER.finditer(default):
         stated = [text.value.strip().strip("/") for text in plugin.at(match[1])]

@@ -68,7 +68,7 @@ _PUBLISHES_NONE = re.compile(
     r"(?:ros1?_ign_|ros_gz_)\w+|subt_ros|topic_tools|joy|ps3joy|teleop_\w+|rviz|twist_mux"
     r"|joint_state_publisher\w*"
 )
-"""Packages whose nodes publish no transforms, unless their names say so."""
+"""Packages whose nodes publish no transforms, unless their names state it."""
 
 
 def publishes_transforms(node: Node) -> bool:

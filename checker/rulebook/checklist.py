@@ -23,7 +23,7 @@ def items(rules: Iterable[Rule]) -> Iterator[tuple[str, list[Rule]]]:
 
 
 def _covers(pattern: str, rule: Rule) -> bool:
-    """Say whether a group, an id, or a range such as `SEN001-003` means a rule."""
+    """Return whether a group, an id, or a range such as `SEN001-003` means a rule."""
     first, dash, last = pattern.partition("-")
     if not dash:
         return pattern in (rule.id, rule.group)

@@ -277,7 +277,7 @@ ROS2_MINIMAL: Mapping[str, str] = {
 
 
 def model_with(fragment: str) -> str:
-    """Return a model.sdf that holds a fragment where its first element belongs."""
+    """Return a model.sdf that contains a fragment where its first element belongs."""
     first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
     tag = first.group(1) if first else ""
     if tag == "sdf" or fragment.lstrip().startswith("<?xml"):

@@ -1,6 +1,6 @@
 """The page of a rule, from the docstring of its module.
 
-A page has a title line that says what is wrong, a body that says why it matters, and two marked
+A page has a title line that states what is wrong, a body that states why it matters, and two marked
 paragraphs: `Fix:` and `Source:`.
 """
 
@@ -81,7 +81,7 @@ def group_description(members: Sequence[Rule]) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return a docstring's text so that Markdown shows it as it stands; code in backticks stays."""
+    """Return a docstring's text so that Markdown shows it as it is; code in backticks stays."""
     parts, end = [], 0
     for code in _CODE.finditer(text):
         parts += [_escaped(text[end : code.start()]), code[0]]

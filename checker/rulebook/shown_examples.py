@@ -38,8 +38,8 @@ class ShownFile(Record):
 
     Attributes:
         path: Relative to the package.
-        text: Lines of it; empty if `note` says all.
-        note: What there is to say of a file without text.
+        text: Lines of it; empty if `note` states all.
+        note: What there is to state about a file without text.
     """
 
     path: str
@@ -143,7 +143,7 @@ def _likeness(bad: _Package, good: _Package) -> float:
 
 
 def _notes(package: _Package, other: _Package) -> Iterator[ShownFile]:
-    """Yield what the example says of the folder's name and of links in it."""
+    """Yield what the example states about the folder's name and of links in it."""
     named = "@name" in package.example or "@name" in other.example
     if named and package.made.name != other.made.name:
         yield ShownFile(".", "", f"is a folder named {package.made.name!r}")

@@ -1,6 +1,6 @@
 """Logs of the web process and of workers: JSON lines on stderr, without tokens and ids.
 
-An id opens a report; the key of a check, which identifies it as well, opens none.
+An id opens a report; the key of a check, which identifies it too, opens none.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from checker.base.record import Record
 
 LOGGER = "subt-check.web"
 FIELDS = "fields"
-"""Name of the extra of a record that holds what goes into the line beside its message."""
+"""Name of the extra of a record that contains what goes into the line beside its message."""
 REPEAT_SECONDS = 60.0
 """Seconds after which the number of repetitions of a fault is logged."""
 FAULTS = 200
@@ -51,7 +51,7 @@ class Fault(Record):
 
     Attributes:
         where: Logger and level.
-        words: What is said of it.
+        words: What is stated about it.
         errors: Kinds of the exception and of those that caused it.
         raised: File and line that raised it.
     """

@@ -10,7 +10,7 @@
   them (`checker.launch.spawner.literals`). What it emits is a `SourceText` again
   (`checker.source.emitted`), parsed by the same reader: a finding in an emitted plugin points
   at the line of Ruby that holds it.
-- Through xacro: the child process says for each element which element of which file it is a
+- Through xacro: the child process states for each element which element of which file it is a
   copy of. The expanded text is a `SourceText` as well (`checker.formats.xacro.expanded`).
 - A finding about something missing points at line 1 of the file that should hold it, else at
   the package folder. Paths are relative to the package; a sibling's file starts with `../`.

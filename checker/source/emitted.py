@@ -87,7 +87,7 @@ class EmittedText(SourceText, dict=True, kw_only=True):
         return list(accumulate((len(piece.text) for piece in self.pieces), initial=0))[:-1]
 
     def _index(self, offset: int) -> int:
-        """Return the number of the piece that holds a character; the last one at the end."""
+        """Return the number of the piece that contains a character; the last one at the end."""
         return max(0, bisect_right(self._starts, offset) - 1)
 
     def origin_of(self, start: int, end: int) -> Span:

@@ -77,7 +77,7 @@ class Markdown(Record, eq=False):
 
 
 def read_markdown(source: SourceText) -> Markdown:
-    """Read a Markdown file; what lies behind the first 200 000 characters is left out."""
+    """Read a Markdown file; what is behind the first 200 000 characters is left out."""
     from markdown_it import MarkdownIt
 
     text = _blank_between(source.text[:MAX_LENGTH].replace("\r", " "), "<!--", "-->")

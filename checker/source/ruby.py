@@ -119,7 +119,7 @@ def parse_ruby(source: SourceText) -> RubyNode:
 
 
 def is_understood(text: str, until: float) -> bool:
-    """Say whether the grammar understands a whole text.
+    """Return whether the grammar understands a whole text.
 
     Args:
         text: The text of a Ruby file.

@@ -43,7 +43,7 @@ _WORD_ALONE = re.compile(r"^[ \t]*([A-Z]\w*)[ \t]*$", re.MULTILINE)
 def find_repair(
     tree: RubyNode, nodes: Sequence[RubyNode], errors: Sequence[RubyNode]
 ) -> SyntaxFault | None:
-    """Return what a text lacks, if one piece, or the pieces that close it, mend all of it."""
+    """Return what a text lacks, if one piece, or the pieces that close it, correct all of it."""
     until = time.thread_time() + MAX_SECONDS
     tokens = [node for node in nodes if not node.children and not node.named and not node.missing]
     opened, surplus = _unpaired(tokens)
@@ -68,7 +68,7 @@ def find_repair(
 
 
 def _missing_end(tree: RubyNode, until: float) -> SyntaxFault | None:
-    """Say which part is open to the end of the file, if only its `end` is missing."""
+    """Return which part is open to the end of the file, if only its `end` is missing."""
     text = tree.source.text
     for count in range(1, _MAX_ENDS + 1):
         whole = text + "\nend" * count
@@ -226,7 +226,7 @@ def _lines_above(text: str, at: int) -> Iterator[int]:
 
 
 def innermost(errors: Sequence[RubyNode]) -> list[RubyNode]:
-    """Return the errors that hold no other: one of them may reach over the whole file."""
+    """Return the errors that contain no other: one of them may reach over the whole file."""
     known = set(errors)
     return [node for node in errors if known.isdisjoint(node.children)]
 

@@ -108,7 +108,7 @@ def attributes_in(text: str) -> int:
 
 
 def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
-    """Parse a text, or say why it is not well-formed XML.
+    """Parse a text, or state why it is not well-formed XML.
 
     expat judges what is well-formed. What lxml alone objects to (namespaces) is tolerated.
     """

@@ -144,7 +144,7 @@ _NEAR = 200
 
 
 def explain(source: SourceText, message: str, at: int, still_open: list[int]) -> XmlFault:
-    """Say what is wrong.
+    """Return what is wrong.
 
     Args:
         source: The text.
@@ -203,7 +203,7 @@ def _too_early(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
 
 
 def _never_closed(source: SourceText, opened: int, at: int) -> str:
-    """Say why the element that begins at `opened` has no end tag before `at`."""
+    """Return the reason why the element that begins at `opened` has no end tag before `at`."""
     name = _name(source, opened)
     if _CLOSED_EARLY.match(source.text, opened):
         return f"<{name}> is closed before its attributes"

@@ -35,7 +35,7 @@ class WrappedText(SourceText, kw_only=True):
 
 
 def parse_fragments(source: SourceText) -> XmlDocument | XmlFault:
-    """Parse any number of elements side by side; they stand below an element `emitted`."""
+    """Parse any number of elements side by side; they are below an element `emitted`."""
     opening = f"<{ROOT}>"
     inner = _DECLARATION.sub(lambda match: " " * len(match.group()), source.text)
     text = f"{opening}{inner}</{ROOT}>"

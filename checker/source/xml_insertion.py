@@ -1,4 +1,4 @@
-"""Text edits that put elements into XML, laid out like what stands there, and take them out."""
+"""Text edits that put elements into XML, laid out like what is there, and take them out."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _BLANKS = (" ", "\t")
 
 
 class Insertion(NamedTuple):
-    """A stretch of text, and what is to stand there with the elements put in."""
+    """A stretch of text, and what is to be there with the elements put in."""
 
     span: Span
     text: str
 
 
 def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
-    """Return the edit that puts elements in front of those that an element holds.
+    """Return the edit that puts elements in front of those that an element contains.
 
     Args:
         parent: The element that is to hold them.
@@ -47,7 +47,7 @@ def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
 
 
 def append_to(parent: Element, lines: Sequence[str]) -> Edit:
-    """Return the edit that puts elements behind those that an element holds; see `insert_into`."""
+    """Return the edit that adds elements after the children of an element; see `insert_into`."""
     last = parent.children[-1] if parent.children else None
     return insert_into(parent, lines) if last is None else insert_behind(last, lines)
 
@@ -93,7 +93,7 @@ def removal(element: Element) -> Edit:
 def with_blanks(span: Span) -> Span:
     """Return a stretch with the blanks that would be left over if it were taken out.
 
-    These are the rest of its lines when nothing else stands there, else the blanks on one side.
+    These are the rest of its lines when nothing else is there, else the blanks on one side.
     """
     source, start, end = span.source, span.start, span.end
     text, indentation = source.text, indentation_of(source, start)
@@ -112,7 +112,7 @@ def with_blanks(span: Span) -> Span:
 
 
 def _indentations(parent: Element) -> tuple[str | None, str | None]:
-    """Return the indentation of an element and of what it holds; None amid a line."""
+    """Return the indentation of an element and of what it contains; None amid a line."""
     outer = indentation_of(parent.source, parent.position.start)
     if parent.children:
         return outer, indentation_of(parent.source, parent.children[0].position.start)
@@ -133,7 +133,7 @@ def indentation_of(source: SourceText, offset: int) -> str | None:
 
 
 def newline_of(source: SourceText, offset: int = 0) -> str:
-    """Return how the line ends that holds an offset, or the one before."""
+    """Return how the line ends that contains an offset, or the one before."""
     end = source.text.find("\n", offset)
     end = end if end >= 0 else source.text.rfind("\n")
     return "\r\n" if end > 0 and source.text[end - 1] == "\r" else "\n"

@@ -48,14 +48,14 @@ class YamlFault(Record, eq=False):
 class YamlNode(Record, eq=False):
     """A value of a YAML file.
 
-    Exactly one of `scalar`, `items` and `entries` holds it, as `kind` says.
+    Exactly one of `scalar`, `items` and `entries` holds it, as `kind` states.
 
     Attributes:
         kind: `scalar`, `sequence` or `mapping`.
-        span: Its text; an alias stands where the alias is written.
+        span: Its text; an alias is where the alias is written.
         scalar: The value of a scalar, by the rules of YAML 1.1.
         items: The values of a sequence.
-        entries: Keys and values of a mapping, in order; a key may stand there twice.
+        entries: Keys and values of a mapping, in order; a key may be there twice.
         size: Number of values in it, aliases counted in full.
         height: The depth of its nesting.
     """
@@ -69,7 +69,7 @@ class YamlNode(Record, eq=False):
     height: int = 1
 
     def get(self, key: Plain) -> YamlNode | None:
-        """Return the value of a key of a mapping, the last when it stands there twice."""
+        """Return the value of a key of a mapping, the last when it is there twice."""
         result = None
         for name, value in self.entries:
             if name.kind == "scalar" and name.scalar == key and type(name.scalar) is type(key):

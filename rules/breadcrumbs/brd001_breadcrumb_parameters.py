@@ -77,7 +77,7 @@ def _missing_parameters(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
 
 
 def _items(sheet: Specification, number: int | None) -> list[ListedSensor]:
-    """Return what the sheet lists for a configuration, when all of it says one number."""
+    """Return what the sheet lists for a configuration, when all of it states one number."""
     items = [
         item
         for item in sheet.sensors

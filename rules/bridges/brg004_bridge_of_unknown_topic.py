@@ -25,7 +25,7 @@ from checker.source.xml import XmlDocument
 _OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
 _FILES_LIMIT = 100
 _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
-"""Messages that windows of Gazebo publish as well, on topics that the user chooses."""
+"""Messages that windows of Gazebo publish too, on topics that the user chooses."""
 
 
 @rule("BRG004", "bridge-of-unknown-topic", Severity.WARNING, Concern.INTERFACE)
@@ -90,7 +90,7 @@ def _instead(simulation: Simulation, entry: BridgeEntry) -> str:
 def _other_name(
     simulation: Simulation, entry: BridgeEntry, behind: Iterable[SimulatedTopic]
 ) -> str:
-    """Say which name of a model or world is none; nothing where one of the topics fits."""
+    """Return which name of a model or world is none; nothing where one of the topics fits."""
     models, worlds = simulation.model_names, simulation.world_names
     fault = ""
     for topic in behind:

@@ -76,7 +76,7 @@ def check(
 
 
 def _texts(section: Section, number: int | None) -> Iterator[str]:
-    """Yield what the section says about one configuration, or about all."""
+    """Yield what the section states about one configuration, or about all."""
     lead: frozenset[int] = frozenset()
     for passage in section.passages[:MOST_PASSAGES]:
         named = configurations_in(passage.words)

@@ -38,7 +38,7 @@ _ITSELF = re.compile(
     re.IGNORECASE,
 )
 _INTRODUCTION = 4
-"""Passages: the title, and what stands below it."""
+"""Passages: the title, and what is below it."""
 _COMMAND = re.compile(
     r"\b(?:roslaunch|ign\s+launch|rosrun|robotConfig\d*:=|modelName:=)[^\n]{0,500}", re.IGNORECASE
 )
@@ -74,7 +74,7 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
 
 
 def _introduction_findings(sheet: Specification, owner: str) -> Iterator[Finding]:
-    """Report another team where the sheet says what it is about."""
+    """Report another team where the sheet states what it is about."""
     is_reported = title_of_another(sheet.source.text, owner) is not None
     for passage in _introduction(sheet):
         if not (passage.kind is PassageKind.HEADING and is_reported):
@@ -83,7 +83,7 @@ def _introduction_findings(sheet: Specification, owner: str) -> Iterator[Finding
 
 
 def _introduction(sheet: Specification) -> Iterator[Passage]:
-    """Yield the title, what stands below it, and the first passage of the description."""
+    """Yield the title, what is below it, and the first passage of the description."""
     headings = 0
     for passage in sheet.markdown.passages[:_INTRODUCTION]:
         headings += passage.kind is PassageKind.HEADING
@@ -140,7 +140,7 @@ def _is(name: re.Match[str], owner: str) -> bool:
 
 
 def _split_paths(command: str) -> str:
-    """Return a command with its paths split, so that names in them are found as well."""
+    """Return a command with its paths split, so that names in them are found too."""
     return command.replace("/", " ")
 
 

@@ -93,7 +93,7 @@ def _steered_findings(
 
 
 def _turns_on_the_spot(sheet: Specification) -> Iterator[Span]:
-    """Yield the places where the section on motion says so."""
+    """Yield the places where the section on motion states it."""
     section = sheet.section("motion")
     for passage in section.passages if section is not None else ():
         for match in _ON_THE_SPOT.finditer(passage.text):

@@ -235,7 +235,7 @@ def _ball(radius: str, mark: str = "") -> str:
 
 
 def _flange(collision: str, mark: str = "") -> str:
-    """Return a flange whose collision is around the gripper that is fixed to it as well."""
+    """Return a flange whose collision is around the gripper that is fixed to it too."""
     return f"""
 <link name="flange">{mark}
   <collision name="c">

@@ -120,7 +120,7 @@ def _against_its_side(
 ) -> Iterator[Finding]:
     """Report wheels that no plugin drives and that turn against most others of their side.
 
-    Which way the axis of a caster or of a swerve drive points says nothing.
+    Which way the axis of a caster or of a swerve drive points states nothing.
     """
     offsets = {wheel: abs(wheel.centre[1]) for wheel in wheels if wheel.centre is not None}
     nearest = least_share * max(offsets.values(), default=0.0)

@@ -15,7 +15,7 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 _MORE_PRECISE = ("INE004", "INE013")
-"""They say how far the same moments are off."""
+"""They state how far the same moments are off."""
 
 
 @rule("INE007", "placeholder-inertia", Severity.WARNING, Concern.ROBOT)
@@ -66,7 +66,7 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
 
 
 def _alike(masses: MassProperties, group: Sequence[LinkInertia], tolerance: float) -> bool:
-    """Say whether links are of similar mass and size."""
+    """Return whether links are of similar mass and size."""
     weights = [inertia.mass for inertia in group]
     if all(inertia.link in masses.robot.wheels for inertia in group):
         # Wheels of another size are a fault of their own.

@@ -77,7 +77,7 @@ def _left_out(robot: Robot) -> Iterator[Finding]:
 
 
 def _is_misnamed(robot: Robot, drive: Plugin) -> bool:
-    """Say whether a drive names a joint that does not exist, or one twice: it may mean this."""
+    """Return whether a drive names a joint that does not exist, or one twice: it may mean this."""
     elements = drive.element.descendants()
     named = [it.text.value for it in elements if it.tag.lower().endswith("joint")]
     known = {joint.name.value for joint in robot.joints}
@@ -85,7 +85,7 @@ def _is_misnamed(robot: Robot, drive: Plugin) -> bool:
 
 
 def _is_opposite(robot: Robot, tie: Tie, wheel: Wheel) -> bool:
-    """Say whether a wheel is the mirror image of a link: as far out, and as large."""
+    """Return whether a wheel is the mirror image of a link: as far out, and as large."""
     pose = robot.pose_of_joint(tie.joint)
     boxes = [robot.own_box_of(link) for link in (robot.tree.links[tie.child], wheel.link)]
     sizes = [box.diagonal for box in boxes if box is not None]

@@ -84,7 +84,7 @@ def _stopped_wheels(robot: Robot, least: float) -> Iterator[Finding]:
 
 
 def _is_merged(robot: Robot, joint: Joint) -> bool:
-    """Say whether a joint is one that Gazebo removes: its part is fixed, as its author wrote."""
+    """Return whether a joint is one that Gazebo removes: its part is fixed, as its author wrote."""
     return robot.conventions.merges_fixed_links and joint.type.value == "fixed"
 
 

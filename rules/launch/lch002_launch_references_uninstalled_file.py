@@ -52,7 +52,7 @@ def _with_parts(package: Package, named: NamedPath, parts: _Parts) -> list[Share
 def _parts(package: Package, urdf: UrdfFiles) -> Iterator[tuple[str, list[SharePath]]]:
     """Yield each description with the files that it includes and that nothing installs at all.
 
-    What is installed elsewhere may be found by a relative path: the description is moved as well.
+    What is installed elsewhere may be found by a relative path: the description is moved too.
     """
     for description in urdf.descriptions:
         source = description.document.source

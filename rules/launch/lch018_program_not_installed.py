@@ -33,7 +33,7 @@ _NOT_PLAIN = {
     "setup.cfg": None,
     "pyproject.toml": None,
 }
-"""Build files, and what in them may install programs whose names they do not say."""
+"""Build files, and what in them may install programs whose names they do not state."""
 
 
 @rule("LCH018", "program-not-installed", Severity.ERROR, Concern.INTERFACE)
@@ -62,7 +62,7 @@ def _known_nodes(graph: LaunchGraph) -> Iterator[Node]:
 
 
 def _build_file(holder: Package) -> SourceText | None:
-    """Return the file that says what is installed; None where it does not say all."""
+    """Return the file that states what is installed; None where it does not state all."""
     sources = []
     for name, not_plain in _NOT_PLAIN.items():
         source = holder.read(name) if holder.exists(name) else None

@@ -41,7 +41,7 @@ def check(package: Package, robot: Robot) -> Findings:
 
 
 def _paths(mesh: Mesh, name: str) -> Iterator[str]:
-    """Yield where Gazebo looks for a picture; `%20` is read as a space as well."""
+    """Yield where Gazebo looks for a picture; `%20` is read as a space too."""
     if _ABSOLUTE.match(name):
         return
     folder = posixpath.dirname(mesh.path)

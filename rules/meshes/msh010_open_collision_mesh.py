@@ -35,7 +35,7 @@ def check(robot: Robot) -> Findings:
 
 
 def _faces_out(use: MeshUse, mesh: Mesh) -> bool:
-    """Say whether the triangles of a closed mesh face out.
+    """Return whether the triangles of a closed mesh face out.
 
     A scale that mirrors the mesh turns them over, which GEO008 reports.
     """

@@ -156,7 +156,7 @@ def _distribution(
 
 
 def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
-    """Report a configuration without model and spawner that does not say whose model it uses."""
+    """Report a configuration without model and spawner that does not state whose model it uses."""
     is_submission = SUBMISSION_NAME.search(package.name) and package.kind is PackageKind.ROBOT
     if not is_submission or own_model(package) is not None or package.exists(SPAWNER):
         return

@@ -64,7 +64,7 @@ def _whose(context: Context) -> str:
 
 
 def _later_advice(entry: dict[str, Any]) -> str:
-    """Say what takes its place in a release later than Dome."""
+    """Return what takes its place in a release later than Dome."""
     instead = entry.get("replacement") or {}
     if "later" in entry:
         return str(entry["later"])

@@ -83,7 +83,7 @@ def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> boo
 
 
 def _successor(stem: str, package: Package, context: Context) -> str:
-    """Say what took the place of a library whose package the distribution does not have."""
+    """Return what took the place of a library whose package the distribution does not have."""
     lender = package_of_library(stem)
     removed = table("removed_packages")["names"].get(lender)
     if removed is None or context.distro not in removed["missing_in"]:
@@ -95,7 +95,7 @@ def _successor(stem: str, package: Package, context: Context) -> str:
 
 
 def _elsewhere(stem: str, context: Context) -> str:
-    """Say which release or package has the library, as the end of a sentence."""
+    """Return which release or package has the library, as the end of a sentence."""
     if context.is_subt:
         return ""
     if lender := package_of_library(stem):

@@ -124,7 +124,7 @@ def _below(sensor: Sensor, topic: str) -> str:
 
 
 def _own_libraries(package: Package, release: str) -> _Own:
-    """Return what says whether a plugin is one that the package, or a dependency, holds itself.
+    """Return what states whether a plugin is one that the package, or a dependency, holds itself.
 
     A plugin that neither contains publishes nothing: PLG002 reports it.
     """

@@ -73,7 +73,7 @@ def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
 
 
 def _is_refused(version: str, context: Context) -> bool:
-    """Say whether the target's parser is older than a file."""
+    """Return whether the target's parser is older than a file."""
     stated, newest = parse_version(version), parse_version(context.reads)
     return stated is None or newest is None or stated > newest
 

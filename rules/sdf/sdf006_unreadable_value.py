@@ -47,7 +47,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
 
 
 def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:
-    """Return what attributes may stand at an element, with those of the version it is read as."""
+    """Return what attributes may be at an element, with those of the version it is read as."""
     if not element.attributes.keys() - kind.attributes.keys():
         return kind.attributes
     later = type_of(element, context.reads)

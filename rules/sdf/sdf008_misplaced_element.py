@@ -26,7 +26,7 @@ HARMLESS: Mapping[tuple[str, ...], bool] = {
 }
 """Parents and elements that accepted robots have: nothing is lost.
 
-Whether the place that SDF has for the element is meant: width and height of a camera's image say
+Whether the place that SDF has for the element is meant: width and height of a camera's image state
 what its aspect ratio is, and no other place does.
 """
 SETTINGS = frozenset(
@@ -36,7 +36,7 @@ SETTINGS = frozenset(
         *("sonar", "transceiver"),
     }
 )
-"""Elements of a sensor that hold what one type of sensors reads."""
+"""Elements of a sensor that contain what one type of sensors reads."""
 OLDER_SPELLINGS = {
     "gpu_lidar": ("lidar", "ray"),
     "gpu_ray": ("lidar", "ray"),

@@ -49,7 +49,7 @@ def check(description: UrdfDescription) -> Findings:
 
 
 def _simulates(tag: GazeboTag) -> bool:
-    """Say whether a tag changes what is simulated, not only how a link looks."""
+    """Return whether a tag changes what is simulated, not only how a link looks."""
     return any(child.tag not in _WITHOUT_EFFECT for child in tag.element.children)
 
 

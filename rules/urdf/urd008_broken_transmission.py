@@ -50,7 +50,7 @@ def _faults(description: UrdfDescription) -> Iterator[Finding]:
 
 
 def _is_of_ros_control(transmission: Transmission) -> bool:
-    """Say whether ros_control reads a transmission; types of the PR2, say, have another form."""
+    """Return whether ros_control reads a transmission; types of the PR2, say, have another form."""
     kind = transmission.type.value
     return not kind or kind.startswith(_OF_ROS_CONTROL)
 

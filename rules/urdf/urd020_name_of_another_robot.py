@@ -17,7 +17,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 _NOT_WORDS = re.compile(r"[^a-z0-9]+")
 _SHORTEST = 4
-"""Letters of a name that says something."""
+"""Letters of a name that states something."""
 
 
 @rule("URD020", "name-of-another-robot", Severity.INFO, Concern.ROBOT)

@@ -15,7 +15,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 @rule("URD021", "uncalled-macro", Severity.INFO, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
-    """Say by which call a robot came about."""
+    """Report a macro that no file calls, with the call that was checked."""
     call = description.call
     if call is not None:
         yield finding(

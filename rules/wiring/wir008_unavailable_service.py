@@ -53,7 +53,7 @@ def _names(node: Node) -> tuple[str, ...]:
 
 
 def _unknown_cause(wiring: Wiring) -> str:
-    """Say why there may be more nodes and services than those known; else nothing."""
+    """Return the reason why there may be more nodes and services than those known; else nothing."""
     strange = (node for node in wiring.every_node if node.facts is None or not node.full_name)
     reasons = (f"what {node.program} offers is not known" for node in strange)
     return next(iter((*wiring.unread, *reasons)), "")

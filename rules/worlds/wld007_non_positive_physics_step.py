@@ -34,7 +34,7 @@ def check(world: World) -> Findings:
 
 
 def _in_force(world: World) -> Element | None:
-    """Return the `<physics>` that says it is the default, else the first."""
+    """Return the `<physics>` that states it is the default, else the first."""
     every = [*world.element.all("physics")]
     said = [it for it in every if (it.get("default") or "").lower() in ("1", "true")]
     return next(iter((*said, *every)), None)

@@ -90,7 +90,7 @@ class Launcher:
             order: What it does.
             request: The file that its request will be written into.
             answer: The file that it writes its answer into.
-            more: The descriptor by which it says that an answer is there, if it lasts.
+            more: The descriptor by which it states that an answer is there, if it lasts.
 
         Raises:
             OSError: No launcher runs.

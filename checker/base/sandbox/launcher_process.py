@@ -5,7 +5,7 @@ no files of users. Each process that it starts runs one function of one module i
 
 On the socket comes one JSON object a message (`Order` in `checker.base.sandbox.launcher`), with the
 descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
-for its exit code; and where it lasts, one more to say that an answer is there. Closing the
+for its exit code; and where it lasts, one more to state that an answer is there. Closing the
 other end of the input kills the process. When the socket closes, all of them end.
 """
 
@@ -99,7 +99,7 @@ class LauncherProcess:
     """Starts processes until the socket closes."""
 
     def __init__(self, control: socket.socket, sandbox: Sandbox) -> None:
-        """Enter the sandbox, and say which layers hold."""
+        """Enter the sandbox, and state which layers hold."""
         # A process in the sandbox requests others by a socket of its own.
         self._inner_client, inner = socket.socketpair()
         self._controls = {control.fileno(): control, inner.fileno(): inner}

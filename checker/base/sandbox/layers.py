@@ -53,7 +53,7 @@ class Sandbox(Record):
 def enter(sandbox: Sandbox) -> list[Layer]:
     """Permanently put this process and all that it will start in a sandbox.
 
-    Those that the system does not have are left out, and the result says so.
+    Those that the system does not have are left out, and the result states it.
     """
     return [_entered(name, sandbox) for name in ALL if name in sandbox.names]
 
@@ -66,7 +66,7 @@ def _entered(name: str, sandbox: Sandbox) -> Layer:
 
 
 def hides_files(layers: Iterable[Layer]) -> bool:
-    """Say whether a compromised process cannot reach the files of the user."""
+    """Return whether a compromised process cannot reach the files of the user."""
     return any(layer.held and layer.hides for layer in layers)
 
 

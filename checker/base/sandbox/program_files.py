@@ -25,9 +25,9 @@ SCREENS = ("/dev/dri",)
 
 
 def program_paths() -> list[str]:
-    """Return the folders and files that hold this program, its libraries and Python itself.
+    """Return the folders and files that contain this program, its libraries and Python itself.
 
-    They are absolute. Folders that hold the home of the user are left out.
+    They are absolute. Folders that contain the home of the user are left out.
     """
     present = [path for path in _candidates() if path.startswith("/") and os.path.lexists(path)]
     paths = dict.fromkeys((*present, *map(os.path.realpath, present)))
@@ -50,7 +50,7 @@ def _candidates() -> Iterator[str]:
 
 
 def _private(path: str) -> bool:
-    """Say whether a folder holds the home of the user, or is it: no place for libraries."""
+    """Return whether a folder contains the home of the user, or is it: no place for libraries."""
     try:
         home = Path.home()
     except RuntimeError:  # a user without a home, as in a container

@@ -88,7 +88,7 @@ _OWN_PROCESS_ONLY = {
     "sched_setparam": 0,
     "sched_setscheduler": 0,
 }
-"""Calls about any process, and which argument says whose: 0 is the caller."""
+"""Calls about any process, and which argument states whose: 0 is the caller."""
 _SIGNALS = ("kill", "tkill", "tgkill")
 _NEW_NAMESPACES = 0x7E020080
 """Flags of clone(2): CLONE_NEWNS, CGROUP, UTS, IPC, USER, PID, NET and TIME."""
@@ -112,7 +112,7 @@ Step = tuple[int, int, int, int]
 
 
 class NotHeld(OSError):
-    """The kernel does not hold a layer; the text says why."""
+    """The kernel does not hold a layer; the text states why."""
 
 
 class _Program(ctypes.Structure):

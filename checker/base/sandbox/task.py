@@ -48,7 +48,7 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
         sandbox: The sandbox of this process.
         descriptors: The input, on which a byte comes when the request is there; the files of
             request and answer; the socket by which to request processes, or -1; the pipe by which
-            to say that an answer is there, or -1.
+            to state that an answer is there, or -1.
     """
     input, request, answer, inner, done = descriptors
     try:

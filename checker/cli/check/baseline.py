@@ -83,7 +83,7 @@ def _entries(
 ) -> tuple[BaselineEntry, ...]:
     """Return the entries of a package: its findings of now, with the reasons that users gave.
 
-    What rules said that did not look this time stays.
+    What rules stated that did not look this time stays.
     """
     spots = [
         (at, spot) for at, finding in enumerate(package.findings) for spot in spots_of(finding)

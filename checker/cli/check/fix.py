@@ -203,7 +203,7 @@ def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Packag
 
 
 def _judge(settings: Settings) -> FindingsOf:
-    """Return how a package is checked between rounds: without a trial, which mends nothing."""
+    """Return how a package is checked between rounds: without a trial, which corrects nothing."""
     still = settings.with_overrides(trial=False, thorough=False)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     return lambda package: findings_of(package, still, cache)
@@ -225,7 +225,7 @@ def show_patch(
 def _folder(package: FixedPackage, packages: Sequence[FixedPackage]) -> str:
     """Return a package's folder as seen from here: `git apply` finds its files from here.
 
-    What lies elsewhere is applied within the package, or within the folder of several.
+    What is elsewhere is applied within the package, or within the folder of several.
     """
     shown = posixpath.normpath(Path(package.shown).as_posix())
     if shown == ".":
@@ -242,7 +242,7 @@ def apply_fixes(
     *,
     dirty: bool = False,
 ) -> None:
-    """Fix files, and say on the standard error what was done; `dirty` as in `fix_paths`."""
+    """Fix files, and state on the standard error what was done; `dirty` as in `fix_paths`."""
     for package in fix_paths(paths, wishes, allowed, write=True, dirty=dirty):
         for line in _summary(package):
             say_progress(f"{plain(package.shown)}: {line}")

@@ -1,1 +1,1 @@
-"""Says whether everything works where the checker is installed; the command `doctor`."""
+"""Whether everything works where the checker is installed; the command `doctor`."""

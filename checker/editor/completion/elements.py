@@ -27,7 +27,7 @@ _ROOTS = {".sdf": "sdf", ".world": "sdf", ".urdf": "robot", ".xacro": "robot"}
 
 
 def elements(request: Request) -> Iterator[Completion]:
-    """Yield the elements that may stand at the caret."""
+    """Yield the elements that may be at the caret."""
     if not request.xml.tags:
         yield from _roots(request)
     elif request.enclosing_place.path == "gazebo":
@@ -131,7 +131,7 @@ _READ = ("link", "joint")
 
 
 def attributes(request: Request) -> Iterator[Completion]:
-    """Yield the attributes that may stand at the caret."""
+    """Yield the attributes that may be at the caret."""
     place = request.own_place
     if place.language == "sdf":
         kind = schema_type(place.tags, request.version)

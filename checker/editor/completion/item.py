@@ -146,7 +146,7 @@ class Request(Record, eq=False, dict=True):
     def attribute(
         self, name: str, default: str, detail: str, documentation: str = "", rank: int = 5
     ) -> Completion:
-        """Return an attribute with a place for its value, unless that stands there already."""
+        """Return an attribute with a place for its value, unless that is there already."""
         has_value = self._following == "="
         place = f"${{1:{escaped(default)}}}" if default else "$1"
         return self.item(

@@ -22,7 +22,7 @@ _LIMIT = 2000
 
 
 def names(request: Request) -> Iterator[Completion]:
-    """Yield the names that may stand at the caret; nothing where it is no place for one."""
+    """Yield the names that may be at the caret; nothing where it is no place for one."""
     xml = request.xml
     tags = (*xml.tags, xml.tag) if xml.tag else xml.tags
     plugin = request.plugin.attributes.get("name", "") if request.plugin is not None else ""
@@ -47,7 +47,7 @@ def names(request: Request) -> Iterator[Completion]:
 
 
 def _declared(text: str) -> Iterator[tuple[str, NameKind]]:
-    """Yield the names that the text declares as it stands."""
+    """Yield the names that the text declares as it is."""
     for match in _DECLARED.finditer(text):
         name = match[2] if match[2] is not None else match[3]
         yield name, _KINDS.get(match[1]) or NameKind(match[1])

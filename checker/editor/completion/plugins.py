@@ -84,7 +84,7 @@ def parameter_attributes(request: Request) -> Iterator[Completion]:
 
 
 def parameter_values(request: Request) -> Iterator[Completion]:
-    """Yield what the parameter at the caret usually says."""
+    """Yield what the parameter at the caret usually states."""
     facts = request.plugin_facts
     if request.plugin is None or facts is None or not request.tags_below_plugin:
         return

@@ -26,7 +26,7 @@ _OCCURS = {"0": "at most once", "1": "once", "*": "any number", "+": "at least o
 def element_card(
     written: str, place: Place, attribute: str, version: str, target: Context
 ) -> str | None:
-    """Return what the tables say of an element or an attribute, as Markdown; None for nothing.
+    """Return what the tables state about an element or an attribute, as Markdown; None for nothing.
 
     Args:
         written: The tag as the file has it.

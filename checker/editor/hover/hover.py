@@ -56,7 +56,7 @@ class Hover(Record):
 def hover_at(
     subject: Subject, path: str, offset: int, target: Context | None = None
 ) -> Hover | None:
-    """Return what is known of the thing at an offset; None where there is nothing to say.
+    """Return what is known of the thing at an offset; None where there is nothing to state.
 
     Args:
         subject: The package.
@@ -129,7 +129,7 @@ class _Search:
         return self._card(described[0], _others(described)) if described else None
 
     def _values(self, parts: RobotParts) -> Iterator[str]:
-        """Yield what the attribute or text says, after xacro where that reads it."""
+        """Yield what the attribute or text states, after xacro where that reads it."""
         if "$" not in self.pointed.value:
             yield self.pointed.value.strip()
             return
@@ -209,13 +209,13 @@ def _plugin_around(element: Element) -> Element | None:
 
 
 def _refers(element: Element) -> bool:
-    """Say whether the `<gazebo>` tag around an element refers to a link or joint."""
+    """Return whether the `<gazebo>` tag around an element refers to a link or joint."""
     gazebo = next((it for it in ancestry(element) if it.tag == "gazebo"), None)
     return gazebo is not None and bool(gazebo.get("reference"))
 
 
 def _names_file(pointed: Pointed) -> bool:
-    """Say whether the URI of a file is pointed at."""
+    """Return whether the URI of a file is pointed at."""
     if pointed.where is Where.TEXT:
         return pointed.element.tag in _FILE_TAGS
     named = pointed.where is Where.VALUE and pointed.attribute == "filename"
@@ -242,7 +242,7 @@ def _scopes(element: Element) -> list[str]:
 
 
 def _others(parts: Sequence[RobotPart]) -> str:
-    """Say which further parts an element of a macro makes."""
+    """Return which further parts an element of a macro makes."""
     if len(parts) < 2:
         return ""
     called = list(dict.fromkeys(it.part.name.value for it in parts[1:]))

@@ -59,7 +59,7 @@ def _mesh_card(
 
 
 def _mesh(subject: Subject, uri: Located[str], entry: FileEntry) -> Mesh | MeshFault | str:
-    """Return what a mesh file holds, or in Markdown why it is not read: a hover waits not long."""
+    """Return the content of a mesh file, or in Markdown why it is not read in the short time."""
     robots = subject.all(Robot)
     for meshes in () if isinstance(robots, NotAvailable) else (it.meshes for it in robots):
         if isinstance(meshes, PackageMeshes) and _names(meshes, uri):

@@ -22,7 +22,7 @@ def plugin_card(element: Element, target: Context, note: str = "") -> str:
     Args:
         element: The plugin.
         target: What the package is written for.
-        note: What else to say.
+        note: What else to state.
     """
     filename, name = element.get("filename") or "", element.get("name") or ""
     facts = plugin_facts(filename, name, target)

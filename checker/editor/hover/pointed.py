@@ -48,7 +48,7 @@ def ancestry(element: Element) -> Iterator[Element]:
 
 
 def pointed_at(document: XmlDocument, offset: int) -> Pointed | None:
-    """Return what stands at an offset; None between the things that say something."""
+    """Return what is at an offset; None between the things that state something."""
     elements = document.elements
     index = bisect_right(elements, offset, key=lambda element: element.position.start) - 1
     if index < 0:

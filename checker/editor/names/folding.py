@@ -1,6 +1,6 @@
 """Parts of an XML text that an editor may fold: elements and comments over several lines.
 
-The text is scanned as it stands, so that folds stay while it is being written.
+The text is scanned as it is, so that folds stay while it is being written.
 """
 
 from __future__ import annotations

@@ -120,7 +120,7 @@ class NameIndex(Record, eq=False, dict=True):
 
         Args:
             mention: Any of the thing.
-            new: The new name of what stands at the mention, which is that of the thing without
+            new: The new name of what is at the mention, which is that of the thing without
                 the models around it; of a topic, without the model's name in front.
         """
         edits = rename_edits(self, mention, new)
@@ -180,7 +180,7 @@ def names_of(package: Package, known: NameIndex | None = None) -> NameIndex:
 
     Args:
         package: The package to read.
-        known: An earlier index; what it holds of a text is not read again.
+        known: An earlier index; what it contains of a text is not read again.
     """
     earlier = known.files if known is not None else {}
     files: dict[str, FileNames] = {}

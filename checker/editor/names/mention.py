@@ -116,7 +116,7 @@ class FileNames(Record, eq=False):
         included: Files that it includes.
         values: Texts that expressions of the file may come to.
         parameters: Names of the parameters of its macros.
-        model: Name of the model or robot that the file holds.
+        model: Name of the model or robot that the file contains.
         fault: The reason why it cannot be read; empty when it can.
     """
 

@@ -21,7 +21,7 @@ _Body = tuple[float, Vector, Matrix]
 
 
 def is_automatic(inertial: Element | None) -> bool:
-    """Say whether an `<inertial>` leaves its values to the simulator."""
+    """Return whether an `<inertial>` leaves its values to the simulator."""
     automatic = inertial.get("auto") if inertial is not None else None
     return (automatic or "").strip().lower() in ("1", "true")
 

@@ -45,7 +45,7 @@ QUATERNION_POSE = "pose quat_xyzw"
 
 
 def misread_values(text: Located[str], value_type: str) -> list[Misread]:
-    """Say what is wrong with a text.
+    """Return what is wrong with a text.
 
     Args:
         text: Without the blanks around it; not empty.
@@ -57,7 +57,7 @@ def misread_values(text: Located[str], value_type: str) -> list[Misread]:
 
 
 def values_out_of_bounds(text: Located[str], bounds: tuple[float, float]) -> list[Misread]:
-    """Say which numbers of a text are outside what the schema allows."""
+    """Return which numbers of a text are outside what the schema allows."""
     low, high = bounds
     if (low, high) == (-math.inf, math.inf):
         return []

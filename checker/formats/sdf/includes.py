@@ -14,7 +14,7 @@ from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 IncludeReader = Callable[[Located[str]], "XmlDocument | str"]
-"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read.
+"""Gives the model file behind the URI of an `<include>`, or states why it cannot be read.
 
 The URI's place gives the including file, to which relative URIs refer.
 """
@@ -26,7 +26,7 @@ def read_no_include(uri: Located[str]) -> XmlDocument | str:
 
 
 def included_model(placed: Element, include: IncludeReader) -> Element | str:
-    """Return the model behind an `<include>`, or say why there is none."""
+    """Return the model behind an `<include>`, or state why there is none."""
     uri = placed.child("uri")
     document = include(uri.text) if uri is not None else "an <include> without <uri>"
     if isinstance(document, str):
@@ -41,7 +41,7 @@ class ModelIncludes(Record):
     package: Package
 
     def __call__(self, uri: Located[str]) -> XmlDocument | str:
-        """Return the file, or say why it cannot be read; relative URIs start at the includer."""
+        """Return the file, or state why it cannot be read; relative URIs start at the includer."""
         path = self._path(uri.value, posixpath.dirname(uri.span.source.file))
         if path is None:
             return f"{uri.value} is not available"

@@ -32,11 +32,11 @@ def frame_of(pose: Element, version: tuple[int, int]) -> Located[str] | None:
 
 
 def transform_of(pose: _HasAttributes, numbers: Iterable[float]) -> Transform:
-    """Return the transform that a `<pose>` says.
+    """Return the transform that a `<pose>` states.
 
     Args:
         pose: The element.
-        numbers: x, y, z (metres), roll, pitch, yaw (radians, or degrees where it says so).
+        numbers: x, y, z (metres), roll, pitch, yaw (radians, or degrees where it states it).
     """
     x, y, z, *angles = numbers
     roll, pitch, yaw = map(math.radians, angles) if in_degrees(pose) else angles

@@ -28,7 +28,7 @@ MAX_INCLUDES = 100
 
 
 def read_sdf(document: XmlDocument, include: IncludeReader = read_no_include) -> tuple[Robot, ...]:
-    """Read the models that stand at the top of a file or directly in its worlds.
+    """Read the models that are at the top of a file or directly in its worlds.
 
     A model that is included at the top is the file's own; what worlds include is not.
     """
@@ -156,7 +156,7 @@ class _Collected:
                 self.merging.pop()
 
     def _refusal(self, document: XmlDocument, model: Element | None) -> str:
-        """Say why an include is not read; empty when it is."""
+        """Return the reason why an include is not read; empty when it is."""
         if model is None:
             return "contains no <model>"
         if document in self.open_files:

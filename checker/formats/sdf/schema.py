@@ -1,4 +1,4 @@
-"""The SDFormat schema: which element may stand where, with which attributes.
+"""The SDFormat schema: which element may be where, with which attributes.
 
 The tables are described in `checker/data/README.md`.
 """
@@ -59,7 +59,7 @@ class ElementType(Record, dict=True):
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Smallest and largest number that may stand inside."""
+        """Smallest and largest number that may be inside."""
         least, most = self.description.get("min"), self.description.get("max")
         # The table has one limit for both numbers of a plane's size.
         low = float(least.split()[0]) if least is not None else -math.inf
@@ -158,7 +158,7 @@ def _triples(version: str) -> frozenset[tuple[str, str, str]]:
 
 
 def type_of(element: Element, version: str) -> ElementType | None:
-    """Return the type of an element in a version, by what it stands in; None without a place."""
+    """Return the type of an element in a version, by what it is in; None without a place."""
     above: list[Element] = []
     at: Element | None = element
     while at is not None:
@@ -176,7 +176,7 @@ def walk(
     """Yield each element with its type, in document order; None for one that has no place there.
 
     The version that the file is read as, `reads`, gives the type where its own does not know one.
-    What stands below an unknown or a free element is ignored, and so are elements with a
+    What is below an unknown or a free element is ignored, and so are elements with a
     namespace prefix, which SDFormat leaves to others.
     """
     is_sdf = root.tag == "sdf"

@@ -85,7 +85,7 @@ class UrdfDescription(Record, eq=False, dict=True):
 
 
 def read_description(document: XmlDocument, file: str, *, for_rviz: bool) -> UrdfDescription:
-    """Read what a URDF document says beside links and joints.
+    """Read what a URDF document states beside links and joints.
 
     Args:
         document: The document, expanded.

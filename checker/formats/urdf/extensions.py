@@ -26,7 +26,7 @@ _TRUE = ("1", "true")
 
 
 def extension_text(element: Element) -> Located[str]:
-    """Return what an element says; an attribute `value` counts more than the text.
+    """Return what an element states; an attribute `value` counts more than the text.
 
     Source: sdformat, parser_urdf.cc, GetKeyValueAsString.
     """
@@ -44,6 +44,6 @@ def extension_number(tag: Element, name: str) -> Located[float] | None:
 
 
 def extension_flag(tag: Element, name: str) -> bool:
-    """Say whether a child of a `<gazebo>` tag is there and says true."""
+    """Return whether a child of a `<gazebo>` tag is there and states true."""
     child = tag.child(name)
     return child is not None and extension_text(child).value.strip().lower() in _TRUE

@@ -1,4 +1,4 @@
-"""The smallest call of a macro that makes a robot, for files that hold macros and no robot."""
+"""The smallest call of a macro that makes a robot, for files that contain macros and no robot."""
 
 from __future__ import annotations
 

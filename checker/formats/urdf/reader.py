@@ -264,7 +264,7 @@ def _sensors(root: Element, values: ValueReader, graph: FrameGraph) -> dict[str,
 
 
 def _gravity(root: Element, values: ValueReader) -> dict[str, Located[bool]]:
-    """Return whether gravity acts, for links of which a `<gazebo reference=…>` tag says so."""
+    """Return whether gravity acts, for links of which a `<gazebo reference=…>` tag states it."""
     gravity = {}
     for tag in root.all("gazebo"):
         off = values.boolean(tag, "turnGravityOff", False)
@@ -279,7 +279,7 @@ def _gravity(root: Element, values: ValueReader) -> dict[str, Located[bool]]:
 def _extended(
     link: Link, sensors: dict[str, list[Sensor]], gravity: dict[str, Located[bool]]
 ) -> Link:
-    """Add to a link what `<gazebo>` tags say about it."""
+    """Add to a link what `<gazebo>` tags state about it."""
     name = link.name.value
     return replace(
         link, sensors=tuple(sensors.get(name, ())), gravity=gravity.get(name, link.gravity)

@@ -93,7 +93,7 @@ def version_of(document: XmlDocument) -> Located[str]:
 
 
 def has_version(document: XmlDocument, least: str) -> bool:
-    """Say whether a file has what a version brought; False for an unknown version."""
+    """Return whether a file has what a version brought; False for an unknown version."""
     versions = list(table("urdf_spec")["versions"])
     stated = version_of(document).value
     return stated in versions and versions.index(stated) >= versions.index(least)

@@ -27,7 +27,7 @@ _KINDS = frozenset(kind.value for kind in XacroFaultKind)
 
 
 def is_answer(data: Any) -> bool:
-    """Say whether something has the form of what became of one file (`processor.expand`)."""
+    """Return whether something has the form of what became of one file (`processor.expand`)."""
     match data:
         case {"xml": str(), "origins": list(origins), "files": list(files)}:
             return all(map(_is_place, origins)) and all(isinstance(file, str) for file in files)
@@ -48,7 +48,7 @@ def _is_place(data: Any) -> bool:
 
 
 def _is_told(at: Any, through: Any) -> bool:
-    """Say whether a fault reports its place and macros, if it has any."""
+    """Return whether a fault reports its place and macros, if it has any."""
     match at:
         case None | [str(), int()]:
             macros = [] if through is None else through
@@ -72,7 +72,7 @@ class Wanted(Record):
         args: Arguments by name.
         as_melodic: Whether as xacro 1.13 of ROS Melodic does it.
         call: What is added to it: `text`, a robot whose elements come last; `number`, the element
-            of the file where they stand; `name`, of the robot, where the file has none.
+            of the file where they are; `name`, of the robot, where the file has none.
     """
 
     path: str
@@ -204,7 +204,7 @@ class Expansions:
         return XacroFault(XacroFaultKind(answer["kind"]), source.file, span, message, hint)
 
     def _refusal(self, answer: Mapping[str, Any]) -> str:
-        """Say what an expression uses that is not evaluated, and where it stands."""
+        """Return what an expression uses that is not evaluated, and where it is."""
         message = f"expression uses {answer['refused']}: '{answer['expression']}'"
         span = self._element(*answer["at"]) if answer.get("at") else None
         if span is None:
@@ -231,8 +231,8 @@ def _answer(data: Any) -> dict[str, Any]:
 
 
 def _lasts(answer: Mapping[str, Any]) -> bool:
-    """Say whether an answer holds: another day, or machine, may have the time or the memory.
+    """Return whether an answer holds: another day, or machine, may have the time or the memory.
 
-    So do those that want another file: the key says which files are there.
+    So do those that want another file: the key states which files are there.
     """
     return answer.get("kind") not in ("limit", "recursion")

@@ -80,5 +80,5 @@ def prefix(root: Any, macros: frozenset[str]) -> None:
 
 
 def _is_of_gazebo(node: Any) -> bool:
-    """Say whether an `<include>` is one of SDF, which holds a `<uri>`."""
+    """Return whether an `<include>` is one of SDF, which contains a `<uri>`."""
     return node.tagName == "include" and not node.hasAttribute("filename")

@@ -115,7 +115,7 @@ def _kind(error: BaseException) -> str:
 
 
 def _message(error: BaseException) -> str:
-    """Say what is wrong: the innermost words, and the expression that they are about."""
+    """Return what is wrong: the innermost words, and the expression that they are about."""
     causes = _causes(error)
     suffixes = (getattr(cause, "suffix", None) for cause in reversed(causes))
     expression = next(filter(None, suffixes), "")
@@ -216,7 +216,7 @@ class _Expansion:
         raise _Stopped({"missing": path})
 
     def _parse(self, source: Any, path: str | None = None) -> Any:
-        """Return a text as a document whose elements know where they stand."""
+        """Return a text as a document whose elements know where they are."""
         if path is None:
             raise ValueError("only files of the package are read")
         del source
@@ -235,7 +235,7 @@ class _Expansion:
         return document
 
     def _add(self, document: Any, file: str, call: Mapping[str, Any]) -> None:
-        """Add a call of a macro to its file; what it makes stands where the macro does."""
+        """Add a call of a macro to its file; what it makes is where the macro does."""
         root = document.documentElement
         if not root.getAttribute("name"):
             root.setAttribute("name", call["name"])
@@ -345,7 +345,7 @@ def _shortened(expression: str) -> str:
 
 
 def _is_name(name: str) -> bool:
-    """Say whether a property may have that name: what xacro has Python's parser find out."""
+    """Return whether a property may have that name: what xacro has Python's parser find out."""
     if not name.isidentifier() or keyword.iskeyword(name):
         return False
     return name.isascii() or unicodedata.normalize("NFKC", name) == name

@@ -184,7 +184,7 @@ _SILENT = ("message", "warning", "error", "print_location")
 _TRUTH = {"True": True, "False": False}
 
 LoadYaml = Callable[[str, Budget], Any]
-"""Returns what a YAML file holds, by the name that the expression gives."""
+"""Returns what a YAML file contains, by the name that the expression gives."""
 
 
 def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:

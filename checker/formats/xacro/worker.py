@@ -25,7 +25,7 @@ ANSWER_LIMIT = 60_000_000
 def put_up() -> None:
     """Permanently take from this process all that expanding a text does not need.
 
-    The expander checks expressions as well. This is the layer behind it, for what slips through.
+    The expander checks expressions too. This is the layer behind it, for what slips through.
     """
     os.environ.clear()
     resource.setrlimit(resource.RLIMIT_NOFILE, (0, 0))

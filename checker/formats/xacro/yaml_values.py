@@ -61,7 +61,7 @@ for _unit in ConstructUnits:
 
 
 def read(text: str, budget: Budget) -> Any:
-    """Return what a YAML text holds, wrapped as xacro does.
+    """Return what a YAML text contains, wrapped as xacro does.
 
     Raises:
         ExpressionLimit: It is too long or holds too much.

@@ -1,6 +1,6 @@
 """Launch files of the challenge's own package, which no submission holds: what they start.
 
-The table `models_common` says what is assumed of each, and from where.
+The table `models_common` states what is assumed of each, and from where.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ def launch_tags() -> Mapping[str, LaunchTag]:
 
 
 def left_outside(element: Element) -> dict[str, Located[str]]:
-    """Return the attributes that stand behind a tag which was closed too early.
+    """Return the attributes that are behind a tag which was closed too early.
 
     In `<node> pkg="p" type="t" name="n">` the text behind the first `>` is what the tag should
     hold. Elements that have attributes of their own, or whose text is a value, have none.
@@ -102,7 +102,7 @@ class Reader:
         self.faults.append(LaunchFault(kind, where.span, message))
 
     def charge(self, element: Element, steps: int) -> bool:
-        """Count steps, and say whether there are any left; the last one is a fault, once."""
+        """Count steps, and state whether there are any left; the last one is a fault, once."""
         before, self._steps = self._steps, self._steps - steps
         if before > 0 >= self._steps:
             message = f"the launch file takes more than {MAX_STEPS} steps to evaluate"
@@ -156,7 +156,7 @@ class Reader:
 def split_words(written: Located[str], scope: Scope) -> Iterator[Located[str]]:
     """Yield the words of an attribute, substituted, each with the text it was written as.
 
-    Faults of the substitutions are said where the attribute is read as a whole.
+    Faults of the substitutions are stated where the attribute is read as a whole.
     """
     text, span = written.value, written.span
     # Character references and line endings are written longer than they read.

@@ -184,7 +184,7 @@ class UnresolvedInclude(Record, eq=False):
 
     Attributes:
         package: Package of `$(find …)`; empty when the file is named otherwise.
-        file: Path within the package, or what the attribute says.
+        file: Path within the package, or what the attribute states.
         arguments: The passed arguments, by name.
         namespace: The namespace that the nodes of the file would have.
         reason: The reason why it is not available.

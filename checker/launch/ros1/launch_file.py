@@ -34,7 +34,7 @@ class Load(Record):
     Attributes:
         path: The path as xacro sees it.
         args: Arguments that xacro is given.
-        by_xacro: Whether xacro reads it; otherwise it is loaded as it stands.
+        by_xacro: Whether xacro reads it; otherwise it is loaded as it is.
         unknown: Names of arguments whose values are only known at launch.
     """
 
@@ -162,8 +162,8 @@ class ReadLaunch(Protocol):
         returned as the same document, so that it is parsed once.
 
         Args:
-            package: Package that holds the file; empty when `path` starts where `from_file` does,
-                at the package's folder.
+            package: Package that contains the file; empty when `path` starts where `from_file`
+                does, at the package's folder.
             path: Path of the file, without `.` and `//`; it may start with `..`.
             from_file: The including file (`SourceText.file`).
         """

@@ -82,7 +82,7 @@ def _started(command: LaunchCommand, span: Span, files: LaunchFiles) -> LaunchGr
 
 
 def join_graphs(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
-    """Return several graphs as one; `reasons` say what else is not known."""
+    """Return several graphs as one; `reasons` state what else is not known."""
     missing = (
         include
         for graph in graphs
@@ -227,7 +227,7 @@ def launch_entries(package: Package) -> LaunchEntries:
 
 
 def _launch_files(package: Package) -> list[XmlDocument]:
-    """Return `*.launch` anywhere, and the files of launch/ that hold a `<launch>`."""
+    """Return `*.launch` anywhere, and the files of launch/ that contain a `<launch>`."""
     documents = []
     for entry in package.index.with_suffix(".launch", ".xml"):
         if not entry.path.endswith(".launch") and not entry.path.startswith("launch/"):

@@ -42,7 +42,7 @@ class LaunchFile(Record, eq=False):
 
     @property
     def name(self) -> str:
-        """Its path, as `SourceText.file` says it."""
+        """Its path, as `SourceText.file` states it."""
         return self.document.source.file
 
     @property

@@ -71,7 +71,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
 
 
 def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
-    """Yield the texts of a node that may hold a description, and where they stand."""
+    """Yield the texts of a node that may hold a description, and where they are."""
     for parameter in node.parameters:
         if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
             yield parameter.value, parameter, parameter.span
@@ -103,7 +103,7 @@ def _as_listed(package: Package, path: str) -> str | None:
 
 
 def _unknown(command: str) -> dict[str, str]:
-    """Return the arguments whose values hold substitutions; `$(var x)` as `$(var:x)`, one word."""
+    """Return the arguments with substitutions in their values; `$(var x)` as `$(var:x)`."""
     try:
         words = shlex.split(_VARIABLE.sub(r"$(var:\1)", command))
     except ValueError:  # a quotation mark that nothing closes

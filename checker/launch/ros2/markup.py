@@ -63,7 +63,7 @@ class XmlEntity(Record, eq=False):
 
 
 class YamlEntity(Record, eq=False):
-    """An element of a YAML launch file: a key, and what it holds."""
+    """An element of a YAML launch file: a key, and what it contains."""
 
     tag: str
     span: Span
@@ -81,7 +81,7 @@ class YamlEntity(Record, eq=False):
         return Located(str(text).lower() if isinstance(text, bool) else str(text), span)
 
     def children(self, tag: str = "") -> list[Entity]:
-        """Return the items of a list below a key, or of the list that it holds itself."""
+        """Return the items of a list below a key, or of the list that it contains itself."""
         if self.node.kind == "mapping":
             if tag:
                 held = self.node.get(tag)
@@ -186,7 +186,7 @@ class Markup:
     # Parts of elements.
 
     def pairs(self, entity: Entity, tag: str, first: str, second: str) -> list[Value]:
-        """Return what children with two attributes say."""
+        """Return what children with two attributes state."""
         children = entity.children(tag)
         pairs = [(self.text(child, first), self.text(child, second)) for child in children]
         return [pair for pair in pairs if None not in pair]

@@ -28,7 +28,7 @@ ITEMS_PER_STEP = 5
 
 
 class LimitReached(Exception):
-    """A limit is used up; the text says which."""
+    """A limit is used up; the text states which."""
 
 
 @dataclass(slots=True)

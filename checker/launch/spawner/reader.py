@@ -214,7 +214,7 @@ class _Program:
 
 
 def _reason(stop: Exception) -> str:
-    """Say why a run ended outside any construct that could be named."""
+    """Return the reason why a run ended outside any construct that could be named."""
     if isinstance(stop, LimitReached):
         return str(stop)
     if isinstance(stop, RecursionError):

@@ -64,7 +64,7 @@ class RubyRange(Record):
 
     @property
     def numbers(self) -> range:
-        """The numbers in it; there may be more than `len` can say."""
+        """The numbers in it; there may be more than `len` can state."""
         return range(self.first, self.last if self.exclusive else self.last + 1)
 
     @property
@@ -173,7 +173,7 @@ _SAFE_INTEGER = 2**60
 
 
 def key_of(value: Value, budget: Budget) -> Hashable:
-    """Return what makes two hash keys equal: 1 and 1.0 are two keys, 'a' and :a as well.
+    """Return what makes two hash keys equal: 1 and 1.0 are two keys, 'a' and :a too.
 
     Raises:
         LimitReached: No steps are left.

@@ -32,7 +32,7 @@ class Device(Record, eq=False):
         kind: `lidar3d`, `lidar2d`, `lidar1d`, `camera`, `rgbd`, `thermal`, `imu`, …
         match: Regular expression for its name in running text, ignoring case.
         sdf_types: Types of `<sensor>` that may represent it.
-        values: Figures of its datasheet; the table says what each key means.
+        values: Figures of its datasheet; the table states what each key means.
         body: `mass_kg` and `size_mm`, where they are known.
         source: The source of its figures.
         field_sources: The same for single figures.
@@ -71,9 +71,9 @@ class SensorDevice(Record, eq=False):
     Attributes:
         sensor: The sensor of the robot.
         device: What it is.
-        words: The words that say so: an item of the specification sheet, else the name of the
+        words: The words that state it: an item of the specification sheet, else the name of the
             sensor, its link or its topic.
-        from_sheet: Whether the sheet says so.
+        from_sheet: Whether the sheet states it.
     """
 
     sensor: Sensor
@@ -93,7 +93,7 @@ class SensorDevices(Record, eq=False, dict=True):
 
     Attributes:
         known: One for each sensor of which something is known.
-        diversions: What the sheet says of differences from the hardware, by paragraphs.
+        diversions: What the sheet states about differences from the hardware, by paragraphs.
     """
 
     known: tuple[SensorDevice, ...]

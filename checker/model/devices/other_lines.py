@@ -64,7 +64,7 @@ def _lines(sheet: Specification, configurations: Set[int]) -> Iterator[Located[s
 
 
 def _listed(sheet: Specification, configurations: Set[int]) -> Iterator[Span]:
-    """Yield the items of the list of sensors, and of those left out what stands below them."""
+    """Yield the items of the list of sensors, and of those left out what is below them."""
     section = sheet.section("sensors")
     lead = frozenset[int]()
     left_out = False

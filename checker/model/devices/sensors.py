@@ -177,7 +177,7 @@ def _narrowed(named: _Named, items: list[_Item], present: set[LidarClass | None]
 def _agreed(chosen: dict[_Named, _Item]) -> set[_Item]:
     """Return the items that speak of as many sensors as were found to belong to them.
 
-    Where an item does not say how many, they must be set alike.
+    Where an item does not state how many, they must be set alike.
     """
     members: dict[_Item, list[_Named]] = defaultdict(list)
     for named, item in chosen.items():

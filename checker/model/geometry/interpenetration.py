@@ -90,7 +90,7 @@ def _depth(robot: Robot, one: Placed, other: Placed, enough: float) -> float:
 
 
 def is_convex(robot: Robot, shape: Placed) -> bool:
-    """Say whether a shape is convex, a mesh nearly so."""
+    """Return whether a shape is convex, a mesh nearly so."""
     mesh = robot.mesh_of(shape.shape)
     if mesh is None:
         return True

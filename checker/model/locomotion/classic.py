@@ -39,7 +39,7 @@ class ClassicDrive(Record):
     swapped_unless_false: str
 
     def swaps(self, plugin: Plugin) -> bool:
-        """Say whether the plugin takes the wheels that it names as left for those on the right."""
+        """Return whether the plugin treats the wheels that it names as left as the right ones."""
         tag = self.swapped_unless_false
         words = [text.value.strip().lower() for text in plugin.at(tag)] if tag else ["false"]
         return not words or words[0] not in ("false", "0")

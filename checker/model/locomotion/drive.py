@@ -78,7 +78,7 @@ def _joints_at(plugin: Plugin, paths: Mapping[str, str]) -> Iterator[str]:
 
 
 def is_legged(plugins: Iterable[Plugin]) -> bool:
-    """Say whether a robot walks: by a plugin for legs, or by joint controllers and nothing else."""
+    """Return whether a robot walks: by a plugin for legs, or by joint controllers alone."""
     classes = [plugin.class_name for plugin in plugins]
     if any(name in DRIVE_CLASSES for name in classes):
         return _LEGS in classes

@@ -100,7 +100,7 @@ def _steering(robot: Robot) -> Iterator[tuple[Joint, Side]]:
 
 
 def _doubt(wheels: Sequence[Wheel]) -> str:
-    """Say why it is not certain how wheels drive the robot; empty where it is."""
+    """Return the reason why it is not certain how wheels drive the robot; empty where it is."""
     if len(wheels) > _MOST:
         return f"it has more than {_MOST} wheels"
     if any(wheel.axis is None or wheel.axis[1] < _ALONG for wheel in wheels):

@@ -12,7 +12,7 @@ from checker.source.text import Located, Span
 
 
 class DriveKind(enum.StrEnum):
-    """The way a robot moves, as reports say it."""
+    """The way a robot moves, as reports state it."""
 
     DIFFERENTIAL = "differential drive"
     SKID_STEER = "skid-steer drive"
@@ -68,7 +68,7 @@ class Wheel(Record, eq=False):
         joint: The joint that turns it.
         link: The joint's child.
         body: `link` and the links fixed to it: their collisions are the wheel's.
-        side: What the plugin says.
+        side: What the plugin states.
         centre: Origin of the joint in the robot's frame, metres; None if unknown.
         axis: Direction of the joint's axis in the robot's frame, of length 1; None if unknown.
         radius: Reach of its collisions across the axis, metres; None where no collision or no
@@ -92,13 +92,13 @@ class Wheel(Record, eq=False):
 class WheelDrive(Record, eq=False):
     """One DiffDrive, AckermannSteering or MecanumDrive plugin, or one of Gazebo Classic.
 
-    A controller of ros2_control that drives wheels is one as well.
+    A controller of ros2_control that drives wheels is one too.
 
     Attributes:
         plugin: The plugin of Gazebo, or the controller.
         wheels: The wheels that the plugin drives, in its order; joints that do not exist are left
             out, one named for both sides stands there twice.
-        wheel_separation: Metres; the plugin's default (`stated` false) where it says none.
+        wheel_separation: Metres; the plugin's default (`stated` false) where it states none.
         wheel_radius: Metres; likewise.
         wheel_base: Metres, of Ackermann steering.
         kingpin_width: Metres, of Ackermann steering.
@@ -142,7 +142,7 @@ class WheelDrive(Record, eq=False):
         return next((wheel.axis for wheel in self.wheels if wheel.axis is not None), None)
 
     def wheels_on(self, side: Side) -> tuple[Wheel, ...]:
-        """Return the wheels that the plugin says are on one side."""
+        """Return the wheels that the plugin states are on one side."""
         return tuple(wheel for wheel in self.wheels if wheel.side is side)
 
 
@@ -165,7 +165,7 @@ class TrackedDrive(Record, eq=False):
 
     Attributes:
         tracks: The tracks that it commands and that have a TrackController.
-        separation: Metres between the tracks; the plugin's default where it says none.
+        separation: Metres between the tracks; the plugin's default where it states none.
         steering_efficiency: Share of the commanded turn that the tracks are expected to lose.
     """
 
@@ -187,7 +187,7 @@ class Rotor(Record, eq=False):
         number: `motorNumber`; None if not stated.
         direction: 1 for counter-clockwise (`ccw`), −1 for clockwise; 0 if not stated or unknown.
         motor_constant: Thrust = motor_constant · ω², N·s²; the plugin's default (`stated` false)
-            where it says none.
+            where it states none.
         moment_constant: Torque about the axis = moment_constant · thrust, metres; likewise.
         max_velocity: Greatest rotor speed, rad/s; likewise.
         centre: The rotor's centre in the robot's frame, metres.

@@ -70,8 +70,8 @@ class BoundedMotion(Record, eq=False):
         kind: Along the axis, or about it.
         axis: The axis of the robot: `x`, `y` or `z`.
         limits: The limits as the plugin states them.
-        both_kinds: Whether one figure bounds the linear and the angular motion alike: what it says
-            about the angular one may not be meant.
+        both_kinds: Whether one figure bounds the linear and the angular motion alike: what it
+            states about the angular one may not be meant.
         flies: Whether the plugin is that of a multicopter.
     """
 
@@ -127,12 +127,12 @@ def bounded_motions(locomotion: Locomotion) -> Iterator[BoundedMotion]:
 
 
 def is_unlimited(number: Located[float]) -> bool:
-    """Say whether a limit is so large that it means that there is none."""
+    """Return whether a limit is so large that it means that there is none."""
     return not abs(number.value) < UNLIMITED
 
 
 def _same(one: Located[float] | None, other: Located[float] | None) -> bool:
-    """Say whether two figures are one text."""
+    """Return whether two figures are one text."""
     if one is None or other is None or one.span.source is not other.span.source:
         return False
     return (one.span.start, one.span.end) == (other.span.start, other.span.end)

@@ -1,4 +1,4 @@
-"""The parts that a robot rolls on: wheels and tracks, and how they hang on its body."""
+"""The parts that a robot rolls on: wheels and tracks, and how they are connected to its body."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ class RollingPart(Record, eq=False):
         wheel: None for a track, and for a wheel beside those that a plugin drives.
         is_track: Whether it is a track.
         box: The bounding box of its collisions, in the robot's frame.
-        suspended: Whether it hangs on a joint that gives way, beside its own and its steering.
+        suspended: Whether it is connected to a joint that gives way, beside its own and its
+            steering.
     """
 
     links: tuple[Link, ...]
@@ -88,7 +89,7 @@ def _turns(robot: Robot, link: Link) -> bool:
 
 
 def _links_that_give(robot: Robot, passive: set[str]) -> dict[str, bool]:
-    """Say for each link whether a joint between it and the root lets it move."""
+    """State for each link whether a joint between it and the root lets it move."""
     gives: dict[str, bool] = {WORLD: False}
     for start in robot.tree.links:
         path: dict[str, bool] = {}
@@ -107,7 +108,7 @@ def _links_that_give(robot: Robot, passive: set[str]) -> dict[str, bool]:
 
 
 def carriers(robot: Robot, parts: Iterable[RollingPart]) -> set[str]:
-    """Return the links that parts hang on, directly or over others, by scoped name."""
+    """Return the links that parts are connected to, directly or over others, by scoped name."""
     found: set[str] = set()
     for part in parts:
         waiting = [part.link.scoped_name]
@@ -120,7 +121,7 @@ def carriers(robot: Robot, parts: Iterable[RollingPart]) -> set[str]:
 
 
 def on_one_axle(parts: Iterable[RollingPart]) -> bool:
-    """Say whether all wheels are in one line: the robot then stands on something else too."""
+    """Return whether all wheels are in one line: the robot then stands on something else too."""
     wheels = list(parts)
     if any(part.is_track for part in wheels):
         return False

@@ -54,7 +54,7 @@ def _pivot(robot: Robot, link: str) -> Joint | None:
 
 
 def _turns_freely(joint: Joint) -> bool:
-    """Say whether a joint turns without end."""
+    """Return whether a joint turns without end."""
     if joint.type.value not in ("continuous", "revolute") or len(joint.axes) != 1:
         return False
     lower, upper = joint.axes[0].lower.value, joint.axes[0].upper.value

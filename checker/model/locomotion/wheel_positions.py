@@ -96,7 +96,7 @@ class _Matches:
             self.heights.setdefault((foot.side, self._row(foot)), []).append(foot.height)
 
     def has(self, foot: Foot) -> bool:
-        """Say whether there is one; a wheel in the middle matches itself."""
+        """Return whether there is one; a wheel in the middle matches itself."""
         rows = (self._row(foot) + step for step in (-1, 0, 1))
         return any(self._as_high(foot, self.heights.get((-foot.side, row), [])) for row in rows)
 
@@ -147,7 +147,7 @@ class CountedDistance(Record, eq=False):
 
     Attributes:
         tag: The parameter.
-        stated: Metres; the plugin's default (`stated` false) where it says none.
+        stated: Metres; the plugin's default (`stated` false) where it states none.
         true: The measure of the parts in the robot, metres.
         what: The parts, in words.
         steers: Whether steering angles come from it.

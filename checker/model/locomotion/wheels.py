@@ -51,7 +51,7 @@ def misalignment(robot: Robot, wheel: Wheel) -> float | None:
 
 
 def is_misaligned(robot: Robot, wheel: Wheel) -> bool:
-    """Say whether a wheel's tread stands across its joint: its reach then says nothing."""
+    """Return whether a wheel's tread stands across its joint: its reach then states nothing."""
     return (misalignment(robot, wheel) or 0.0) > ASKEW
 
 
@@ -87,7 +87,7 @@ class WheelReader:
         Args:
             plugin: What names the joint: one of the model that the plugin stands in.
             name: The name of the joint.
-            side: What the plugin says.
+            side: What the plugin states.
             knuckles: Steering joints by the link that each of them turns.
         """
         scope = f"{plugin.nested_in}::" if plugin.nested_in else ""

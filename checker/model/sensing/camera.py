@@ -20,7 +20,7 @@ class Pinhole(Record):
     cy: float
 
     def agrees(self, other: Pinhole, share: float, pixels: float) -> bool:
-        """Say whether focal lengths agree within a share, and principal points within pixels."""
+        """Return whether focal lengths agree within a share, and principal points within pixels."""
         return (
             math.isclose(self.fx, other.fx, rel_tol=share)
             and math.isclose(self.fy, other.fy, rel_tol=share)

@@ -42,7 +42,7 @@ class Lidar(Record, eq=False):
 
     Attributes:
         horizontal: Rays of a row.
-        vertical: Rows; one where the file says nothing.
+        vertical: Rows; one where the file states nothing.
         range_min: Metres; what a plugin of Gazebo Classic leaves out does not count.
         range_max: Metres; the same.
         range_resolution: Metres; 0 where the file states none.

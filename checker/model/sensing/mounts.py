@@ -88,7 +88,7 @@ _TOO: dict[str, tuple[Vector, ...]] = {
     **dict.fromkeys(("bottom", "lower", "belly", "cliff", "floor", "ground", "landing"), (_DOWN,)),
     "side": (_LEFT, _RIGHT),
 }
-"""Words of where a sensor is or what it looks at: it may look that way as well."""
+"""Words of where a sensor is or what it looks at: it may look that way too."""
 
 _DEVICE = re.compile(
     r"cam(?:era)?|depth|hokuyo|ir|laser|lidar|ouster|realsense|rgbd?|rs|scan(?:ner)?|sensor"
@@ -122,7 +122,7 @@ class CalledDirections(Record):
 
 
 def called_directions(mounted: Mounted) -> CalledDirections | None:
-    """Return what a sensor's name says, else its topic, else the name of a link made for it."""
+    """Return what a sensor's name states, else its topic, else the name of a link made for it."""
     for source, text in _names(mounted):
         words = _words(text)
         directions = [word for word in words if word in _DIRECTIONS]

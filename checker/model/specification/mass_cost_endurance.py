@@ -44,7 +44,7 @@ _SAME = 0.1
 
 
 def durations(passages: Iterable[Passage]) -> Iterator[Quantity]:
-    """Yield the durations of an endurance section that say how long the robot runs."""
+    """Yield the durations of an endurance section that state how long the robot runs."""
     for passage in passages:
         for sentence in sentences(passage):
             last = 0
@@ -128,7 +128,7 @@ class Price(Record, eq=False):
     Attributes:
         amount: The amount in the currency of the sheet.
         span: The number and currency.
-        is_sum: Whether its line says that it is the whole.
+        is_sum: Whether its line states that it is the whole.
         is_part: Whether its line is an item: a price and what it is for.
         is_clear: Whether it is one number for one thing, no range and no price a piece.
     """
@@ -179,7 +179,7 @@ _NOT_THE_ROBOT = re.compile(
 
 
 def masses(passages: Iterable[Passage]) -> Iterator[Quantity]:
-    """Yield every mass; it is the robot's when its words say `weighs`, `weight`, `mass` of it."""
+    """Yield every mass; it is the robot's when its words state `weighs`, `weight`, `mass` of it."""
     for passage in passages:
         for sentence in sentences(passage):
             last = 0

@@ -45,8 +45,8 @@ class Limit(Record, eq=False):
         axes: Letters among `xyz`; empty when the sheet names none.
         minimum: The minimum in SI units; None when the sheet gives only the greatest amount.
         maximum: The maximum in SI units.
-        modeled: Whether the sheet says that the model has this limit, other than the robot.
-        approximate: Whether the text says `about`, `~` or the like.
+        modeled: Whether the sheet states that the model has this limit, other than the robot.
+        approximate: Whether the text states `about`, `~` or the like.
         span: The numbers and their units.
     """
 

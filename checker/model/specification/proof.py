@@ -66,7 +66,7 @@ _ABOUT_TESTS = re.compile(rf"\b{_TEST}\b", re.IGNORECASE)
 _ABOUT = {what: re.compile(rf"\b(?:{what.value})\b", re.IGNORECASE) for what in Proven}
 MAX_LINKS = 500
 _NEAR = 500
-"""Characters before and behind a link that may say what it is about."""
+"""Characters before and behind a link that may state what it is about."""
 _TURNING = re.compile(r"\b(?:angular|turning|radius|rotation\w*|yaw)\b", re.IGNORECASE)
 _LINEAR = re.compile(r"\b(?:linear|[xyz])\b", re.IGNORECASE)
 _OTHER = re.compile(r"\b(?:mass|weight|acceleration\w*|flippers?)\b", re.IGNORECASE)
@@ -115,8 +115,8 @@ def _is_about_tests(sentence: str) -> bool:
 def links_in_list(source: SourceText, start: int, end: int) -> Iterator[Span]:
     """Yield links to measurements in the section on validation.
 
-    Words in the line such as `speed test` say what a link is; one without any word counts, unless
-    it stands below a line such as `Sensors:` or is that of a product. Lines about a device or about
+    Words in the line such as `speed test` state what a link is; one without any word counts, unless
+    it is below a line such as `Sensors:` or is that of a product. Lines about a device or about
     a planned test prove nothing, nor do placeholders such as `https://youtu.be/xxxx`.
     """
     label = ""
@@ -137,7 +137,7 @@ def links_in_list(source: SourceText, start: int, end: int) -> Iterator[Span]:
 
 
 def links_in_text(source: SourceText, start: int, end: int) -> Iterator[Span]:
-    """Yield links to videos and logs in the section about what they prove: the host says it."""
+    """Yield links to videos and logs in the section about what they prove: the host states it."""
     for offset, line in _lines(source, start, end):
         for match in _URL.finditer(line) if not _is_of_device(_URL.sub(" ", line)) else ():
             if _is_shared(match.group()) and not _PLACEHOLDER.search(match.group()):

@@ -46,7 +46,7 @@ class Quantity(Record, eq=False):
         value: The value in SI units.
         resolution: What one step of its last digit is worth, in SI units.
         unit_text: The unit as written.
-        approximate: Whether the text says `about`, `~` or the like.
+        approximate: Whether the text states `about`, `~` or the like.
         configurations: Sensor configurations that its sentence names.
         span: Number and unit.
     """
@@ -61,7 +61,7 @@ class Quantity(Record, eq=False):
 
 
 class Sentence(Record):
-    """A sentence of a passage: `text` stands at `start` of the passage's text."""
+    """A sentence of a passage: `text` is at `start` of the passage's text."""
 
     passage: Passage
     start: int

@@ -79,7 +79,7 @@ def kinds_in(words: str, device: str) -> tuple[SensorKind, ...]:
 
     Args:
         words: What is searched: behind `modeled by`, or the whole item.
-        device: The whole item, which says whether a lidar is planar or measures one point.
+        device: The whole item, which states whether a lidar is planar or measures one point.
     """
     places: dict[SensorKind, int] = {}
     for kind, pattern in _KINDS:
@@ -120,4 +120,4 @@ TYPES = {
 """Types that represent a kind; kinds that plugins may represent are left out."""
 
 SUBSTITUTES = {SensorKind.CAMERA: _DEPTH, SensorKind.DEPTH_CAMERA: _CAMERAS}
-"""Types that words may mean as well: a camera that also measures depth."""
+"""Types that words may mean too: a camera that also measures depth."""

@@ -35,8 +35,8 @@ class ListedSensor(Record, eq=False):
 
     Attributes:
         kind: What it is.
-        count: The number; None when the item does not say so clearly.
-        modeled: Whether the item says which plugin or sensor of the model represents it.
+        count: The number; None when the item does not state it clearly.
+        modeled: Whether the item states which plugin or sensor of the model represents it.
         configurations: Sensor configurations that the item or the words above its list name;
             empty when it is meant for all that the sheet describes.
         text: The item.
@@ -63,7 +63,7 @@ def listed_sensors(passages: Sequence[Passage]) -> Iterator[ListedSensor]:
 
 
 def _breadcrumbs(passage: Passage) -> Iterator[ListedSensor]:
-    """Yield what lines such as `Sensor Config 2 adds 12 breadcrumbs:` say outside of lists."""
+    """Yield what lines such as `Sensor Config 2 adds 12 breadcrumbs:` state outside of lists."""
     for line in re.finditer(r".+", passage.text):
         match = _BREADCRUMBS.search(line.group())
         if match:
@@ -112,12 +112,12 @@ def _read_item(
 
 
 def stated_count(words: str) -> int | None:
-    """Return how many sensors words such as `two RGBD cameras` say there are; None if unclear."""
+    """Return how many sensors words such as `two RGBD cameras` state there are; None if unclear."""
     return _count(words, ())
 
 
 def _count(words: str, below: Iterable[Passage]) -> int | None:
-    """Return how many an item says there are: in front, as `(x3)`, or item by item below it."""
+    """Return how many an item states there are: in front, as `(x3)`, or item by item below it."""
     if leading := _LEADING.match(words):
         return int(number_of(leading.group(1)))
     if times := _TIMES.search(words):

@@ -40,7 +40,7 @@ _REFERRED = re.compile(
 
 
 class Section(Record, eq=False):
-    """A heading and what stands below it.
+    """A heading and what is below it.
 
     Attributes:
         title: Visible text of the heading.
@@ -122,7 +122,7 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def durations(self) -> tuple[Quantity, ...]:
-        """Durations of the endurance section that say how long the robot runs."""
+        """Durations of the endurance section that state how long the robot runs."""
         return tuple(durations(self._passages_of("endurance")))
 
     @cached_property

@@ -116,7 +116,7 @@ def unpack_archive(
         limits: What the archive may hold.
 
     Raises:
-        RefusedArchive: An entry could do harm, or there is more than a package holds.
+        RefusedArchive: An entry could do harm, or there is more than a package contains.
         UnreadableInput: The archive is truncated, damaged, empty, or cannot be written out.
     """
     with _checked_index(archive, name, limits) as (index, contents):
@@ -142,7 +142,7 @@ def check_archive(
         descriptor: The descriptor of the file, where it cannot be opened by name; it stays open.
 
     Raises:
-        RefusedArchive: An entry could do harm, or there is more than a package holds.
+        RefusedArchive: An entry could do harm, or there is more than a package contains.
         UnreadableInput: The archive is truncated, damaged or empty, according to its index.
     """
     with _checked_index(archive, name, limits, descriptor):
@@ -168,7 +168,7 @@ def _checked_index(
 
 
 def _write(path: Path, member: Member, content: _Readable) -> None:
-    """Write one file, and never more than its index entry says."""
+    """Write one file, and never more than its index entry states."""
     path.parent.mkdir(parents=True, exist_ok=True)
     left = member.size
     # "x" refuses whatever stands there already.

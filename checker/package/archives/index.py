@@ -46,7 +46,7 @@ class ArchiveLimits(Record):
 
 
 class DamagedArchive(Exception):
-    """An archive that contradicts its own format; the text says how."""
+    """An archive that contradicts its own format; the text states how."""
 
 
 def plain_path(name: str) -> str:

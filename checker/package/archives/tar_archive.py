@@ -195,7 +195,7 @@ def _decimal(text: bytes) -> int:
 
 
 def _overrides(entry: TarEntry) -> dict[str, bytes]:
-    """Return what an extended header says about the next entry."""
+    """Return what an extended header states about the next entry."""
     data = entry.read(entry.size)
     if entry.kind == _LONG_NAME:
         return {"path": data}

@@ -102,7 +102,7 @@ def principal_moments(moments: Matrix) -> Vector:
 def pseudo_eigenvalue(mass: float, moments: Matrix) -> float:
     """Return the smallest eigenvalue of the pseudo-inertia; see `LinkInertia`.
 
-    It says at once whether the mass and the moments are positive and whether the moments keep the
+    It states at once whether the mass and the moments are positive and whether the moments keep the
     triangle inequality (Wensing, Kim and Slotine, "Linear matrix inequalities for physically
     consistent inertial parameter identification", 2018).
     """

@@ -35,7 +35,7 @@ class _Body(Record):
 
 
 def link_inertias(robot: Robot) -> LinkInertias:
-    """Return the inertia of each link; those of a rigid piece count together as well."""
+    """Return the inertia of each link; those of a rigid piece count together too."""
     piece_of = robot.tree.rigid_bodies.of_link
     written = {
         name: (link, inertial_pose(robot, link), rows_of(link))

@@ -76,9 +76,9 @@ class SpanningTree(Record, eq=False):
     """The links of a robot, parents before children.
 
     Attributes:
-        order: Scoped names, each behind the one it hangs on.
+        order: Scoped names, each behind the one it is connected to.
         by: The tie by which a link hangs, by the link; roots have none.
-        left_out: Ties whose child hangs on another link already.
+        left_out: Ties whose child is connected to another link already.
     """
 
     order: tuple[str, ...]
@@ -87,7 +87,7 @@ class SpanningTree(Record, eq=False):
 
     @property
     def depth_first(self) -> Iterator[str]:
-        """The links so that all that hangs on one follows it without a gap."""
+        """The links so that all that is connected to one follows it without a gap."""
         below: dict[str | None, list[str]] = {}
         for name in self.order:
             tie = self.by.get(name)

@@ -31,7 +31,7 @@ class Degree(Record):
     """One degree of freedom.
 
     Attributes:
-        part: Scoped name of the joint; of a free robot, of the link that hangs on nothing.
+        part: Scoped name of the joint; of a free robot, of the link that has no parent.
         number: The number of the joint's axis, from 0; of a ball x, y, z of its turn rate; of a
             free link x, y, z of its velocity, then of its turn rate.
         free: Whether it is one of a free link.
@@ -80,7 +80,7 @@ class PinModel(Record, eq=False):
 
 
 def pin_model(robot: Robot) -> PinModel:
-    """Build the model of a robot: links that hang on nothing are free.
+    """Build the model of a robot: links that have no parent are free.
 
     It has room for some hundred joints: Pinocchio's `Data` holds square matrices.
     """

@@ -102,7 +102,7 @@ def appearances(
     """Return as JSON what each of some files looks like.
 
     Args:
-        items: The items for each `file`, `name` (its suffix says the format), `triangles` (at
+        items: The items for each `file`, `name` (its suffix states the format), `triangles` (at
             most), `pictures` (by the names inside), `materials` (material files).
         files: All of these, under the names that the items give them.
         run_in_forks: Reads them.

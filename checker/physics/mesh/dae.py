@@ -62,7 +62,7 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[st
     """Return what the scene shows in the file's unit, and what could not be read.
 
     Args:
-        bare: A document that says nothing of materials.
+        bare: A document that states nothing of materials.
 
     Returns:
         pycollada's bound sets of triangles, each with the id of its geometry and the name of the
@@ -182,7 +182,7 @@ _NO_GEOMETRY = frozenset(
         *("instance_camera", "instance_controller", "instance_light"),
     }
 )
-"""Elements that say nothing of the surface; faults in them must not hide it."""
+"""Elements that state nothing of the surface; faults in them must not hide it."""
 
 
 def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:

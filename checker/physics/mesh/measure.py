@@ -55,7 +55,7 @@ class Joined(Record, eq=False):
         return replace(self, faces=self.faces[chosen])
 
     def is_closed(self) -> tuple[bool, bool]:
-        """Say whether two triangles meet at each edge; and if so, all with the same side out."""
+        """Return whether two triangles meet at each edge; and if so, all with the same side out."""
         import numpy as np
 
         start, end = self.faces.ravel(), self.faces[:, (1, 2, 0)].ravel()
@@ -201,7 +201,7 @@ def _with_three_corners(mesh: Joined) -> NDArray[bool_]:
 
 
 def _without_area(mesh: Joined) -> NDArray[bool_]:
-    """Say of each triangle whether it is lower than `THINNEST`."""
+    """State of each triangle whether it is lower than `THINNEST`."""
     import numpy as np
 
     a, b, c = mesh.vertices[mesh.faces].transpose(1, 0, 2)

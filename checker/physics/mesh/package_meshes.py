@@ -151,7 +151,7 @@ class PackageMeshes(Record, eq=False, dict=True):
     def _placed(
         self, key: str | MeshFault, results: Mapping[str, _Read | WorkerFailed], file: MeshFile
     ) -> _Read:
-        """Return what was read as that of a file, with what the files beside it say."""
+        """Return what was read as that of a file, with what the files beside it state."""
         read = key if isinstance(key, MeshFault) else results[key]
         if isinstance(read, WorkerFailed):
             reason = f"was not read: its reader {read.reason}"
@@ -195,7 +195,7 @@ def _key(file: MeshFile, picked: Sequence[str]) -> str | MeshFault:
 
 
 def _lasts(read: _Read) -> bool:
-    """Say whether a result holds: another day, or machine, may have the time or the memory."""
+    """Return whether a result holds: another day, or machine, may have the time or the memory."""
     return isinstance(read, Mesh) or read.trouble is not MeshTrouble.NOT_LOOKED_AT
 
 
@@ -204,7 +204,7 @@ _POINTS = ("low", "high")
 
 
 def read_from_json(data: Any) -> _Read:
-    """Return what a file holds, as the process that reads says it.
+    """Return what a file holds, as the process that reads states it.
 
     Raises:
         AttributeError, KeyError, TypeError, ValueError: It is something else.

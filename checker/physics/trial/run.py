@@ -183,7 +183,7 @@ class RobotTrials(Record, eq=False, dict=True):
 
 
 def _obstacle(robot: Robot) -> NotAvailable | None:
-    """Say why a model is nothing to drive at all."""
+    """Return the reason why a model is nothing to drive at all."""
     if not robot.links:
         return NotAvailable(
             "the model has no links, so there is nothing to drive", applicable=False

@@ -71,7 +71,7 @@ def ball_around(corners: Array) -> tuple[Array, float]:
 
 
 def in_view(middle: Array, radius: float, grid: Grid) -> bool:
-    """Say whether a ray of a grid may meet what is within a ball.
+    """Return whether a ray of a grid may meet what is within a ball.
 
     Args:
         middle: The centre of the ball (3), metres, in the sensor's frame.

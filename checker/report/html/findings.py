@@ -201,7 +201,7 @@ def grades_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ())
 
 
 def rule_pages(findings: Sequence[ReportedFinding]) -> list[RulePage]:
-    """Return what is said of each rule that found something, by its id."""
+    """Return what is stated about each rule that found something, by its id."""
     number = Counter(finding.rule for finding in findings)
     firsts = {finding.rule: finding for finding in reversed(findings)}
     return [

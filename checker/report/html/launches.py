@@ -42,7 +42,7 @@ class Line(Record):
 
 
 class Drawing(Record):
-    """Boxes and lines of one height; `title` says what is seen."""
+    """Boxes and lines of one height; `title` states what is seen."""
 
     title: str
     height: int

@@ -54,7 +54,7 @@ class Reason(Record):
 
 
 class SetAside(Record):
-    """A finding that does not count: what it says, where, and why it does not."""
+    """A finding that does not count: what it states, where, and why it does not."""
 
     rule: str
     message: str
@@ -91,7 +91,7 @@ def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
 
 
 def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
-    """Return why the rules on the trial did not look; empty where they say nothing."""
+    """Return why the rules on the trial did not look; empty where they state nothing."""
     reasons = (skipped.reason for skipped in not_checked if skipped.rule.startswith("TRI"))
     return plain(shortened(next(reasons, ""), _TEXT_LIMIT))
 

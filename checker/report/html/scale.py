@@ -26,7 +26,7 @@ class Scale(Record):
     peak: float
 
     def holds(self, values: Values) -> bool:
-        """Say whether a whole curve is on it."""
+        """Return whether a whole curve is on it."""
         return all(self.low <= value <= self.high for value in known_values(values))
 
 

@@ -34,7 +34,7 @@ _UPRIGHT = [-math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]
 def glb_of(scene: DisplayScene) -> bytes:
     """Return a scene as a GLB.
 
-    Nodes of links and of their parts say in `extras` what they represent: `kind`, or
+    Nodes of links and of their parts state in `extras` what they represent: `kind`, or
     `layer`, with `name` and `element`. The scene's `extras` give the robot's name, and a sphere
     around it in metres with z up.
     """

@@ -40,12 +40,12 @@ _NAME = 80
 
 @dataclass
 class Notes:
-    """Sentences in the order in which they were first said."""
+    """Sentences in the order in which they were first stated."""
 
     _sentences: dict[str, None] = field(default_factory=dict)
 
     def say(self, sentence: str) -> None:
-        """Add a sentence, unless it was said."""
+        """Add a sentence, unless it was stated."""
         self._sentences[sentence] = None
 
     @property
@@ -80,7 +80,7 @@ class NoSurfaces(Record):
     """For a robot whose mesh files are not read."""
 
     def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`
-        """Say that the file was not read."""
+        """State that the file was not read."""
         return "was not read"
 
 
@@ -191,7 +191,7 @@ def _asked_of(
 
 
 def _lasts(read: Appearance) -> bool:
-    """Say whether a result holds: next time there may be more time or memory."""
+    """Return whether a result holds: next time there may be more time or memory."""
     return not isinstance(read, str)
 
 

@@ -214,7 +214,7 @@ class Drawing:
             self.child.stop()
 
     def give(self, scene: DisplayScene, shots: Sequence[Shot], form: str = "JPEG") -> None:
-        """Say what to draw; it is drawn while the caller does something else.
+        """Report what to draw; it is drawn while the caller does something else.
 
         Args:
             scene: The scene of a robot.

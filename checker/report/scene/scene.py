@@ -49,7 +49,7 @@ class Item(Record, eq=False):
 
 
 class LinkNode(Record, eq=False):
-    """A link with what hangs on it.
+    """A link with what is connected to it.
 
     Attributes:
         name: Scoped name; no two links have the same.

@@ -16,7 +16,7 @@ from checker.report.scene.mesh_files import Notes, Surfaces, short
 from checker.report.scene.scene import Item
 
 Hung = Iterator[tuple[str, Item]]
-"""Items, each with the scoped name of the link that it hangs on."""
+"""Items, each with the scoped name of the link that it is connected to."""
 
 
 class Showing(Record, eq=False, dict=True):
@@ -55,7 +55,7 @@ class Showing(Record, eq=False, dict=True):
 
     @staticmethod
     def inertial_path(link: Link) -> str:
-        """Return the path of the element that says what a link weighs, or should."""
+        """Return the path of the element that states what a link weighs, or should."""
         return link.element.path if link.inertial is None else link.inertial.span.element
 
     def _in_link(self, link: Link, pose: Pose) -> Transform | None:

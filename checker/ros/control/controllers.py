@@ -73,8 +73,8 @@ class ControlPlugin(Record, eq=False):
     """The plugin `gazebo_ros_control`.
 
     Attributes:
-        namespace: What `<robotNamespace>` says, absolute; None when it says nothing.
-        parameter: What `<robotParam>` says, else `robot_description`.
+        namespace: What `<robotNamespace>` states, absolute; None when it states nothing.
+        parameter: What `<robotParam>` states, else `robot_description`.
     """
 
     plugin: Plugin

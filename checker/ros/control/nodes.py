@@ -59,7 +59,7 @@ class StateListener(Record, eq=False):
     Attributes:
         node: The node.
         topic: Absolute topic it listens to.
-        span: The remap that says so, else the node.
+        span: The remap that states it, else the node.
     """
 
     node: Node
@@ -97,7 +97,7 @@ class SpawnedModel(Record, eq=False):
 
     @property
     def parameter(self) -> str:
-        """Absolute name of the parameter that holds the description; empty when none does."""
+        """Absolute name of the parameter that contains the description; empty when none does."""
         word = self._word("-param")
         return resolve_name(word, self.node.namespace, self.node.name) if word else ""
 
@@ -112,7 +112,7 @@ class SpawnedModel(Record, eq=False):
 
 
 def read_spawned(node: Node) -> Iterator[Spawned | str]:
-    """Yield the controllers that a node starts; a text says why some are not known."""
+    """Yield the controllers that a node starts; a text states why some are not known."""
     if node.package != "controller_manager" or node.type not in ("spawner", "controller_manager"):
         return
     names, options = _parted(node.words, _ONE_VALUE)

@@ -136,7 +136,7 @@ class Parameters:
                 self.gains.append(item)
 
     def _affordable(self, values: int, file: str) -> bool:
-        """Count values, and say whether there are not too many by now."""
+        """Count values, and state whether there are not too many by now."""
         self._values += values
         if self._values > MAX_VALUES:
             self.unread.append(
@@ -180,7 +180,7 @@ def control_system(
         package: The package.
         entries: Its launch files.
         robots: Its robots.
-        descriptions: What its URDF files say beside.
+        descriptions: What its URDF files state beside.
     """
     parameters, unread = Parameters(package), list(entries.graph.unread)
     launches = []
@@ -284,7 +284,7 @@ def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
 
 
 def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
-    """Yield the descriptions that a launch file reads and that no available package holds."""
+    """Yield the descriptions that a launch file reads and that no available package contains."""
     named = [(param.value, param.span) for param in graph.params if param.kind in _READING]
     named += [
         (word.value, word.span)

@@ -32,7 +32,7 @@ def distribution_of(context: Context) -> str:
 
 
 def is_from(distribution: str, first: str) -> bool:
-    """Say whether a distribution is one, or a later one."""
+    """Return whether a distribution is one, or a later one."""
     return ORDER.index(distribution) >= ORDER.index(first)
 
 
@@ -55,7 +55,7 @@ class HardwareClass(Record):
     evidence: str
 
     def exists_in(self, distribution: str) -> bool:
-        """Say whether a distribution has it."""
+        """Return whether a distribution has it."""
         return bool({"*", distribution, _column(distribution)} & set(self.distros))
 
 
@@ -67,13 +67,13 @@ def hardware_classes() -> Mapping[str, HardwareClass]:
 
 
 def is_of_gazebo(plugin: str) -> bool:
-    """Say whether a hardware class only works within Gazebo's process."""
+    """Return whether a hardware class only works within Gazebo's process."""
     package = plugin.partition("/")[0]
     return package in _GAZEBO_PACKAGES or package.endswith(_GAZEBO_PACKAGES)
 
 
 def has_every_class(package: str) -> bool:
-    """Say whether all hardware classes of a package are known."""
+    """Return whether all hardware classes of a package are known."""
     return package in _COMPLETE
 
 
@@ -103,7 +103,7 @@ class ControllerType(Record):
         sensor_params: Parameters that name a sensor or gpio of `<ros2_control>`.
         required: Parameters without which it cannot be configured, and where.
         params: All its parameters by name; `<joints>` in a name represents each of that list.
-        interface: Command interface of its joints; empty where the parameters say it.
+        interface: Command interface of its joints; empty where the parameters state it.
     """
 
     package: str
@@ -115,11 +115,11 @@ class ControllerType(Record):
     interface: str = field(default="")
 
     def exists_in(self, distribution: str) -> bool:
-        """Say whether a distribution has it."""
+        """Return whether a distribution has it."""
         return _column(distribution) in self.distros
 
     def known_in(self, name: str, distribution: str) -> bool:
-        """Say whether a parameter exists in a distribution."""
+        """Return whether a parameter exists in a distribution."""
         parameter = self.parameter(name)
         return parameter is not None and (
             not parameter.distros or _column(distribution) in parameter.distros
@@ -134,7 +134,7 @@ class ControllerType(Record):
         return next((self.params[known] for known in matching), None)
 
     def requires(self, name: str, distribution: str) -> bool:
-        """Say whether it cannot be configured without a parameter."""
+        """Return whether it cannot be configured without a parameter."""
         if _column(distribution) in self.required.get(name, ()):
             return True
         known = self.params.get(name)
@@ -148,7 +148,7 @@ class ControllerType(Record):
 
 
 def _fits(known: str, name: str) -> bool:
-    """Say whether a name is that of a parameter for each entry of a list, which may hold dots."""
+    """Return whether a name is that of a parameter for each entry of a list; it may have dots."""
     before, _, rest = known.partition("<")
     after = rest.partition(">")[2]
     inner = len(name) > len(before) + len(after)

@@ -24,7 +24,7 @@ class Interface(Record, eq=False):
 
     Attributes:
         name: The name, such as `velocity`.
-        numbers: What `min`, `max` and `initial_value` say; what reads as no number is left out.
+        numbers: What `min`, `max` and `initial_value` state; what reads as no number is left out.
         params: Texts of its `<param>`s by their names.
         element: The tag.
     """

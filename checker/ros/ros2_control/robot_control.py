@@ -41,7 +41,7 @@ class ParametersFile(Record, eq=False):
     """A file of parameters that a Gazebo plugin names.
 
     Attributes:
-        text: What the plugin says.
+        text: What the plugin states.
         package: Name of the package that it is in; empty where that is not known.
         path: The path as the checked package lists it; None where no such package is available.
         exists: Whether the file is there.
@@ -251,7 +251,7 @@ class ControlReader:
 
 
 def may_be_controlled(description: UrdfDescription) -> bool:
-    """Say whether a robot has a `<ros2_control>` tag, or a plugin that runs a manager."""
+    """Return whether a robot has a `<ros2_control>` tag, or a plugin that runs a manager."""
     root = description.document.root
     return root.child("ros2_control") is not None or any(
         map(_runs_manager, description.robot.plugins)

@@ -45,7 +45,7 @@ def classic_endpoints(robot: Robot) -> Iterator[Endpoint]:
 
 
 def unknown_plugin(robot: Robot) -> str:
-    """Say which plugin may have topics that the table does not know; else nothing."""
+    """Return which plugin may have topics that the table does not know; else nothing."""
     known = table("gazebo_classic_ros2")["plugins"]
     stems = (library_stem(plugin.filename.value) for plugin in robot.all_plugins)
     return next((f"what {stem} publishes is not known" for stem in stems if stem not in known), "")

@@ -20,7 +20,7 @@ _REFERENCE = re.compile(r"\{([\w.]+)\}")
 _DEEPEST = 4
 """Parameters whose defaults are the values of one another."""
 _OWN_RULES = ("-r", "--remap", "-p", "--param", "--params-file", "__node", "__ns", "__name")
-"""Beginnings of words by which a command line gives names and parameters as well."""
+"""Beginnings of words by which a command line gives names and parameters too."""
 
 
 class WiredNode(Record, eq=False, dict=True):
@@ -116,7 +116,7 @@ class WiredNode(Record, eq=False, dict=True):
         return tuple(inputs(self)) if self.knows_parameters else ()
 
     def publishes_more(self, message: str) -> str:
-        """Say why it may publish a type on a topic that `published_topics` lacks; else nothing."""
+        """Return why it may publish a type on a topic not in `published_topics`; else nothing."""
         if self.facts is None:
             return f"what {self.program} publishes is not known"
         own = [types for types in self.facts.publishes.values() if message in types]

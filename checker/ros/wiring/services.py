@@ -21,7 +21,7 @@ class Wanted(Record, eq=False):
     Attributes:
         name: Absolute.
         item: The item of a list that makes it wait; empty where its program always does.
-        span: What says so, else the start of the node.
+        span: What states it, else the start of the node.
     """
 
     name: str

@@ -86,7 +86,7 @@ class Wiring(Record, eq=False, dict=True):
         }
 
     def more_publishers(self, message: str) -> str:
-        """Say why there may be more topics of a type than `publishers` names; else nothing."""
+        """Return why there may be more topics of a type than `publishers` names; else nothing."""
         for node in self.every_node:
             if reason := node.publishes_more(message):
                 return reason
@@ -96,7 +96,7 @@ class Wiring(Record, eq=False, dict=True):
 
     @cached_property
     def unknown_parts(self) -> str:
-        """Say which part of a robot in Gazebo may publish what is not known; else nothing."""
+        """Return which part of a robot in Gazebo may publish what is not known; else nothing."""
         simulation = self.simulation
         known = {run.controller.name for run in self.controllers if run.is_known}
         reasons = [

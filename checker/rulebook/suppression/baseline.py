@@ -27,7 +27,7 @@ class BaselineEntry(Record):
     Attributes:
         rule: Id of the rule.
         places: The number of faults at each place, by names that `spots.py` gives them.
-        key: What its places have in common, where the rule says so.
+        key: What its places have in common, where the rule states it.
         reason: The reason why it need not be mended, if the user wrote so into the file.
     """
 

@@ -1,6 +1,6 @@
 """Comments that set findings aside: `<!-- subt-check: ignore[SEN005] reason -->`, and with `#`.
 
-They are found by reading the text alone, so that one inside of a string counts as well.
+They are found by reading the text alone, so that one inside of a string counts too.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Comment(Record):
         place: The place.
         names: Ids or names of rules; none where the comment has another form.
         fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
-        reason: The reason; empty when it does not say.
+        reason: The reason; empty when it does not state it.
         lines: The lines of the file, counted from 1: findings there are set aside.
     """
 
@@ -52,12 +52,12 @@ class Comment(Record):
 
 
 def has_xml_comments(name: str) -> bool:
-    """Say whether only the form of XML is a comment in a file, by its name."""
+    """Return whether only the form of XML is a comment in a file, by its name."""
     return name.lower().endswith((*xml_suffixes(), *_XML_TOO))
 
 
 def has_comments(name: str) -> bool:
-    """Say whether comments in a file can set findings aside, by its name."""
+    """Return whether comments in a file can set findings aside, by its name."""
     return has_xml_comments(name) or name.lower().endswith(_WITH_HASH)
 
 
@@ -101,7 +101,7 @@ def _lines_below(source: SourceText, stretches: list[tuple[int, int]]) -> dict[i
 
 
 def _is_alone(text: str, start: int, end: int) -> bool:
-    """Say whether the lines of a comment hold nothing but comments."""
+    """Return whether the lines of a comment hold nothing but comments."""
     first = text.rfind("\n", max(0, start - _LENGTH_LIMIT), start) + 1
     last = text.find("\n", end, end + _LENGTH_LIMIT)
     last = len(text) if last < 0 else last
@@ -117,7 +117,7 @@ def _is_alone(text: str, start: int, end: int) -> bool:
 def _parsed(
     source: SourceText, mark: re.Match[str], end: int, below: dict[int, int]
 ) -> Comment | None:
-    """Return what a comment says; None when it is about something else."""
+    """Return what a comment states; None when it is about something else."""
     content = _CONTENT.match(source.text[mark.end() : end].removesuffix("-->"))
     if content is None:
         return None

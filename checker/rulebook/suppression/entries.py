@@ -43,10 +43,10 @@ class SettingsEntry(Record):
 
 
 def entries_of(value: object) -> tuple[SettingsEntry, ...]:
-    """Return the entries that a settings file holds.
+    """Return the entries that a settings file contains.
 
     Raises:
-        ValueError: One is of another form; the text is a sentence that says which.
+        ValueError: One is of another form; the text is a sentence that states which.
     """
     if not isinstance(value, list) or len(value) > ENTRIES_LIMIT:
         raise ValueError(f"suppress is not a list of at most {ENTRIES_LIMIT} tables")

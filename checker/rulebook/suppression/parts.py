@@ -9,7 +9,7 @@ from checker.rulebook.suppression.entries import SettingsEntry
 
 
 class UnknownName(Record):
-    """A word of a comment that names no rule; the hint says which one may be meant."""
+    """A word of a comment that names no rule; the hint states which one may be meant."""
 
     comment: Comment
     name: str
@@ -56,7 +56,7 @@ class StaleEntries(Record):
 
     Attributes:
         rules: Its id; those of all rules that do not exist, together.
-        messages: What they said.
+        messages: What they stated.
         file: What to call the baseline's file.
         known: Whether the rule exists.
     """

@@ -64,7 +64,7 @@ class Standing(Struct, frozen=True):
         return next((end for end in End if end == self.stage), None)
 
     def __str__(self) -> str:
-        """Say it in a few words."""
+        """State it in a few words."""
         text = plain(shortened(self.words or self.stage, _SHOWN))
         before = f" ({count(self.ahead, 'check')} before it)" if self.ahead > 0 else ""
         return text + before
@@ -101,7 +101,7 @@ class Check(Record):
         """Wait until the check ends, and return how.
 
         Raises:
-            CheckerError: The service does not say.
+            CheckerError: The service does not state it.
         """
         shown, pause = "", _FIRST_PAUSE
         while True:
@@ -152,7 +152,7 @@ def order(connection: Connection, upload: Upload) -> Check:
     """Upload a file and return its check; sent again since an answer got lost, it is the same one.
 
     Raises:
-        CheckerError: The service does not take it; the text says why.
+        CheckerError: The service does not take it; the text states why.
     """
     headers = {"Idempotency-Key": upload.key}
     answer = connection.ask("POST", _CHECKS, upload, headers=headers)
@@ -163,7 +163,7 @@ def order(connection: Connection, upload: Upload) -> Check:
 
 
 def _refusal(connection: Connection, answer: Answer) -> CheckerError:
-    """Return what a service says against a request, in its own words where it has some."""
+    """Return what a service states against a request, in its own words where it has some."""
     problem = answer.read_as(Problem)
     if problem is None:
         return CheckerError(

@@ -72,13 +72,13 @@ class Answer(Record):
 
     @property
     def retry_after(self) -> float:
-        """Seconds that the service asks to wait; 0 where it does not say."""
+        """Seconds that the service asks to wait; 0 where it does not state it."""
         text = self.headers.get("retry-after", "")
         return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
 
 
 class NoAnswer(Exception):
-    """A request came to nothing; the text says why."""
+    """A request failed; the text states why."""
 
 
 class Connection(Record):

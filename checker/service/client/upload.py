@@ -33,7 +33,7 @@ _LONG_AGO = (1980, 1, 1, 0, 0, 0)
 _NAMED = 3
 _ADVICE = "remove files that the package does not need"
 _LARGE = 1_000_000
-"""Bytes of a file from which on it is said how much of it is sent."""
+"""Bytes of a file from which on it is stated how much of it is sent."""
 
 
 class Upload(Record):
@@ -68,7 +68,7 @@ class Upload(Record):
 
 
 class _Counted(io.FileIO):
-    """A file that says how much of it has been read."""
+    """A file that states how much of it has been read."""
 
     def __init__(self, path: Path, say: Say) -> None:
         super().__init__(path)

@@ -230,7 +230,7 @@ def _parsed(data: bytes) -> Any:
 
 
 def failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
-    """Say what has ended a process: its own work, or a signal from outside."""
+    """Return what has ended a process: its own work, or a signal from outside."""
     if ended.overdue:
         return Disturbed(f"the service had no time for it within {limits.clock_seconds:g} s")
     if ended.exceeded:

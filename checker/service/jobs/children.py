@@ -138,7 +138,7 @@ class Children:
             self.get_ready()
 
     def get_ready(self) -> None:
-        """Start a process that waits for the next check; where that fails, the check says why."""
+        """Start a process that waits for the next check; where that fails, the check states why."""
         with self._lock, suppress(OSError):
             if self._ahead and not self._has_one():
                 self._waiting = self._start()

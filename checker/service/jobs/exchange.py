@@ -77,7 +77,7 @@ _TEXTS, _NUMBERS = ("name", "folder", "kind"), ("errors", "warnings", "infos")
 
 
 def summary(report: Report) -> dict[str, Any]:
-    """Return what a report says in short.
+    """Return what a report states in short.
 
     "packages", as in `State.packages`; "words": what came out, one sentence; "crashed": whether a
     rule could not run because of the checker itself.
@@ -108,7 +108,7 @@ def _words(report: Report) -> str:
 
 
 def read_summary(key: str, data: Any) -> Checked | None:
-    """Return what a summary says; None for what is none."""
+    """Return what a summary states; None for what is none."""
     match data:
         case {"packages": list(packages), "words": str(words)} if len(
             packages
@@ -176,7 +176,7 @@ def _write(path: Path, files: Files, name: str) -> None:
 
 
 def is_part(name: str) -> bool:
-    """Say whether a name is that of a part of a check in its cache."""
+    """Return whether a name is that of a part of a check in its cache."""
     return _PART.fullmatch(name) is not None
 
 

@@ -23,7 +23,7 @@ class Checked(Record):
 
 
 class Refused(Record):
-    """The upload cannot be checked, and its sender can mend that.
+    """The upload cannot be checked, and its sender can correct that.
 
     Attributes:
         reason: The reason, and what to do; one sentence.
@@ -43,7 +43,7 @@ class Died(Record):
 
 
 class Disturbed(Record):
-    """It came to nothing for a cause that is outside of the package, and may pass.
+    """It failed for a cause that is outside of the package, and may pass.
 
     It was killed, the disk was full, or the machine had no time for it.
 

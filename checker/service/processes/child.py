@@ -62,7 +62,7 @@ class Connection(H11Protocol):
         head_seconds: The time that the head of a request may take.
         reading_seconds: The time that a client may leave an answer unread.
         per_client: Connections of one address or IPv6 network; 0 for any number.
-        network: Whence it comes, as `checker.service.web.limits.rates.network_of` says it.
+        network: Whence it comes, as `checker.service.web.limits.rates.network_of` states it.
     """
 
     head_seconds = 10.0
@@ -218,7 +218,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _database() -> str:
-    """Return in brackets which database it is, without its password; empty if that says nothing."""
+    """Return the database in brackets, without its password; empty without information."""
     from checker.service.jobs.durable.database import database_url, open_database
 
     with suppress(JobsUnreachable):

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from checker.service.store.store import Store
 
 CHILD = (sys.executable, "-P", "-m", f"{__package__}.child")
-"""Starts a process of the service; what follows says whose child it is, and which."""
+"""Starts a process of the service; what follows states whose child it is, and which."""
 _MOST_WORKERS = 2
 """Default number of workers: a trial keeps a core busy."""
 
@@ -35,7 +35,7 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
 
     Workers are started when the web server answers: to load what they need takes several seconds of
     processor time, for which the first uploads would wait. A database that does not answer is then
-    said by the web server alone.
+    stated by the web server alone.
 
     Raises:
         CheckerError: The arguments make no sense.
@@ -77,7 +77,7 @@ def worker(options: argparse.Namespace) -> int:
 
 
 def _environment(options: argparse.Namespace) -> Mapping[str, str]:
-    """Return the variables of the processes: those of here, and what the options say."""
+    """Return the variables of the processes: those of here, and what the options state."""
     variables = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
     variables |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
     variables |= {"SUBT_CHECK_WITHOUT_SANDBOX": "1"} if options.without_sandbox else {}
@@ -168,7 +168,7 @@ def _served(
 
 
 def _answers(bound: socket.socket) -> bool:
-    """Say whether a process listens on the socket."""
+    """Return whether a process listens on the socket."""
     return bool(bound.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
 
 

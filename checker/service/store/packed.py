@@ -18,7 +18,7 @@ LARGEST = 32_000_000
 _GAIN = 0.9
 """Share of its bytes: a file that stays larger, such as a picture, is sent as it is."""
 _BEGIN = 65_536
-"""Bytes of a page that hold its style, and the start of its header."""
+"""Bytes of a page that contain its style, and the start of its header."""
 _HEADER = re.compile(rb'<header(?: class="[a-z_ ]*")?>')
 
 

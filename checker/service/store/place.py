@@ -8,7 +8,7 @@ from pathlib import Path
 from checker.base.errors import CheckerError
 
 DATABASE = "jobs.sqlite"
-"""The file of the database in that folder, unless it lies elsewhere."""
+"""The file of the database in that folder, unless it is elsewhere."""
 
 
 def choose(data: str, store: str) -> None:
@@ -27,7 +27,7 @@ def choose(data: str, store: str) -> None:
 def data_folder() -> Path:
     """Return the folder of uploads, results and the database; it may not be there yet.
 
-    `SUBT_CHECK_DATA`, else the user's data folder as the XDG base directories say.
+    `SUBT_CHECK_DATA`, else the user's data folder as the XDG base directories state.
 
     Raises:
         CheckerError: The user has no home folder, as in some containers.

@@ -1,7 +1,7 @@
 """Objects in a bucket of S3, which all machines reach; each keeps copies of what it works with.
 
 `uploads/ab/<hash>/content` is what was uploaded, `results/ab/<key>/content` and
-`parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` beside it says
+`parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` beside it states
 when it was last used. Copies are in a folder as in a service without S3 (`FolderObjects`).
 """
 
@@ -209,7 +209,7 @@ def _write(descriptor: int, piece: bytes) -> None:
 
 @contextmanager
 def _answers() -> Iterator[None]:
-    """Say of a bucket that does not answer, or refuses, that it is unreachable."""
+    """State of a bucket that does not answer, or refuses, that it is unreachable."""
     from obstore.exceptions import BaseError
 
     try:

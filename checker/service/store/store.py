@@ -1,6 +1,6 @@
 """Uploads and results by hash and key: whole or not at all, whichever process dies meanwhile.
 
-Work in progress is in the folder `incoming/` of this machine; what is kept lies behind a port
+Work in progress is in the folder `incoming/` of this machine; what is kept is behind a port
 (`checker.service.store.objects`). Many processes use it at once, on any number of machines.
 """
 
@@ -27,7 +27,7 @@ __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge", "
 DEFAULT_UPLOAD_LIMIT = 100_000_000
 """Bytes."""
 SUMMARY = "summary.json"
-"""In each result, for the engine alone: what the state of a check says of its packages."""
+"""In each result, for the engine alone: what the state of a check states about its packages."""
 RESULT_LIMIT = 1_000_000_000
 """Bytes of one result."""
 CACHE_SECONDS = 86_400.0
@@ -66,7 +66,7 @@ class Store(Record):
 
         Args:
             file: The file of `Incoming`; it is gone after.
-            hash: The hash of its content, as `Incoming.finish` says it.
+            hash: The hash of its content, as `Incoming.finish` states it.
         """
         self.objects.put(Kind.UPLOAD, hash, file)
 
@@ -102,7 +102,7 @@ class Store(Record):
                 after.
 
         Raises:
-            ValueError: The key is none, or the folder holds what no result does.
+            ValueError: The key is none, or the folder contains what no result does.
         """
         if not _KEY.fullmatch(key):
             raise ValueError(f"{key!r} is not the key of a result")
@@ -171,7 +171,7 @@ class Store(Record):
 
 
 def open_store() -> Store:
-    """Return the store of this machine; `SUBT_CHECK_STORE` says what it shares with others.
+    """Return the store of this machine; `SUBT_CHECK_STORE` states what it shares with others.
 
     Raises:
         CheckerError: The address of the bucket is none, or there is no place for data.

@@ -107,7 +107,7 @@ def move(source: Path, target: Path) -> None:
     A file of that name is replaced; a folder is not.
 
     Raises:
-        OSError: A folder of that name holds files, or the names are on two file systems.
+        OSError: A folder of that name contains files, or the names are on two file systems.
     """
     rename(source, target)
     settle_name(target)
@@ -131,7 +131,7 @@ _STRAY_SECONDS = 30.0
 
 @contextmanager
 def workplace(home: Path) -> Iterator[Path]:
-    """Make an empty folder below `home`, and remove it at the end with all that it holds."""
+    """Make an empty folder below `home`, and remove it at the end with all that it contains."""
     file, lock = _claimed(home, _LOCK)
     place = file.with_suffix("")
     try:

@@ -1,4 +1,4 @@
-"""The web application: routes, and what stands around all of them."""
+"""The web application: routes, and what is around all of them."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class Config(Record):
 
     @property
     def room(self) -> int:
-        """Bytes that the disk must have free: reports and the database need some as well."""
+        """Bytes that the disk must have free: reports and the database need some too."""
         return 2 * self.upload_limit
 
     @property
@@ -77,7 +77,7 @@ class Config(Record):
 
 
 def config_from(environment: Mapping[str, str] = os.environ) -> Config:
-    """Return what the environment says; an empty variable says nothing.
+    """Return what the environment states; an empty variable states nothing.
 
     Raises:
         InvalidSettings: A variable has a value that makes no sense.

@@ -40,7 +40,7 @@ class Ready(Well):
     """A check that is ordered now would be done.
 
     Attributes:
-        sandbox: Names of the layers that hold where each living worker checks; said only to this
+        sandbox: Names of the layers that hold where each living worker checks; stated only to this
             machine and to those with a token.
     """
 

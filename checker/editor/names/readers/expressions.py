@@ -21,7 +21,7 @@ def is_composed(name: str) -> bool:
 
 @lru_cache(4096)
 def literal_pieces(name: str) -> tuple[str, ...]:
-    """Return what stands around the expressions of a name: `("", "_wheel")`."""
+    """Return what is around the expressions of a name: `("", "_wheel")`."""
     return tuple(EXPRESSION.split(name))
 
 

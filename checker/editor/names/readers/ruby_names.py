@@ -1,6 +1,6 @@
 """Names in Ruby: the strings of a spawner, and the XML that it emits.
 
-The text is read as it stands: names that Ruby puts together are expressions.
+The text is read as it is: names that Ruby puts together are expressions.
 """
 
 from __future__ import annotations

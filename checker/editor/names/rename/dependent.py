@@ -38,7 +38,7 @@ def _beside_topic(rename: Rename) -> Iterator[str]:
 def _handed_on(rename: Rename) -> Iterator[str]:
     """Yield which launch file has the argument from the one that includes it, unsaid.
 
-    A launch file of ROS 2 hands on what it was given; one of ROS 1 where `pass_all_args` says so.
+    A launch file of ROS 2 hands on what it was given; one of ROS 1 where `pass_all_args` states it.
     """
     index = rename.index
     for it in rename.mentions:

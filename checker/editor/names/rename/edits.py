@@ -62,7 +62,7 @@ def _undefined(rename: Rename) -> str:
 
 
 def _elsewhere(rename: Rename) -> str:
-    """Say that the thing belongs to another package, or is written where no edit can be made."""
+    """State that the thing belongs to another package, or is written where no edit can be made."""
     for it in rename.mentions:
         if it.path.startswith("../"):
             how = "defined" if it.is_definition else "named"
@@ -75,7 +75,7 @@ def _elsewhere(rename: Rename) -> str:
 
 
 def _ambiguous(rename: Rename) -> str:
-    """Say that a text may name the thing, or another one."""
+    """Return the message that a text may name the thing, or another one."""
     own = {(it.kind, it.scope, it.name) for it in rename.mentions}
     for it in rename.mentions:
         for other in rename.index.possible_mentions(it):
@@ -88,7 +88,7 @@ def _ambiguous(rename: Rename) -> str:
 
 
 def _nested(rename: Rename) -> str:
-    """Say that a dot would make another key of a parameter: `gains.left.p` with `left.1`."""
+    """State that a dot would make another key of a parameter: `gains.left.p` with `left.1`."""
     for it in rename.mentions:
         text = rename.index.files[it.path].source.text
         around = text[max(0, it.start - 1) : it.start] + text[it.end : it.end + 1]
@@ -98,7 +98,7 @@ def _nested(rename: Rename) -> str:
 
 
 def _unread(rename: Rename) -> str:
-    """Say that a file which holds the name cannot be read."""
+    """Return the message that a file which contains the name cannot be read."""
     literal = max(literal_pieces(rename.old), key=len)
     for path, file in rename.index.files.items():
         if file.fault and literal in file.source.text:

@@ -15,7 +15,7 @@ from checker.source.xml import Element
 from checker.source.xml_insertion import insertion, with_blanks
 
 Change = tuple[int, int, str]
-"""Characters from the first offset up to the second, and what is to stand there."""
+"""Characters from the first offset up to the second, and what is to be there."""
 
 
 @dataclass

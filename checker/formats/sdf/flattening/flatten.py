@@ -1,6 +1,6 @@
 """A robot of nested models and includes as one flat model: the edits of its file.
 
-Elements are moved as they are written, and only what depends on where they stand is changed.
+Elements are moved as they are written, and only what depends on where they are is changed.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ def move_part(draft: Draft, part: Element, holder: Holder, names: FlatNames) -> 
 
 
 def standing_frame(name: str, pose: Transform, attached_to: str) -> list[str]:
-    """Return the lines of the frame that stands where a model stood.
+    """Return the lines of the frame that is where a model stood.
 
     Args:
         name: What it is called.
@@ -130,7 +130,7 @@ def lines_of(draft: Draft, start: int, end: int) -> list[str]:
 
 
 def put_in_place_of(element: Element, lines: Sequence[str]) -> str:
-    """Return lines as they stand where an element stood, whose own indentation stays."""
+    """Return lines as they are where an element stood, whose own indentation stays."""
     indentation = indentation_of(element.source, element.position.start) or ""
     newline = newline_of(element.source, element.position.start)
     if " " in indentation:
@@ -140,7 +140,7 @@ def put_in_place_of(element: Element, lines: Sequence[str]) -> str:
 
 
 def _without_tabs(line: str) -> str:
-    """Return a line of another file with blanks in front, as they stand around it."""
+    """Return a line of another file with blanks in front, as they are around it."""
     text = line.lstrip(_BLANKS)
     return line[: len(line) - len(text)].replace("\t", "  ") + text
 
@@ -175,7 +175,7 @@ class Flattening(Record, dict=True):
 
     @cached_property
     def _uris(self) -> dict[tuple[SourceText, int], Located[str]]:
-        """The paths to files, by where they stand."""
+        """The paths to files, by where they are."""
         return {(uri.span.source, uri.span.start): uri for uri in self.robot.file_uris}
 
     @cached_property

@@ -24,7 +24,7 @@ _DIGITS = 15
 
 
 def write_pose(draft: Draft, holder: Element, pose: Transform) -> None:
-    """Have the `<pose>` of an element say this one; what it says already stays as it is."""
+    """Have the `<pose>` of an element state this one; what it states already stays as it is."""
     element = holder.child("pose")
     if element is None:
         if _differs(pose, Transform()):
@@ -40,7 +40,7 @@ def write_pose(draft: Draft, holder: Element, pose: Transform) -> None:
 
 
 def stated_pose(element: Element) -> Transform:
-    """Return what the numbers in a `<pose>` say; that of no change where there are not six."""
+    """Return what the numbers in a `<pose>` state; that of no change where there are not six."""
     read = _numbers(element, 6)
     if read is None:
         return Transform()
@@ -48,7 +48,7 @@ def stated_pose(element: Element) -> Transform:
 
 
 def write_direction(draft: Draft, axis: Element, direction: Vector) -> None:
-    """Have the `<xyz>` of an axis say this direction."""
+    """Have the `<xyz>` of an axis state this direction."""
     element = axis.child("xyz")
     read = _numbers(element, 3) if element is not None else None
     if read is not None:

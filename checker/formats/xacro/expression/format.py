@@ -17,7 +17,7 @@ _PERCENT = re.compile(
     r"[hlL]?(?P<kind>.?)",
     re.DOTALL,
 )
-"""Any kind: Python says which ones there are not."""
+"""Any kind: Python states which ones there are not."""
 _SPEC = re.compile(
     r"(?:.?[<>=^])?[-+ ]?z?#?0?(?P<width>\d*)[_,]?(?:\.(?P<precision>\d+))?[bcdeEfFgGnosxX%]?",
     re.DOTALL,
@@ -32,7 +32,7 @@ def check_spec(spec: str, values: Sequence[Any], budget: Budget) -> None:
     """Refuse what follows the colon of a format, if it is not one of numbers or text.
 
     Raises:
-        ValueError: It is no format, as Python says it.
+        ValueError: It is no format, as Python states it.
         RefusedExpression: It would format a date.
         ExpressionLimit: It is too wide.
     """

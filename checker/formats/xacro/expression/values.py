@@ -18,7 +18,7 @@ from checker.formats.xacro.expression.bounds import (
 
 NUMBERS = frozenset({int, float, bool})
 SCALARS = NUMBERS | {str, NoneType, range, date, datetime}
-"""Types of values that hold no others; dates come from YAML alone."""
+"""Types of values that contain no others; dates come from YAML alone."""
 MAPPINGS = frozenset({dict, YamlDictWrapper})
 _VIEWS = frozenset({type({}.keys()), type({}.values()), type({}.items())})
 SEQUENCES = frozenset({list, YamlListWrapper, tuple})
@@ -109,7 +109,7 @@ def spend_on_keys(keys: Iterable[Any], size: int, budget: Budget) -> None:
 
 
 def _is_hard(key: Any) -> bool:
-    """Say whether one can choose keys of that kind whose hashes are equal."""
+    """Return whether one can choose keys of that kind whose hashes are equal."""
     kind = type(key)
     if kind is int:
         return int(key).bit_length() > _HASHED_BITS
@@ -119,7 +119,7 @@ def _is_hard(key: Any) -> bool:
 def consumed(value: Any, budget: Budget) -> Any:
     """Return what a function may take all items of; those of a lazy value are paid one by one.
 
-    What has no items is returned as well: Python says best what is wrong with it.
+    What has no items is returned too: Python states best what is wrong with it.
     """
     kind = type(value)
     if kind in SIZED:

@@ -30,7 +30,7 @@ Item = Parameter | ParameterFile | Unread
 
 
 def read_parameters(value: Value, context: Context, span: Span) -> Iterator[Item]:
-    """Yield what the `parameters` of a node say.
+    """Yield what the `parameters` of a node state.
 
     Args:
         value: A list of mappings and files.

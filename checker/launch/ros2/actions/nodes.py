@@ -119,7 +119,7 @@ def bridge(visitor: Visitor, made: Made, context: Context) -> None:
 
 
 def component_node(visitor: Visitor, made: Made, _: Context) -> None:
-    """Note a component that stands where an action is expected."""
+    """Note a component that is where an action is expected."""
     visitor.unread("a ComposableNode is not an action of its own", made.span)
 
 

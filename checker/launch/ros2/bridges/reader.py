@@ -230,7 +230,7 @@ class _Reader:
             self.file(file.value, at)
 
     def _parameter_file(self, parameter: ParameterFile) -> None:
-        """Say that parameters of a file are not known, if they may name a file of the bridge."""
+        """Report that parameters of a file are not known, if they may name a file of the bridge."""
         source = read_file(self._package, parameter.path)
         if isinstance(source, str) or "config_file" in source.text or "bridge" in source.text:
             self._unread.append(f"parameters of the bridge are in {display_path(parameter.path)}")

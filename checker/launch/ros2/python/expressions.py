@@ -47,7 +47,7 @@ def plain(value: Value) -> Any:
 
 
 class _Plain:
-    """The making of plain data; lists that hold one list twice are counted in full."""
+    """The making of plain data; lists that contain one list twice are counted in full."""
 
     def __init__(self) -> None:
         self._left = _DATA_LIMIT

@@ -174,7 +174,7 @@ class Interpreter:
             self.assign(target, item, scope)
 
     def guarded(self, values: Iterable[Value]) -> list[Value]:
-        """Return values as they stand under the conditions around the statement."""
+        """Return values as they are under the conditions around the statement."""
         if not self.guards:
             return [*values]
         return [Guarded(value, tuple(self.guards)) for value in values]

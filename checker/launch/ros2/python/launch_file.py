@@ -124,7 +124,7 @@ def expression(text: str, span: Span, allowance: Allowance, world: World) -> Val
 
 
 def module_of(package: Package, path: str) -> SourceText | None:
-    """Return the source of a Python module that a available package holds."""
+    """Return the source of a Python module that a available package contains."""
     parts = path.strip(".").split(".")
     holder = holder_of(package, parts[0])
     if holder is None or path.startswith("."):

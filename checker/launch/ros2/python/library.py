@@ -189,7 +189,7 @@ def _load_yaml(
 
 
 def read_yaml_file(run: Interpreter, path: str, node: ast.AST) -> Value:
-    """Return what a YAML file holds."""
+    """Return what a YAML file contains."""
     run.by_argument = True
     source = run.world.read(path, run.span(node))
     if isinstance(source, str):

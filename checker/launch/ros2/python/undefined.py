@@ -16,7 +16,7 @@ _Function = ast.FunctionDef | ast.AsyncFunctionDef
 def undefined_names(tree: ast.Module, entry: str) -> list[ast.Name]:
     """Return the first use of each name that Python cannot find when the file is launched.
 
-    A name that is bound anywhere in the file counts as defined, whatever the order. What stands in
+    A name that is bound anywhere in the file counts as defined, whatever the order. What is in
     a `try`, and functions that nothing names, are not looked at.
 
     Args:

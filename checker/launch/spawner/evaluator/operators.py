@@ -108,7 +108,7 @@ def _unary(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _defined(run: Interpreter, node: RubyNode, operand: RubyNode) -> Value:
-    """Return what `defined?` says of a variable or function; nil when there is none."""
+    """Return what `defined?` states about a variable or function; nil when there is none."""
     if operand.type == "parenthesized_statements" and len(operand.parts) == 1:
         operand = operand.parts[0]
     name = operand.text

@@ -1,4 +1,4 @@
-"""Conditions, loops, jumps, errors, and the bodies that hold statements."""
+"""Conditions, loops, jumps, errors, and the bodies that contain statements."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ class Call:
         return f"{class_name(data)}#{self.name}"
 
     def refuse(self, why: str = "which is not supported") -> Unreadable:
-        """Return the exception that says that this call is outside the subset."""
+        """Return the exception that states that this call is outside the subset."""
         return Unreadable(self.span, f"calls {self.title}, {why}")
 
     def value(self, data: bool | int | float | None, *others: Value) -> Value:

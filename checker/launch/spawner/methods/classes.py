@@ -40,7 +40,7 @@ _LIBRARIES = frozenset(
     {"yaml", "erb", "json", "set", "date", "time", "pathname", "fileutils", "ostruct", "pp"}
     | {"matrix", "securerandom", "shellwords", "open3", "csv", "logger", "rexml/document"}
 )
-"""Loading them has no effect here; what calls one is refused where it stands."""
+"""Loading them has no effect here; what calls one is refused where it is."""
 
 
 def _puts(_call: Call, *_values: Value) -> Value:

@@ -242,7 +242,7 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
 
 
 def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
-    """Return the plan of a robot that is not driven, and say why if it has a drive."""
+    """Return the plan of a robot that is not driven, and state why if it has a drive."""
     kind = locomotion.kind
     plan = plan_hold(robot, kind)
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
@@ -258,7 +258,7 @@ _WATER = frozenset({"Buoyancy", "BuoyancyEngine", "Hydrodynamics", "Thruster"})
 
 
 def _out_of_reach(robot: Robot, locomotion: Locomotion) -> str:
-    """Say why a robot without a drive is not driven; empty where nothing says that it moves."""
+    """Return why a robot without a drive is not driven; empty if nothing shows that it moves."""
     classes = {plugin.class_name for plugin in robot.all_plugins}
     if classes & _WATER:
         return "it swims, and water is not simulated"

@@ -102,7 +102,7 @@ def _speed(drive: WheelDrive, wheel: Wheel, legs: Sequence[Leg]) -> Knots:
 
 
 _SHARE_OF_LIMIT = 0.6
-"""Share of the steering limit, so that the inner wheel stays within it as well."""
+"""Share of the steering limit, so that the inner wheel stays within it too."""
 _STEERING_SECONDS = 1.0
 _USUAL_BASE = 1.0
 _USUAL_LIMIT = 0.5

@@ -146,7 +146,7 @@ def replay_of(run: Run) -> Replay | None:
 
 
 def excess_links(scene: Scene) -> Iterator[str]:
-    """Say so where more links move than are kept."""
+    """Yield so where more links move than are kept."""
     if scene.welded and not carriers_of(scene):
         yield f"more than {TRACKED} links move, so there is no replay of the trial"
 

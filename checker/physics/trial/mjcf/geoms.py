@@ -32,7 +32,7 @@ MOST = 1.5
 """Rubber on rock; larger ones are tricks of other solvers, and stiffen MuJoCo's contacts."""
 _DEFAULT = 1.0
 _ALIKE = 0.1
-"""Share by which the second coefficient may differ before a note says that it is left out."""
+"""Share by which the second coefficient may differ before a note states that it is left out."""
 
 
 def sliding_friction(
@@ -243,7 +243,7 @@ def _dot(a: Sequence[float], b: Sequence[float]) -> float:
 
 
 def _is_thick(points: Points) -> bool:
-    """Say of most bodies that they have a volume, without loading what decides on thin ones.
+    """State of most bodies that they have a volume, without loading what decides on thin ones.
 
     Of the scatter matrix with eigenvalues a ≥ b ≥ c, c = det / (a b) ≥ 4 det / trace².
     """

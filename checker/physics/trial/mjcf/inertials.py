@@ -128,7 +128,7 @@ def _turned(moments: Rows, turn: Rows) -> Rows:
 
 
 def _is_clearly_positive(moments: Rows) -> bool:
-    """Say of most bodies that no principal moment is near zero, without solving for them.
+    """State of most bodies that no principal moment is near zero, without solving for them.
 
     By Sylvester's criterion for M − s I, where s is a small share of the trace.
     """
@@ -175,7 +175,7 @@ def _physical(moments: Rows, name: str, ledger: Ledger) -> Rows:
     """Return the nearest inertia that a body can have.
 
     The second moments of mass along the principal axes, trace/2 − I, must not be negative: that
-    says positive moments and the triangle inequality at once.
+    states positive moments and the triangle inequality at once.
     """
     if _is_clearly_positive(_second_moments(moments)):
         return moments

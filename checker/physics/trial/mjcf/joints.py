@@ -122,7 +122,7 @@ def _resistance(value: float) -> float:
 
 
 def _spring_reference(joint: Joint, number: int) -> float:
-    """Return where SDF says that the joint's spring rests, metres or radians."""
+    """Return where SDF states that the joint's spring rests, metres or radians."""
     element = joint.element.child(("axis", "axis2")[number])
     for tag in ("dynamics", "spring_reference"):
         element = element.child(tag) if element is not None else None

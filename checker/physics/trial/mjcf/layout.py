@@ -22,13 +22,13 @@ from checker.physics.trial.mjcf.repairs import Ledger
 
 
 class Forest(Record, eq=False, dict=True):
-    """The links of a robot, from those that hang on nothing downwards."""
+    """The links of a robot, from those that have no parent downwards."""
 
     spanning_tree: SpanningTree
 
     @property
     def order(self) -> tuple[str, ...]:
-        """Scoped names of the links, each behind the one that it hangs on."""
+        """Scoped names of the links, each behind the one that it is connected to."""
         return self.spanning_tree.order
 
     @cached_property
@@ -51,12 +51,12 @@ class Forest(Record, eq=False, dict=True):
         return self.spanning_tree.by.get(name)
 
     def base(self, name: str) -> str | None:
-        """Return the link that a link hangs on; None where that is the world or nothing."""
+        """Return the link that a link is connected to; None where that is the world or nothing."""
         tie = self.tie(name)
         return tie.parent if tie is not None and tie.parent != WORLD else None
 
     def under(self, start: str) -> Iterator[str]:
-        """Yield a link and all that hangs on it, over others too."""
+        """Yield a link and all that is connected to it, over others too."""
         waiting = [start]
         while waiting:
             name = waiting.pop()

@@ -69,7 +69,7 @@ class Names:
     Attributes:
         bodies: Link to body.
         joints: Joint to MuJoCo's joint of its first axis; that of a second has `_2` behind.
-        free: Link that hangs on nothing to its free joint.
+        free: Link that has no parent to its free joint.
         geoms: Geom to link.
         actuators: Joint to actuator.
         belts: Link to the geoms that can have a surface velocity.
@@ -100,7 +100,7 @@ class Names:
         return name
 
     def free_joint(self, link: str) -> str:
-        """Name the free joint of a link that hangs on nothing."""
+        """Name the free joint of a link that has no parent."""
         return self.free.setdefault(link, f"f{len(self.free)}")
 
     def geom(self, link: str) -> str:

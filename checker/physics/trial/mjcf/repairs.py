@@ -27,7 +27,7 @@ class Ledger:
         self.repairs.append(Repair(part, what, serious))
 
     def note(self, sentence: str, part: str) -> None:
-        """Add a note about a part; what holds of many is said once.
+        """Add a note about a part; what holds of many is stated once.
 
         Args:
             sentence: Ends without a full stop.

@@ -47,7 +47,7 @@ def unusable_because(robot: Robot, layout: Layout) -> str:
 def root_of(robot: Robot, layout: Layout) -> str:
     """Return the link whose pose is the robot's: the one that carries most of its mass.
 
-    Of a robot in one piece, that is the link that all others hang on.
+    Of a robot in one piece, that is the link that all others are connected to.
     """
     tree = layout.forest
     canonical = canonical_link(robot)
@@ -88,7 +88,7 @@ class Scene(Record):
         bodies: Scoped name of a link to its body.
         joints: Scoped name of a joint to MuJoCo's joint of its first axis (the second has `_2`
             behind); joints that are held fixed have none.
-        free_joints: Scoped name of a link that hangs on nothing to its free joint.
+        free_joints: Scoped name of a link that has no parent to its free joint.
         geoms: Geom to the scoped name of its link.
         actuators: Scoped name of a joint to its actuator, a velocity servo of gain 1.
         belts: Scoped name of a link to its geoms that can have a surface velocity. Its direction is

@@ -230,7 +230,7 @@ class ContactQuery:
         """Return the deepest overlaps while one joint after another moves and all else rests.
 
         Args:
-            already: Pairs that overlap at the start; nothing more is said about them.
+            already: Pairs that overlap at the start; nothing more is stated about them.
         """
         ranges = list(self._ranges())
         share = _EFFORT // max(self.model.ngeom * len(ranges), 1)
@@ -250,7 +250,7 @@ class ContactQuery:
     def _ranges(self) -> Iterator[tuple[int, float, float]]:
         """Yield where each joint to move is in `qpos`, and between which values it moves.
 
-        Slides without limits are left out: nothing says how far they go.
+        Slides without limits are left out: nothing states how far they go.
         """
         import mujoco
 

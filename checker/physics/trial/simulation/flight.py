@@ -131,7 +131,7 @@ _MOST_LEAN = 0.35
 
 
 class Pilot:
-    """Holds place and heading of a copter, and its height as the course says.
+    """Holds place and heading of a copter, and its height as the course states.
 
     It knows mass, inertia and centre of mass; the rotors get what their plugins allow.
     """

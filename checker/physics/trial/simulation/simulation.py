@@ -32,7 +32,7 @@ bodies come and go step by step."""
 
 @dataclass
 class Samples:
-    """Lists, one entry a sample, in the world's frame if nothing else is said.
+    """Lists, one entry a sample, in the world's frame if nothing else is stated.
 
     Attributes:
         time: Seconds.

@@ -88,7 +88,7 @@ def model_of(item: Mapping[str, Any]) -> Any:
 
 
 def _add_ground(spec: Any, item: Mapping[str, Any]) -> None:
-    """Add the ground, and say how far there is something to see."""
+    """Add the ground, and state how far there is something to see."""
     import mujoco
 
     distances = [shot["camera"]["distance"] for shot in item["shots"]]

@@ -35,14 +35,14 @@ _DAY = 86400.0
 _LEAST_SECONDS, _SECONDS_PER_BYTE = 0.5, 5e-7
 """Times of the static rules: a real package of a megabyte takes about a second."""
 _PACED = 25
-"""Stages whose median duration of the last day is used: earlier durations say nothing of
+"""Stages whose median duration of the last day is used: earlier durations state nothing of
 now."""
 
 
 class DurableJobs(Record):
     """`Jobs` on a database: SQLite or PostgreSQL.
 
-    Ids, which open reports, and secrets, which end checks, end here: what lies behind knows them by
+    Ids, which open reports, and secrets, which end checks, end here: what is behind knows them by
     their digests alone.
 
     Attributes:

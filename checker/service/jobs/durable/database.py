@@ -88,7 +88,7 @@ def open_database(url: str) -> sa.Engine:
 
 @contextmanager
 def reachable() -> Iterator[None]:
-    """Say of a database that does not answer that it is unreachable.
+    """State of a database that does not answer that it is unreachable.
 
     Raises:
         JobsUnreachable: It did not answer.
@@ -145,13 +145,13 @@ def _is_amiss(record: logging.LogRecord) -> bool:
 
 
 def _cause(error: sa.exc.SQLAlchemyError) -> str:
-    """Return what the database said, without the statement that it was asked."""
+    """Return what the database stated, without the statement that it was asked."""
     cause = getattr(error, "orig", None) or type(error).__name__
     return plain(shortened(str(cause).partition("\n")[0], _SHOWN))
 
 
 def _make(file: Path) -> None:
-    """Make the file, for its owner alone: SQLite would let all read it, and what lies beside it.
+    """Make the file, for its owner alone: SQLite would let all read it, and what is beside it.
 
     Raises:
         JobsUnreachable: It cannot be made or written.

@@ -71,7 +71,7 @@ def _drop_others(connection: sa.Connection) -> None:
 
 
 def _make_queues(client: DBOSClient, trials: int) -> None:
-    """Say how many tasks a worker takes at once, in all and of one sender.
+    """Write how many tasks a worker takes at once, in all and of one sender.
 
     One place is for other senders: however many long checks one sender sends, the first findings of
     others do not wait for them.

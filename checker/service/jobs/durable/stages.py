@@ -152,6 +152,6 @@ def retry_until_answered(ask: Callable[[], _T]) -> _T:
 
 
 def _about(task: Task, **more: object) -> Mapping[str, Mapping[str, object]]:
-    """Return what a line of the log says of a task."""
+    """Return what a line of the log states about a task."""
     key = task.key[:SHOWN_DIGITS]
     return {FIELDS: {"check": key, "stage": task.stage.value, "try": task.number, **more}}

@@ -1,7 +1,7 @@
 """Tries of the stages of a check, which are workflows of DBOS, and what is read from their rows.
 
 A check is known by its key (`receipts.key_of_check`), and try `n` of a stage by the workflow id
-`KEY.STAGE.n`. The rows of these workflows are all that is kept of a check: where it stands and what
+`KEY.STAGE.n`. The rows of these workflows are all that is kept of a check: where it is and what
 happened to it follow from them.
 """
 
@@ -25,7 +25,7 @@ STAGES = (Stage.STATIC, Stage.TRIAL)
 KNOWN = "known"
 """Name of the queue and of the workflow of checks that are over from their beginning."""
 PAUSES = (1.0, 2.0, 5.0, 15.0, 30.0, 60.0, 120.0, 240.0, 300.0, 300.0, 300.0)
-"""Seconds before each further try of what came to nothing through no fault of the package, 23
+"""Seconds before each further try of what failed through no fault of the package, 23
 minutes together. A disk that is full, or a machine that is out of memory, may need minutes. A
 worker that is killed costs each of its checks a try: with ten tries, 3 of 500 checks failed while a
 process was killed every three seconds on a machine under load."""

@@ -48,7 +48,7 @@ class WorkerOptions(Record):
     """Settings of a worker.
 
     Attributes:
-        database_url: The URL as `checker.service.jobs.durable.database.database_url` says it.
+        database_url: The URL as `checker.service.jobs.durable.database.database_url` states it.
         store: Uploads and results.
         name: The name of this worker, of letters, digits and `-`; the process adds what no other
             one has.
@@ -79,7 +79,7 @@ class WorkerOptions(Record):
 def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     """Take checks from the queues until `stop` is set, then finish or return running tasks.
 
-    A worker that is drained ends as well: it finishes its running tasks.
+    A worker that is drained ends too: it finishes its running tasks.
 
     Threads of what was handed back may outlive it: end the process by `os._exit`, as `work` does.
 

@@ -68,7 +68,7 @@ def _may_be_compressed(start: Message) -> bool:
 
 
 async def _compressed(start: Message, message: Message, *, takes: bool) -> Message:
-    """Return the body of an answer as it is sent, and say so in its head."""
+    """Return the body of an answer as it is sent, and state it in its head."""
     headers, body = MutableHeaders(scope=start), message.get("body", b"")
     if message.get("more_body") or len(body) < LEAST:
         return message

@@ -24,7 +24,7 @@ PAGE = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
 )
-"""For the site's own pages, which hold no script and no style."""
+"""For the site's own pages, which contain no script and no style."""
 _ALWAYS = {
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
@@ -79,7 +79,7 @@ KINDS = {
 }
 """Media types by name."""
 _HEAD = 4_096
-"""Bytes of a page that hold its own policy."""
+"""Bytes of a page that contain its own policy."""
 _PIECE = 1_000_000
 """Bytes that are sent at once."""
 _SCRIPT = re.compile(rb"script-src '(sha256-[A-Za-z0-9+/]{43}=)'")
@@ -93,13 +93,13 @@ _REPORT = (
 
 
 def file_response(path: Path, asked: Headers | None = None) -> Response:
-    """Return the answer that sends a file of a result, as what its name says.
+    """Return the answer that sends a file of a result, as what its name states.
 
     The file is open from here on: deleted meanwhile, it is sent anyway.
 
     Args:
         path: The path of the file.
-        asked: Headers of the request, which say whether the client accepts compression.
+        asked: Headers of the request, which state whether the client accepts compression.
 
     Raises:
         FileNotFoundError: It has been deleted.

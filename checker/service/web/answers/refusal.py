@@ -31,7 +31,7 @@ def sentence(words: str) -> str:
 
 
 def not_found() -> Refused:
-    """Return the one answer to every address that leads nowhere; it says nothing of why."""
+    """Return the one answer to every address that leads nowhere; it states nothing of why."""
     return Refused(
         404,
         "Nothing is at this address.",

@@ -19,7 +19,7 @@ from checker.service.logs import LOGGER
 QUIET_SECONDS = 15.0
 """Time after which a comment keeps the stream alive; proxies close silent ones."""
 STREAM_SECONDS = 600.0
-"""Time after which a stream ends; browsers reconnect and say where they were."""
+"""Time after which a stream ends; browsers reconnect and state where they were."""
 PAUSE_SECONDS, LONGEST_SECONDS, PAUSE_SHARE = 0.3, 1.0, 9.0
 """Pause between two queries, at least and at most; in between, so many times as long as the last
 one took, that many watchers do not use a processor up."""
@@ -111,7 +111,7 @@ class Watchers:
                 del self._checks[id]
 
     async def look(self, checks: Sequence[Followed]) -> None:
-        """Look what is new of checks; a database that is away says it later."""
+        """Look what is new of checks; a database that is away states it later."""
         try:
             events = await run_in_threadpool(
                 self._jobs.events, {check.id: check.last for check in checks}

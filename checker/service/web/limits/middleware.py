@@ -31,7 +31,7 @@ PAUSE_SECONDS = 1.0
 
 @dataclass
 class _Body:
-    """The body of a request; `read` says whether all of it has come."""
+    """The body of a request; `read` states whether all of it has come."""
 
     receive: Receive
     read: bool = False

@@ -201,7 +201,7 @@ def title(state: State, packages: Sequence[PackageLine]) -> str:
 
 
 def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
-    """Say in a sentence where a check stands.
+    """State in a sentence where a check stands.
 
     Args:
         state: The state of the check.

@@ -219,7 +219,7 @@ class _Pages(Record):
         return html("delete.html.j2", id=state.id, name=name, deleted=False)
 
     def delete(self, request: Request) -> Response:
-        """Delete a check, and say so: its own page is gone."""
+        """Delete a check, and state it: its own page is gone."""
         state = self.services.check(request.path_params["id"])
         receipts.delete(self.services, state.id, receipts.stored_secret(request))
         name = progress.title(state, progress.package_lines(state, ()))
@@ -228,7 +228,7 @@ class _Pages(Record):
         return answer
 
     def api(self, _: Request) -> Response:
-        """Say where the API is described."""
+        """Return where the API is described."""
         return html("api.html.j2", here="api", needs_token=bool(self.services.config.tokens))
 
 

@@ -25,7 +25,7 @@ from checker.base.sandbox.task import DISTURBED, OUT_OF_MEMORY
 
 _MODULE = f"{PACKAGE}.package.archives.index_process"
 SECONDS, PROCESSOR_SECONDS = 60.0, 4
-"""For one index: one of 5000 entries, or of 100 MB that hold 500, takes less than a second of a
+"""For one index: one of 5000 entries, or of 100 MB that contain 500, takes less than a second of a
 processor; those that are made to be slow took five."""
 _MEMORY = 500_000_000
 """Bytes of address space."""
@@ -52,7 +52,7 @@ class _Reader:
             self._started = launcher.start(order, request, answer)
 
     def ask(self, archive: Path, name: str) -> Any:
-        """Return what it says of an archive.
+        """Return what it states about an archive.
 
         Raises:
             TimeoutError: It does not answer in time.

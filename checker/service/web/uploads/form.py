@@ -23,7 +23,7 @@ _NAMELESS = "upload"
 
 
 class UnknownKind(ValueError):
-    """A file name that says of nothing that can be checked; the text is one sentence.
+    """File name of a kind that cannot be checked; the text is one sentence.
 
     Attributes:
         advice: What to send, one sentence.
@@ -43,7 +43,7 @@ def safe_name(name: str) -> str:
     Letters of all languages are kept.
 
     Args:
-        name: The name as the client says it: a name, or a path as some browsers send it.
+        name: The name as the client states it: a name, or a path as some browsers send it.
 
     Raises:
         UnknownKind: Its ending is of no archive and no model file.

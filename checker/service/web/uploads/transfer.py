@@ -138,10 +138,10 @@ def too_large(limit: int) -> Refused:
 
 
 def _announced(request: Request, config: Config) -> int:
-    """Return how many bytes a request may bring; as many as any if it does not say.
+    """Return how many bytes a request may bring; as many as any if it does not state it.
 
     Raises:
-        Refused: It says of itself that it is too large.
+        Refused: It states about itself that it is too large.
     """
     length = request.headers.get("content-length", "")
     if not (length.isdecimal() and len(length) <= 20):
