@@ -2,8 +2,8 @@
 
 Each package is the robot of a real one, made a trifle heavier, so that every check drives its own;
 each number of workers begins with an empty database, store and cache. A check keeps more than one
-processor busy at times, and so each worker is given one of its own (`compose.yaml` gives them
-containers of their own): with as many processors as it likes, one worker would take those of the
+processor busy at times, and so each worker is given its own (`compose.yaml` gives them
+their own containers): with as many processors as it likes, one worker would take those of the
 other. More workers than processors share them. Of each check, what it takes of processors, of the
 database and of the disk is printed, too. Run with `python -m bench.batch [--packages N]` from the
 top folder, as `make bench` does; SUBT_CHECK_CORPUS names the folder of real packages, the samples
@@ -55,7 +55,7 @@ def archives(number: int, folder: Path) -> list[tuple[str, bytes]]:
 
 @contextmanager
 def worker(number: int, data: Path, url: str) -> Iterator[None]:
-    """Run a worker on a processor of its own."""
+    """Run a worker on its own processor."""
     processors = sorted(os.sched_getaffinity(0))
     mine = {processors[number % len(processors)]}
     with (data.parent / f"worker{number}.log").open("w") as log:

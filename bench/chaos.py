@@ -1,4 +1,4 @@
-"""A service whose processes are killed at random: what becomes of all that was uploaded.
+"""A service whose processes are killed at random: the result of all that was uploaded.
 
 A hundred robots are uploaded, each by a client that sends it again with the same key until it is
 answered. Meanwhile workers, processes of checks, web servers, readers of archives and whole
@@ -59,7 +59,7 @@ _BEAT_FILES_SECONDS = 90.0
 
 
 def robot(number: int) -> bytes:
-    """Return the archive of a package with a name and a weight of its own."""
+    """Return the archive of a package with its own name and weight."""
     name, made = name_of(number), BytesIO()
     with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(SAMPLE.rglob("*")):

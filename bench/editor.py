@@ -121,7 +121,7 @@ def numbered(text: str, number: int) -> str:
 
 
 def show(name: str, times: Sequence[float], opened: float) -> None:
-    """Print the median and the 95th percentile beside their limit."""
+    """Print the median and the 95th percentile with their limit."""
     told = sorted(1e3 * each for each in times)
     p95 = told[min(len(told) - 1, round(0.95 * len(told)))]
     fits = "yes" if p95 <= LIMITS[name] else "NO"

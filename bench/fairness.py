@@ -27,7 +27,7 @@ LINKS = 9_000
 FIRST_LIMIT, REPORT_LIMIT = 10.0, 60.0
 """Seconds until the first findings, and until the report, of the small one."""
 WAITING, RATIO_LIMIT = 200, 2.0
-"""Small packages of one sender, and how many times as long another one waits beside them."""
+"""Small packages of one sender, and how many times as long another sender waits meanwhile."""
 _POLL_SECONDS = 0.05
 _NO_RATE = {"SUBT_CHECK_UPLOADS_PER_MINUTE": "0"}
 

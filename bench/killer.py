@@ -29,7 +29,7 @@ class Group:
     Attributes:
         number: The number of the port, also in the name of its log.
         folder: Holds the data, and the log.
-        bucket: Variables that lead to one of S3, so that it has data of its own; empty: in a folder
+        bucket: Variables that lead to one of S3, so that it has its own data; empty: in a folder
             with other services.
         database: Its address; empty for SQLite with the data.
         workers: The number of workers that it starts.

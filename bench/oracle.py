@@ -1,4 +1,4 @@
-"""Trials beside Gazebo's physics: a line for each robot of some folders, and what agrees.
+"""Trials compared with Gazebo's physics: a line for each robot of some folders, and what agrees.
 
     python -m bench.oracle [FOLDER...]
 

@@ -1,7 +1,7 @@
 """Compare the time of a check with that of similar tools, in pairs on one machine.
 
 `make bench` prints the ratios. Peers: `ign sdf -k` (Debian's ignition-tools), which loads one SDF
-file; catkin_lint, which reads the papers of a package; and simcheck, which drops a URDF robot in
+file; catkin_lint, which reads the manifests of a package; and simcheck, which drops a URDF robot in
 MuJoCo and PyBullet. They take turns, so that a machine which slows down slows both; what is quoted
 is the median of the ratios, by processor time of the processes that each waits for and by the
 clock.
@@ -55,7 +55,7 @@ def ratios(
 
 
 def show(name: str, found: Sequence[tuple[float, float]]) -> None:
-    """Print the medians of the ratios beside their limit."""
+    """Print the medians of the ratios with their limit."""
     processor, clock = map(statistics.median, zip(*found, strict=True))
     limit = LIMITS.get(name)
     judged = f"  (≤ {limit:g}: {'yes' if processor <= limit else 'NO'})" if limit else ""
@@ -73,7 +73,7 @@ def _time(command: Sequence[str]) -> tuple[float, float]:
 
 
 def peers(folder: Path) -> Path:
-    """Install the peers that PyPI has into an environment of their own; return its programs."""
+    """Install the peers that PyPI has into their own environment; return its programs."""
     venv.create(folder, with_pip=True)
     programs = folder / "bin"
     pip = [programs / "pip", "install", "--quiet", "--disable-pip-version-check", *PEERS]

@@ -48,7 +48,7 @@ class Cost:
 
 
 def seconds(package: Path, cache: Path, *more: str) -> float:
-    """Return how long the command takes in a process of its own."""
+    """Return how long the command takes in its own process."""
     begun = perf_counter()
     subprocess.run(
         [sys.executable, "-m", "checker.cli", str(package), *more],

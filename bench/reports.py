@@ -1,6 +1,6 @@
 """Measure how many reports a second the web process sends, with and without gzip.
 
-A robot is checked by a service of its own; then eight clients fetch its report again and again,
+A robot is checked by its own service; then eight clients fetch its report again and again,
 each over one connection, then its page. Run with `python -m bench.reports [--postgres]` from the
 top folder, as `make bench` does. Machines differ and are shared: see the pace that is printed.
 """

@@ -1,7 +1,7 @@
 """A repository of 20 packages, and 22 large humanoids: how long one command takes for all of them.
 
 Packages are those of ROS 2 that SUBT_CHECK_MODERN names and the samples, each once, and again under
-names of their own where there are too few. Humanoids are made: 30 links, each with a mesh of 20 000
+other names if there are too few. Humanoids are made: 30 links, each with a mesh of 20 000
 to 50 000 triangles, which the limbs of both sides share; `--humanoids DIR` checks robots that are
 there instead. Everything is checked twice, with an empty cache and with the one that this left.
 Run with `python -m bench.repository` from the top folder, as `make bench` does.
@@ -33,7 +33,7 @@ PACKAGES, HUMANOIDS = 20, 22
 PACKAGES_LIMIT, HUMANOIDS_LIMIT = 10.0, 60.0
 """Seconds without trials, on two processors."""
 _OTHERS = ("bugs", "repro")
-"""Folders beside the packages, with faults on purpose."""
+"""Folders next to the packages, with faults on purpose."""
 
 
 def sources() -> list[Path]:
@@ -74,7 +74,7 @@ _LIMBS = {
 
 
 def humanoid(folder: Path, number: int) -> Path:
-    """Write the package of a humanoid; each has meshes of its own."""
+    """Write the package of a humanoid; each has its own meshes."""
     dice = random.Random(number)
     package = folder / f"bench_humanoid_{number}_description"
     (package / "urdf").mkdir(parents=True)
@@ -151,7 +151,7 @@ def _stl(triangles: int, size: float) -> bytes:
 
 
 def seconds(folder: Path, cache: Path, *more: str) -> float:
-    """Return how long the command takes for a folder, in a process of its own."""
+    """Return how long the command takes for a folder, in its own process."""
     begun = perf_counter()
     run = subprocess.run(
         [sys.executable, "-m", "checker.cli", str(folder), *more],

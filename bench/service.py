@@ -218,6 +218,6 @@ def say(words: str) -> None:
 
 
 def show(name: str, value: float, unit: str, limit: float | None = None) -> None:
-    """Print a figure, beside what it is meant to stay below."""
+    """Print a figure, with the limit that it should stay below."""
     judged = "yes" if limit is None or value <= limit else "NO"
     print(f"{name:<44} {value:8.2f} {unit}" + (f"  (≤ {limit:g}: {judged})" if limit else ""))

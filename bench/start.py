@@ -1,6 +1,6 @@
 """Measure the time from the start of the service to its first accepted upload.
 
-`subt-check serve` is started with two workers, several times on data of its own and once more on
+`subt-check serve` is started with two workers, several times on its own data and once more on
 data that is there; a small archive is uploaded as soon as its address is printed. Run with
 `python -m bench.start [--postgres]` from the top folder, as `make bench` does. Machines differ and
 are shared: see the pace that is printed.

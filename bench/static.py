@@ -45,7 +45,7 @@ def seconds(action: Callable[[], object], repeats: int = 5) -> float:
 
 
 def cold(*arguments: str) -> Callable[[], object]:
-    """Return the action that runs the command in a process of its own."""
+    """Return the action that runs the command in its own process."""
     return lambda: subprocess.run(
         [*COMMAND, *arguments], cwd=ROOT, capture_output=True, check=False
     )
@@ -69,7 +69,7 @@ def robot_of(links: int, folder: Path) -> Path:
 
 
 def show(name: str, value: float) -> None:
-    """Print a figure beside its limit."""
+    """Print a figure with its limit."""
     limit = LIMITS.get(name)
     judged = f"  (≤ {limit:g} s: {'yes' if value <= limit else 'NO'})" if limit else ""
     print(f"{name:<32} {value:8.3f} s{judged}")
@@ -102,7 +102,7 @@ def findings(path: Path) -> object:
 
 
 def measure(packages: list[Path]) -> None:
-    """Measure and print everything, with a cache of its own."""
+    """Measure and print everything, with its own cache."""
     for path in packages:
         findings(path)
     within = [seconds(lambda path=path: findings(path), 3) for path in packages]
@@ -126,7 +126,7 @@ def measure(packages: list[Path]) -> None:
 
 
 def memory_of(package: Path) -> float:
-    """Return the peak memory of one check in a process of its own, MB.
+    """Return the peak memory of one check in its own process, MB.
 
     It is read from /proc: the figure of `getrusage` is inherited from the parent.
     """

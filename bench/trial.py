@@ -43,7 +43,7 @@ def seconds(action: Callable[[], object], repeats: int = REPEATS) -> float:
 
 
 def command(cache: Path, *arguments: str) -> Callable[[], object]:
-    """Return the action that runs the command in a process of its own, with a cache folder."""
+    """Return the action that runs the command in its own process, with a cache folder."""
     return lambda: subprocess.run(
         [*COMMAND, *arguments],
         cwd=ROOT, env={**os.environ, "SUBT_CHECK_CACHE": str(cache)}, capture_output=True,

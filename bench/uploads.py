@@ -1,6 +1,6 @@
 """A hundred clients that upload at once: how long they wait for their answer, and what it takes.
 
-Each sends a package of 1 MB of its own to a service that is new, five times over. All checks of the
+Each sends its own package of 1 MB to a service that is new, five times over. All checks of the
 last time are waited for: each ends with one report of its own upload. Run with
 `python -m bench.uploads [--postgres] [--clients N]` from the top folder, as `make bench` does.
 Machines differ and are shared: see the pace that is printed.
@@ -44,7 +44,7 @@ SETTLED = 3.0
 
 
 def contents(number: int, folder: Path) -> list[bytes]:
-    """Return so many archives of one robot, each with a texture of its own."""
+    """Return so many archives of one robot, each with its own texture."""
     made = []
     for n in range(number):
         texture = {f"{SAMPLE.name}/materials/textures/noise.png": noise(n, MEGABYTES)}
@@ -58,7 +58,7 @@ def name_of(number: int) -> str:
 
 
 def all_at_once(client: Client, packages: Sequence[bytes]) -> list[Upload]:
-    """Upload all packages at the same moment, each from a thread of its own."""
+    """Upload all packages at the same moment, each from its own thread."""
     ready = threading.Barrier(len(packages))
 
     def upload(number: int) -> Upload:
@@ -103,7 +103,7 @@ def show_answers(times: Sequence[Sequence[Upload]]) -> None:
 
 
 def waited_for(client: Client, uploads: Sequence[Upload], begun: float) -> None:
-    """Wait until all checks are over, and print what became of them."""
+    """Wait until all checks are over, and print their results."""
     taken = {n: each.id for n, each in enumerate(uploads) if each.status == CREATED}
     say("waits for all checks")
     client.ends(taken.values())

@@ -55,11 +55,11 @@ def web_process() -> int:
 
 
 class Followed:
-    """Checks to which things happen when the bench wants it.
+    """Checks whose events the bench triggers.
 
     Attributes:
         ids: The ids of the checks.
-        happened: When what a number stands for happened to a check.
+        happened: Time of the event of a number, for each check.
     """
 
     def __init__(self, database: str, ids: Sequence[str]) -> None:

@@ -35,7 +35,7 @@ def by_interpreter() -> None:
 
 
 def by_python() -> None:
-    """Evaluate as xacro does; only for files that one trusts, and in a process of its own."""
+    """Evaluate as xacro does; only for files that one trusts, and in its own process."""
     import xacro
 
     from checker.formats.xacro import processor
@@ -69,7 +69,7 @@ def requests(folder: Path) -> list[Request]:
 
 
 def seconds(request: Request, way: Callable[[], None]) -> tuple[float, bool]:
-    """Return how long expanding a file takes in a process of its own, and whether it succeeds."""
+    """Return how long expanding a file takes in its own process, and whether it succeeds."""
 
     def work() -> bytes:
         import xacro

@@ -42,7 +42,7 @@ def check_package(path: str | Path, settings: Settings | None = None) -> Report:
 
     Args:
         path: What to check.
-        settings: What to judge; those found beside each package when None.
+        settings: What to judge; for None, those next to each package.
 
     Raises:
         UnreadableInput: There is nothing to check at the path.
@@ -87,7 +87,7 @@ class Task(Record):
     Attributes:
         path: The path as the user gave it.
         package: The one to check there; None where it has to be opened first.
-        settings: The settings to judge by, instead of those beside the package.
+        settings: The settings to judge by, instead of those next to the package.
         wishes: Fields of the settings to replace.
         say: Called with a message when a long step starts.
         mesh_server: Starts the reader of the meshes of a package, if not the usual one.
@@ -292,7 +292,7 @@ def _with_patch(report: PackageReport, package: Package) -> PackageReport:
 
 
 def settings_of(path: Path) -> Iterator[Settings]:
-    """Yield the settings of each package at a path, but for those that cannot be used.
+    """Yield the settings of each package at a path, except those that cannot be used.
 
     For packages in an archive these are the defaults: nothing that they name lasts.
 

@@ -91,7 +91,7 @@ class Settings(Record):
     target_reason: str = ""
 
     def selects(self, rule: Rule) -> bool:
-        """Return whether the user wants this rule to run."""
+        """Return whether the user selects this rule."""
         chosen = not self.select or _names(self.select, rule)
         return chosen and not _names(self.ignore, rule)
 
@@ -107,7 +107,7 @@ class Settings(Record):
         return replace(self, profile_chosen=chosen, commanded=commanded, **wanted)
 
     def problem(self, name: str, words: str) -> InvalidSettings:
-        """Return what is wrong with a field, blamed on where it is set."""
+        """Return the fault of a field, with the place where it is set."""
         if name in self.commanded:
             return InvalidSettings(None, f"--{name.replace('_', '-')}: {words}")
         return InvalidSettings(self.source, words)
@@ -334,7 +334,7 @@ def _suppressed(value: Any, path: Path) -> tuple[SettingsEntry, ...]:
 
 
 def _baseline(value: Any, path: Path) -> Baseline:
-    """Read the baseline beside a settings file."""
+    """Read the baseline next to a settings file."""
     return read_baseline(_checked_path("baseline", value, path, "a file"))
 
 

@@ -1,4 +1,4 @@
-"""A server of S3 for tests, from PyPI (moto): one of them, a bucket of its own for each test."""
+"""A server of S3 for tests, from PyPI (moto): one server, a separate bucket for each test."""
 
 from __future__ import annotations
 

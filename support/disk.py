@@ -1,4 +1,4 @@
-"""A disk of its own for a test, and what fills it."""
+"""A separate disk for a test, and code that fills it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A real PostgreSQL for tests, from PyPI: one server, a database of its own for each test.
+"""A real PostgreSQL for tests, from PyPI: one server, a separate database for each test.
 
 def test_it(postgres_url: str) -> None:
     engine = create_engine(fresh_database(postgres_url))
@@ -78,7 +78,7 @@ class _Place:
         return str(self.installation / "bin" / name)
 
     def install(self) -> None:
-        """Copy the programs, with the libraries that they look for beside themselves."""
+        """Copy the programs, with the libraries that they look for next to themselves."""
         source = _package()
         for part in ("lib", "share"):
             shutil.copytree(source / "pginstall" / part, self.installation / part)

@@ -17,7 +17,7 @@ _SAID = re.compile(r"the service runs at (http://\S+)\n")
 def process(
     command: Sequence[str], cwd: Path, environment: Mapping[str, str], log: Path
 ) -> Iterator[subprocess.Popen[str]]:
-    """Start a process; it has to end properly when it is asked to."""
+    """Start a process; it has to end properly when it is told to."""
     with log.open("w") as said:
         started = subprocess.Popen(
             command, cwd=cwd, env=dict(environment), stdout=subprocess.PIPE, stderr=said, text=True

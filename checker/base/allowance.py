@@ -1,7 +1,7 @@
 """Limits of processor time and memory for one piece of work within this process.
 
-Children have limits of their own (`checker.base.child_process`). This process cannot be ended for
-one piece, so that a timer interrupts the piece and what comes after it continues.
+Child processes have their own limits (`checker.base.child_process`). This process cannot be ended
+for one piece, so that a timer interrupts the piece and what comes after it continues.
 """
 
 from __future__ import annotations

@@ -42,14 +42,14 @@ def _always(_: object) -> bool:
 class Work(Record, Generic[T], eq=False):
     """The items that one process computes.
 
-    Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with
+    Its module's `answer` is given JSON: `items`, a list, and `common` data. It answers with
     a JSON list of as many results; in place of one, `failed` states why there is none.
 
     Attributes:
         kind: The kind of the results in the cache.
         module: The module whose `answer` does the work.
         limits: What the process may use.
-        items: What is asked, as JSON, by the key of its result.
+        items: The requested items, as JSON, by the key of its result.
         decode: Makes a result of an entry of the answer. It raises one of `NONSENSE` for what is
             none: the answering process may be compromised.
         common: What all items need.

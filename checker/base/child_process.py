@@ -163,7 +163,7 @@ class Child:
         """Return what it has written; the files can be read until it is stopped.
 
         Args:
-            limit: Bytes of the answer; the files have limits of their own.
+            limit: Bytes of the answer; the files have their own limits.
             start: The offset at which the answer begins.
             end: The offset at which it ends; None for the end of the file.
         """

@@ -64,7 +64,7 @@ def run_all_in_forks(
     """Return what each of several works returns in a fork; one that dies takes no other with it.
 
     They share a fork, since a new one takes as long as a small file. Where it ends, the work at
-    which it did is tried again, the first in a fork of its own. Those that take long are done
+    which it did is tried again, the first in its own fork. Those that take long are done
     after all others, so that they take time from one another alone.
 
     Args:
@@ -114,7 +114,7 @@ def _forked(
 
 
 def _whole(pipe: BinaryIO) -> Iterator[bytes]:
-    """Yield results as `_work` writes them, but for the one that the fork did not finish."""
+    """Yield results as `_work` writes them, except the one that the fork did not finish."""
     while len(head := pipe.read(_HEAD)) == _HEAD:
         length = int.from_bytes(head, "big")
         result = pipe.read(length) if length <= _RESULT_LIMIT else b""

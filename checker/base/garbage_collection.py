@@ -15,7 +15,7 @@ def collection_put_off() -> Iterator[None]:
     """Put collection off: what a check makes lives to its end.
 
     Looking through it in between took over half of the time of a model with 250 000 elements. Stay
-    inside until the subject is gone: what is still held when this ends is looked through too.
+    inside until the subject is gone: what is still held when this ends is searched too.
     """
     was_enabled = gc.isenabled()
     gc.disable()

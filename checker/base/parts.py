@@ -54,7 +54,7 @@ class WorkerFailed(Record):
 class Parts(Protocol):
     """Gives the parts of a package by the names of their types.
 
-    By names, so that a rule asks without loading the modules that it is written with.
+    By names, so that a rule gets them without loading the modules that it is written with.
     """
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:

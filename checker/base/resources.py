@@ -28,7 +28,7 @@ def version_of(name: str) -> str:
     """Return the version of an installed distribution without importing it; else `UNKNOWN`.
 
     The folder of its metadata is named for it. To load `importlib.metadata` takes longer than all
-    that a cache's key wants to know.
+    that a cache's key includes.
     """
     return _versions().get(name.lower().replace("-", "_"), UNKNOWN)
 
@@ -83,7 +83,7 @@ def templates(name: str) -> Path:
 
 
 def project_folder(name: str) -> Path:
-    """Return a folder that the wheel has below `subt_check`, and a checkout beside it."""
+    """Return a folder that the wheel has below `subt_check`, and a checkout next to it."""
     installed = _CHECKER / name
     return installed if installed.is_dir() else _CHECKER.parent / name
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection
 def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], object]) -> None:
     """Run one function at the first of some signals, another at the second, and so on.
 
-    A thread of its own does it, woken by the signal itself. Python runs handlers in the main thread
+    A separate thread does it, woken by the signal itself. Python runs handlers in the main thread
     alone: that sleeps on where the system gives the signal to another thread, as it does now and
     then where threads start processes, and a handler may interrupt it within `Event.wait`, where it
     holds the lock that `Event.set` waits for.

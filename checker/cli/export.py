@@ -40,7 +40,7 @@ class Exported(Record):
     Attributes:
         name: The name of the package, and so of the files.
         text: The document.
-        files: Files that it needs beside it, path and text.
+        files: Further files that it needs, path and text.
         notes: What was left out or decided.
     """
 
@@ -86,7 +86,7 @@ def export_package(path: Path, form: str, *, apart: bool = False, cached: bool =
     Args:
         path: Package, archive or model file.
         form: `urdf` or `mjcf`.
-        apart: Whether the meshes of an MJCF are files of their own.
+        apart: Whether the meshes of an MJCF are separate files.
         cached: Whether meshes may come from the cache.
 
     Raises:

@@ -115,7 +115,7 @@ _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.UNKNOWN)
 
 
 class Guess(Record):
-    """A profile, and what speaks for it.
+    """A profile, and the reason for it.
 
     Attributes:
         profile: The guessed profile; empty where there is none or more than one.

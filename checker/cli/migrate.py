@@ -35,8 +35,8 @@ def migrate_and_check(
 
     Args:
         source: The description.
-        destination: Folder that the package goes into.
-        wishes: What the author asks of the migration.
+        destination: Folder of the package.
+        wishes: Options of the migration.
         check_wishes: Fields of `Settings` that the command line sets; None leaves them.
         say: Called with a message when a long step starts.
 

@@ -101,7 +101,7 @@ def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
 
 
 def _drop_massless(bodies: Bodies, notes: Notes) -> None:
-    """Drop bodies without mass on which nothing hangs, from the ends of the tree inwards."""
+    """Drop bodies without mass without children, from the ends of the tree inwards."""
     carrying: set[str] = set()
     for name, body in reversed(list(bodies.bodies.items())):
         if body.mass == 0.0 and name not in carrying and len(bodies.bodies) > 1:

@@ -73,7 +73,7 @@ class Copier:
         self.naming.strip(twin)
 
     def _unique_name(self, element: Element, twin: etree._Element, link: str) -> str:
-        """Give a sensor or light a name of its own in its link, and return a sensor's."""
+        """Give a sensor or light its own name in its link, and return a sensor's."""
         name = element.get("name") or ""
         if name and element.tag in _NAMED:
             chosen = unique(name, self.taken.setdefault((link, element.tag), {}))

@@ -48,7 +48,7 @@ _LUMPING = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 _WHOLE = frozenset({"static", "self_collide", "allow_auto_disable", "enable_wind"})
 _INTO_MODEL = frozenset({"plugin", "model", "include", "link", "joint", "frame", "gripper"})
 COPIED = frozenset({"sensor", "light", "plugin", "projector", "audio_sink", "audio_source"})
-"""SDF inside a link's tag that goes into the link as it is."""
+"""SDF inside a link's tag that is added to the link as it is."""
 _EVERY_SHAPE = frozenset({"visual", "collision"})
 _FALSE = ("0", "false")
 
@@ -92,8 +92,8 @@ class GazeboSettings:
         joint: The content for the joint.
         whole: The content for the model.
         materials: Names of materials of Gazebo; the last counts.
-        shapes: `<visual>` and `<collision>`, whose content goes into each of the link's.
-        copied: SDF that goes in as it is.
+        shapes: `<visual>` and `<collision>`, whose content is added to each of the link's.
+        copied: SDF that is added as it is.
     """
 
     link: list[Setting] = field(default_factory=list)

@@ -41,7 +41,7 @@ class Naming(Record):
 
 
 def naming_of(robot: Robot, namespace: str = "") -> Naming:
-    """Find out what goes in front of names.
+    """Find the prefix of names.
 
     Args:
         robot: The source.

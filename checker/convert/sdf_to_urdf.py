@@ -142,7 +142,7 @@ def converted_to_urdf(
 ) -> Conversion:
     """Write a robot as a URDF document.
 
-    Each link keeps its frame, since TF places it there. Sensors have no frame of their own: the
+    Each link keeps its frame, since TF places it there. Sensors have no frame: the
     simulation publishes those.
 
     Args:
@@ -197,7 +197,7 @@ class _Writer:
         )
 
     def _hang(self, name: str, top: str) -> None:
-        """Add the joints by which a link hangs."""
+        """Add the joints of a link to its parents."""
         tie, child = self.spanning_tree.by.get(name), self._pose(name)
         if tie is None:
             link = self.robot.tree.links[name]

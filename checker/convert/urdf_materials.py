@@ -70,7 +70,7 @@ class Materials:
                 self._named.setdefault(element.get("name") or "", paint)
 
     def paint_of(self, visual: Visual, materials: Sequence[Element]) -> Paint | None:
-        """Return how a visual looks; None for a look of its own, such as a mesh's.
+        """Return how a visual looks; None for its own appearance, such as a mesh's.
 
         Args:
             visual: The visual of the source.

@@ -47,7 +47,7 @@ def sdf_of(
         description: Its `<gazebo>` tags.
         name: The name of the model.
         mesh_uri: Gives the URI to write for a mesh or texture of the source, as written there.
-        namespace: What goes in front of names of links and joints, without the slash. When empty,
+        namespace: Prefix of names of links and joints, without the slash. When empty,
             the part before the slash that all links have in common, if there is one.
 
     Returns:

@@ -18,7 +18,7 @@ NOISE = 1e-15
 _PLAIN = (1e-9, 1e16)
 """Numbers between these are written without exponent."""
 _SHORTER = 4
-"""Characters that a rounded number must save before it is taken for what was meant."""
+"""Characters that a rounded number must save before it counts as the intended one."""
 
 
 def document_text(tree: etree._Element) -> str:

@@ -127,7 +127,7 @@ async def _watched(server: Server, check: FullCheck, name: str) -> PackageReport
 
 
 async def _shown(server: Server, report: PackageReport) -> dict[str, str]:
-    """Write the page of a report, and ask the editor to open it."""
+    """Write the page of a report, and open it in the editor."""
     page = await asyncio.to_thread(_written, report)
     params = lsp.ShowDocumentParams(page.as_uri(), external=True)
     window = server.client_capabilities.window

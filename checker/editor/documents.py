@@ -60,7 +60,7 @@ def open_document(uri: str, version: int, text: str) -> Document | None:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return where the file of a URI lies, links resolved; None for other schemes."""
+    """Return the path of the file of a URI, links resolved; None for other schemes."""
     try:
         parts = urlsplit(uri)
         if parts.scheme != "file" or parts.netloc not in ("", "localhost"):

@@ -16,7 +16,7 @@ from checker.settings import Settings
 
 
 class FullCheck:
-    """A check that runs in a process of its own."""
+    """A check that runs in its own process."""
 
     def __init__(self, package: Package, settings: Settings) -> None:
         """Start it.

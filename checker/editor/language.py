@@ -34,7 +34,7 @@ class Place(Record):
 def place_of(tags: Sequence[str], *, refers: bool = True) -> Place:
     """Return where an element is.
 
-    Tags of xacro's own are looked through: what is in a macro is where that is called.
+    Tags of xacro's own are skipped: what is in a macro is where that is called.
 
     Args:
         tags: The tags from the root of the file down to the element.

@@ -32,7 +32,7 @@ def meaning_of(language: str, tags: Sequence[str], attribute: str = "") -> Meani
 
     Args:
         language: `sdf` or `urdf`.
-        tags: The tags of the elements around it and of its own.
+        tags: The tags of the elements around it and its own tag.
         attribute: Its name; empty for the element.
     """
     known = table("xml_meanings")[language]
@@ -45,7 +45,7 @@ def words_of_sdf(tags: Sequence[str], attribute: str, kind: str, target: Context
     """Return the words among which an element or attribute of SDF chooses; none where any may be.
 
     Args:
-        tags: The tags of the elements around it and of its own.
+        tags: The tags of the elements around it and its own tag.
         attribute: Its name; empty for a text.
         kind: Its type in the schema.
         target: The target whose sensors count.

@@ -16,7 +16,7 @@ _OF_TEXTS = frozenset({"xacro"})
 
 
 class MemoryCache(Cache):
-    """A cache that asks the disk once for each result."""
+    """A cache that reads the disk once for each result."""
 
     _recent: OrderedDict[tuple[str, str], Any] = field(default_factory=OrderedDict)
 

@@ -56,7 +56,7 @@ def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[N
     """Return what a text or an attribute names; nothing where it names no part of a robot.
 
     Args:
-        tags: The tags of the elements around it, outermost first, and of its own; xacro's are
+        tags: The tags of the elements around it, outermost first, and its own tag; xacro's are
             ignored.
         attribute: Its name; empty for a text.
         plugin: Class of the plugin around it, its last word.

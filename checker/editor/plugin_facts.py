@@ -70,7 +70,7 @@ def plugin_facts(filename: str, name: str, target: Context) -> PluginFacts | Non
     Args:
         filename: The filename of its library, as written; empty if none is.
         name: The name of its class, as written.
-        target: The newest release counts where it has none of its own.
+        target: The newest release counts if it has none.
     """
     stem = library_stem(filename)
     if stem in _ROS2_CONTROL:

@@ -1,4 +1,4 @@
-"""The target that a package is written for: the release and version that editors speak of."""
+"""The target of a package: the release and version that an editor shows."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def plugin_releases(target: Context) -> tuple[str, ...]:
 
 
 def schema_version(stated: str, target: Context) -> str:
-    """Return the SDF version to speak of: the file's own, else what the target reads."""
+    """Return the SDF version to show: the file's own, else what the target reads."""
     if stated in VERSIONS:
         return stated
     return target.reads if target.reads in VERSIONS else VERSIONS[-1]

@@ -33,7 +33,7 @@ class Unit(Record, eq=False):
 
 
 class Units:
-    """Finds the units of files; folders are looked through once, until they change."""
+    """Finds the units of files; folders are searched once, until they change."""
 
     def __init__(self, folders: Sequence[Path] = ()) -> None:
         """Look at nothing yet.
@@ -53,7 +53,7 @@ class Units:
     def unit_of(self, file: Path) -> Unit | None:
         """Return the unit that a file belongs to; None outside of packages.
 
-        A model or world in a package is a unit of its own where the command takes it for one.
+        A model or world in a package is a separate unit if it is one for the command.
         """
         if file not in self._found:
             self._found[file] = self._look_for(file)

@@ -15,7 +15,7 @@ from enum import StrEnum
 from checker.base.record import Record
 
 DEPTH_LIMIT = 300
-"""Open elements that are kept track of; deeper ones are taken for closed."""
+"""Open elements that are kept track of; deeper ones count as closed."""
 _BLANKS = " \t\r\n"
 _QUOTES = ("'", '"')
 _TAG = re.compile(

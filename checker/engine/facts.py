@@ -228,7 +228,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
 
 
 def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield the values that are taken for arguments that are not given, and others that count."""
+    """Yield the values of arguments that are not given, and others that count."""
     files = subject.one(UrdfFiles) if robot.document.root.tag == "robot" else None
     if not isinstance(files, UrdfFiles):
         return

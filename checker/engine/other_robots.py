@@ -59,7 +59,7 @@ def rules_of_one_robot(rules: Iterable[Rule]) -> list[Rule]:
 def new_findings(added: Outcome, known: Outcome, description: UrdfDescription) -> Outcome:
     """Return what was found in a robot and in none before it; each message names the values.
 
-    What could not be looked at is no reason to doubt the robot that the defaults make, and other
+    What could not be read is no reason to doubt the robot that the defaults make, and other
     files than those that describe the robot may be meant for that one.
 
     Args:

@@ -1,7 +1,7 @@
 """Remembers reports: a package that did not change is not checked again.
 
 What a report depends on is hashed: the program, the settings, the package's content, and which
-files are in the packages beside it (by size and time of change).
+files are in the sibling packages (by size and time of change).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ _LIBRARIES = (
     *("tree-sitter-ruby", "xacro", "yourdfpy"),
 )
 ENTRIES_LIMIT = 100_000
-"""Files beside a package; with more of them, looking at all takes longer than checking."""
+"""Files next to a package; with more of them, reading all takes longer than checking."""
 ENTRIES_AROUND_A_FILE = 5_000
 """Files in the folder of a lone file and below: it may name any of them."""
 
@@ -91,7 +91,7 @@ def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless it may be another the next time.
 
     It may where a process or the system failed, a rule crashed or nothing could be drawn. A sibling
-    that was not found is no reason: the key holds which files are beside the package.
+    that was not found is no reason: the key holds which files are next to the package.
     """
     undrawn = report.display is not None and not report.display.pictures
     lasts = cache.is_whole and not report.crashed and not report.disturbed

@@ -218,7 +218,7 @@ def _report(
 
 
 def _unread(package: Package) -> Iterator[str]:
-    """Yield which files and folders could not be looked at, and why."""
+    """Yield which files and folders could not be read, and why."""
     yield from (f"{fault.path} {fault.reason}" for fault in package.index.faults)
     large = package.too_large
     yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
@@ -229,7 +229,7 @@ def _unread(package: Package) -> Iterator[str]:
 def _piece(
     subject: Subject, name: str, make: Callable[[], tuple[T, ...]]
 ) -> tuple[tuple[T, ...], tuple[NotChecked, ...]]:
-    """Return what is made of a subject beside its findings, which a failure leaves as they are."""
+    """Return what is made of a subject besides its findings, which a failure leaves as they are."""
     try:
         with subject.allowance.piece():
             return make(), ()

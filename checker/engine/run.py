@@ -64,7 +64,7 @@ def run_rules(
     *,
     allowance: Allowance | None = None,
 ) -> Outcome:
-    """Run the rules that profile and settings want; one that crashes stops no other.
+    """Run the rules of profile and settings; one that crashes stops no other.
 
     Args:
         rules: The rules to choose from; the selected ones run.

@@ -127,7 +127,7 @@ class Subject(Record, eq=False):
         return made if isinstance(made, NotAvailable | tuple) else (made,)
 
     def with_part(self, part: object, kept: Collection[type] | None = None) -> Subject:
-        """Return the same package with another part in place of its own.
+        """Return the same package with another part instead of its own.
 
         Args:
             part: The part.

@@ -1,4 +1,4 @@
-"""Fixing a package in rounds, in memory: apply what goes together, check again, until it rests."""
+"""Fixing a package in rounds, in memory: apply compatible fixes, check again, repeat."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]
 def one_round(
     package: Package, findings: Sequence[ReportedFinding], allowed: Collection[Safety]
 ) -> tuple[FixedFile, ...]:
-    """Return what the fixes of these findings come to, as far as they go together."""
+    """Return the result of the fixes of these findings, as far as they are compatible."""
     edited: dict[str, SourceText] = {}
     _round(
         [finding for finding in findings if finding.fix and finding.fix.safety in allowed],

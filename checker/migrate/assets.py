@@ -82,7 +82,7 @@ class Assets:
             yield new, content
 
     def _with_textures(self) -> None:
-        """Take along the pictures and material files that meshes name, as they lie beside them."""
+        """Take along the pictures and material files that meshes name; keep their paths."""
         package, robot = self.source.package, self.source.description.robot
         uris = mesh_uris(robot)
         meshes = PackageMeshes(package, uris, NO_CACHE)
@@ -147,7 +147,7 @@ def _folder_for(name: str) -> str:
 
 
 def _target_path(old: str) -> str:
-    """Return where a file goes: below meshes/ as it lies there now, pictures with pictures."""
+    """Return the new path of a file: the same below meshes/, pictures with pictures."""
     name = posixpath.basename(old)
     if _folder_for(name) == TEXTURES:
         return f"{TEXTURES}/{_fit(name)}"

@@ -43,7 +43,7 @@ class Drive(Record, eq=False):
         kingpin_width: The distance between the steering joints, metres.
         steering_limit: Radians.
         notes: What was decided.
-        open_points: What the author ought to look at.
+        open_points: What the author should check.
     """
 
     wheels: Wheels

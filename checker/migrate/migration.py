@@ -1,4 +1,4 @@
-"""The migration from end to end: a description goes in, a whole package comes out."""
+"""The migration from end to end: from a description to a whole package."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
 
     Args:
         path: The description: a package folder, an archive, or a URDF file.
-        destination: Folder that the package goes into: empty, or not there yet.
+        destination: Folder of the package: empty, or not there yet.
         wishes: The author's options.
 
     Raises:
@@ -205,7 +205,7 @@ def _drive(robot: Robot, source: Source, wishes: MigrationOptions, judged: Judge
 def _surround(
     staging: Staging, source: Source, names: Names, robot: Robot, drive: Drive | None, log: _Log
 ) -> None:
-    """Write what a package has beside its model: launch files, papers, pictures."""
+    """Write the other files of a package: launch files, paperwork, pictures."""
     papers = papers_of(source)
     servos = servos_of(source, robot)
     log.points += [*_what_moves_it(drive, servos), *papers.open_points]

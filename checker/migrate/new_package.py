@@ -168,14 +168,14 @@ class Staging(Record):
 
 @contextmanager
 def stage_package(destination: Path, package: str) -> Iterator[Staging]:
-    """Write a package beside its final place; it is moved there after success.
+    """Write a package next to its final place; it is moved there after success.
 
     The destination may hold other packages: nothing that is there is changed.
 
     A folder that an interrupted run left behind stays hidden and does not count as content.
 
     Args:
-        destination: Folder that the package goes into; created if needed.
+        destination: Folder of the package; created if needed.
         package: Name of the package's folder.
 
     Raises:

@@ -112,7 +112,7 @@ class Judged:
 def judge_plugins(conversion: Conversion, base: str) -> Judged:
     """Remove the plugins of Gazebo 9 that stand outside sensors; put sensors where they made some.
 
-    Plugins within sensors are left: what becomes of their sensor hangs on them.
+    Plugins within sensors are left: the result of their sensor depends on them.
 
     Args:
         conversion: Its tree is changed.

@@ -1,4 +1,4 @@
-"""Sensors as Ignition Gazebo wants them: lidars, cameras, IMUs by the SubT standard."""
+"""Sensors in the form of Ignition Gazebo: lidars, cameras, IMUs by the SubT standard."""
 
 from __future__ import annotations
 

@@ -168,7 +168,7 @@ _FIRST = ("pose", "always_on", "update_rate")
 
 
 def _name_apart(tree: etree._Element) -> None:
-    """Give each sensor of a link a name of its own."""
+    """Give each sensor of a link its own name."""
     for holder in (*tree.iter("link"), *tree.iter("joint")):
         taken: set[str] = set()
         for sensor in holder.iterfind("sensor"):

@@ -1,4 +1,4 @@
-"""Pictures of a robot from five sides, as the SubT model repository wants them."""
+"""Pictures of a robot from five sides, as the SubT model repository requires."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from checker.model.locomotion.wheels import WheelReader, is_misaligned, tread
 from checker.model.robot import Robot
 
 _LEVEL = 0.2
-"""Share of its radius by which a wheel may hang above the lowest one."""
+"""Share of its radius by which a wheel may be above the lowest one."""
 _ALIKE = 0.1
 """Share of the radius by which the wheels of a pair may differ in size and place."""
 _ACROSS = 0.94

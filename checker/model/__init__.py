@@ -1,1 +1,1 @@
-"""One robot model for all formats, in which every value knows its place in the files."""
+"""One robot model for all formats, in which every value has its place in the files."""

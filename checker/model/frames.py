@@ -44,7 +44,7 @@ class FrameGraph:
         self.nodes.setdefault(name, node)
 
     def pose(self, name: str) -> Transform | None:
-        """Return the pose of a frame in the root; None when it hangs on nothing or on itself."""
+        """Return the pose of a frame in the root; None if it has no parent, or is its own."""
         chain: list[str] = []
         on_chain: set[str] = set()
         at: str | None = name

@@ -28,7 +28,7 @@ def model_host(robot: Robot) -> PluginHost:
 
 
 def world_host(world: World) -> PluginHost:
-    """Return a world as what loads its plugins; models that move are hosts of their own."""
+    """Return a world as what loads its plugins; models that move are separate hosts."""
     of_models = (
         plugin for model in world.models if model.is_static for plugin in model.all_plugins
     )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class LooseGroup(Record):
-    """Links that hang together, and that no joint connects to the robot.
+    """Links that are connected to each other, and that no joint connects to the robot.
 
     Attributes:
         top: The link that the others are connected to.

@@ -28,7 +28,7 @@ class Format(Record):
         roots: Root elements of its files.
         reader: Module and name of the function that returns what a file contains
             (`checker.formats.content.Reader`), such as `acme.toy:read`.
-        is_grouped: Whether files beside each other, and launch files, describe a robot together;
+        is_grouped: Whether files in one folder, and launch files, describe a robot together;
             otherwise each file outside of packages is checked by itself.
     """
 

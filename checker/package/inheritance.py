@@ -1,6 +1,6 @@
 """Parts that a package takes from a sibling: the model, launch files, Ruby code, specification.
 
-A second configuration of a robot often has a spawner only: the launcher hands it the model of
+A second configuration of a robot often has a spawner only: the launcher passes it the model of
 the sibling that its roslaunch commands name, and everything else comes from there too.
 """
 
@@ -80,7 +80,7 @@ class Inherited(Record):
         part: The part.
         package_name: The sibling that contains it, at the end of a chain of siblings.
         how: The text that states it, in the package that inherits.
-        at_hand: Whether the sibling could be looked at.
+        at_hand: Whether the sibling could be read.
     """
 
     part: Part
@@ -173,7 +173,7 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
 def own_sheet(package: Package) -> str | None:
     """Return the specification sheet at the top of a package, also under a name of other spelling.
 
-    `specification.md` or `Specs.md` is what `specifications.md` ought to be; only the right name
+    `specification.md` or `Specs.md` should be `specifications.md`; only the right name
     counts when both are there.
     """
     if package.exists(SHEET):

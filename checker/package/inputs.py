@@ -33,7 +33,7 @@ MAX_WRAPPERS = 3
 
 
 class Skipped(Record):
-    """A subfolder that was not looked at, and why."""
+    """A subfolder that was not read, and the reason."""
 
     name: str
     reason: str

@@ -37,7 +37,7 @@ _PYTHON_MODULES = "ament_python_install_package"
 def source_of(package: Package, path: str) -> str | None:
     """Return the path in the source of what is installed at a path; None when nothing is.
 
-    Without a build file, the only file whose path ends so is taken for it.
+    Without a build file, the only file whose path ends so counts as that file.
 
     Args:
         package: The package that installs it.

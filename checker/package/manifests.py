@@ -229,5 +229,5 @@ class Paperwork(Record, eq=False, dict=True):
 
 @part
 def paperwork(package: Package) -> Paperwork:
-    """Return what the package's own papers state."""
+    """Return the content of the package's own paperwork."""
     return Paperwork(package)

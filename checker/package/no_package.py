@@ -10,7 +10,7 @@ from pathlib import Path
 from checker.base.record import Record
 
 _FILES_LIMIT = 5_000
-"""Files that are looked at, by their names."""
+"""Files that are read, by their names."""
 _SHOWN = 200
 _OTHER_ARCHIVES = (".zip", ".tar.gz", ".tgz", ".tar", ".tar.xz", ".tar.bz2", ".7z", ".rar")
 _MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")

@@ -127,12 +127,12 @@ class Package(Record, eq=False, dict=True):
         return package
 
     def _location(self, path: str) -> Path:
-        """Return where a file lies, or would lie, on disk."""
+        """Return the path of a file on disk, which may not exist."""
         entry = self._file(path)
         return entry.location if isinstance(entry, FileEntry) else self.root / path
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Send a package to another process as the place where it lies."""
+        """Send a package to another process as its path."""
         space = self.workspace
         return _package_at, (self.root, self.only, space.directories, space.within, space.overlay)
 

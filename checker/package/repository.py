@@ -41,7 +41,7 @@ class Units(Record):
 
     Attributes:
         units: The units by path, packages before what is in them.
-        complete: Whether all folders were looked into.
+        complete: Whether all folders were read.
         ignored: Files that keep the build tools, and this search, out of their folders.
     """
 
@@ -54,10 +54,10 @@ def units_below(folder: Path) -> Units:
     """Find packages, model folders and loose model files in a folder, however deep.
 
     What is in a model folder or a submission is a part of it. A ROS package may hold models and
-    worlds; these are units of their own beside it. Links are not followed.
+    worlds; these are separate units. Links are not followed.
 
     Args:
-        folder: Links resolved; itself a unit if it is a package or model. It is looked into also
+        folder: Links resolved; itself a unit if it is a package or model. It is also read
             where the build tools would ignore it: an explicit path overrides that.
     """
     search = _Search()

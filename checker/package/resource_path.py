@@ -55,7 +55,7 @@ class SearchedFolder(Record, eq=False):
     Attributes:
         folder: The folder below the folder of all share folders: empty for that itself,
             `arm/models`; None when it is not known, or is elsewhere.
-        known: Whether it is known where it lies.
+        known: Whether its place is known.
         span: What puts it there.
     """
 
@@ -133,7 +133,7 @@ def _share_folders(attribute: Located[str], name: str) -> Iterator[SearchedFolde
 
 
 def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
-    """Yield where the texts of a package name the path, but for its hooks.
+    """Yield where the texts of a package name the path, except its hooks.
 
     Launch files set it; documents, scripts and container files tell users to do so.
     """

@@ -79,7 +79,7 @@ def _of_manifest(package: Package, manifest: XmlDocument) -> str:
 
 
 def _is_of_subt(package: Package) -> bool:
-    """Return whether a package is for the challenge: it is beside submissions, or names SubT."""
+    """Return whether a package is for the challenge: it is next to submissions, or names SubT."""
     if any(map(SUBMISSION_NAME.search, package.workspace.packages)):
         return True
     texts = (package.read(file.path) for file in package.index.with_suffix(*_NAMING))

@@ -1,4 +1,4 @@
-"""Teams in running text: whose robot a title or a description speaks of."""
+"""Teams in running text: the team in a title or a description."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _name_pattern(name: str) -> re.Pattern[str]:
 
 
 def other_teams(text: str, package: str) -> Iterator[re.Match[str]]:
-    """Yield where a text speaks of a robot of another team than the package's.
+    """Yield where a text names a robot of another team than the package's.
 
     A sentence that names the package's own team as well speaks of both on purpose, and words such
     as `based on` state where a robot comes from. Names of packages are no names of teams.

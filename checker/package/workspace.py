@@ -31,8 +31,8 @@ _WORD = re.compile(r"\w+")
 class Workspace(Record, eq=False, dict=True):
     """Folders whose direct subfolders are packages.
 
-    Nothing above them is ever looked at, but for the challenge's own packages: in its repository
-    they are beside the folder of all submissions.
+    Nothing above them is ever read, except the challenge's own packages: in its repository
+    they are next to the folder of all submissions.
 
     Attributes:
         directories: Links resolved. The first is where the checked packages lie; further ones
@@ -139,7 +139,7 @@ class Workspace(Record, eq=False, dict=True):
         return self.at(real) if is_package and self.holds(real) else None
 
     def _package_above(self, name: str) -> Package | None:
-        """Return a package that lies up to `LEVELS_ABOVE` folders above; links are not followed."""
+        """Return a package that is up to `LEVELS_ABOVE` folders above; links are not followed."""
         for directory in self.directories:
             for above in islice(directory.parents, LEVELS_ABOVE):
                 folder = above / name

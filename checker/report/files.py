@@ -1,4 +1,4 @@
-"""The files that `--report DIR` writes: what is kept of a run, beside each other."""
+"""The files that `--report DIR` writes: the results of a run."""
 
 from __future__ import annotations
 

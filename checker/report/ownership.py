@@ -25,7 +25,7 @@ def is_foreign(place: Place) -> bool:
 
 
 def owners(report: Report) -> Mapping[Identity, str]:
-    """Return the name of the package in whose own files each finding lies."""
+    """Return the name of the package that owns the file of each finding."""
     known: dict[Identity, str] = {}
     for package in report.packages:
         known |= owned_by(package)

@@ -214,7 +214,7 @@ def help_uri(rule: str) -> str:
 
 
 def _invocation(report: Report, left_out: int) -> Json:
-    """Return what went wrong or could not be looked at."""
+    """Return what went wrong or could not be read."""
     crashed = any(package.crashed for package in report.packages)
     failed = any(item.failed for item in report.not_opened)
     notifications = [

@@ -76,7 +76,7 @@ def _errors(package: PackageReport) -> str:
 
 
 def _owner(found: ReportedFinding) -> str:
-    """Return the package that a finding is inherited from; empty for one of its own."""
+    """Return the package that a finding is inherited from; empty for its own."""
     place = found.places[0]
     return place.file.split("/")[1] if is_foreign(place) else ""
 

@@ -26,7 +26,7 @@ CANDIDATES_LIMIT = 50
 
 
 class Candidate(Record):
-    """A file that ought to hold a robot.
+    """A file that should contain a robot.
 
     Attributes:
         path: The path as the package lists it.
@@ -47,7 +47,7 @@ class Candidate(Record):
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
-        """Return the values that are taken for arguments that are not given.
+        """Return the values of arguments that are not given.
 
         Args:
             number: The number of the choice, the first one being 0; of fewer choices the last one.

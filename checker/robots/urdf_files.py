@@ -18,7 +18,7 @@ class UrdfFiles(Record, eq=False):
         descriptions: The descriptions of the files with a robot.
         faults: The faults because of which files have no robot.
         unread: The reasons why files could not be read, each the end of a sentence.
-        set_aside: The same of files beside an SDF model that no launch file loads.
+        set_aside: The same of files next to an SDF model that no launch file loads.
         old: Files that only newer releases of xacro refuse; the descriptions are those of
             Melodic's.
         assumed: Arguments that are not given, with the choice that is taken, by file.

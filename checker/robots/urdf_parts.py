@@ -30,7 +30,7 @@ def package_descriptions(
 
 @part
 def files(read: PackageDescriptions) -> UrdfFiles | NotAvailable:
-    """Return what became of the URDF files."""
+    """Return the results of the URDF files."""
     if not read.applicable:
         return NotAvailable("no URDF file describes a robot", applicable=False)
     return read.files

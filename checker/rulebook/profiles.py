@@ -80,7 +80,7 @@ def distro_names() -> tuple[str, ...]:
 
 
 def gazebo_profile(distro: str) -> str:
-    """Return the profile of the Gazebo release that goes with a distribution, or the usual one."""
+    """Return the profile of the Gazebo release of a distribution, or the usual one."""
     return f"gazebo-{profile('ros2', distro).context.release}"
 
 

@@ -19,7 +19,7 @@ from checker.base.record import Record
 
 LOGGER = "subt-check.web"
 FIELDS = "fields"
-"""Name of the extra of a record that contains what goes into the line beside its message."""
+"""Name of the extra of a record that contains what is in the line besides its message."""
 REPEAT_SECONDS = 60.0
 """Seconds after which the number of repetitions of a fault is logged."""
 FAULTS = 200
@@ -30,7 +30,7 @@ _WITH_ADDRESSES = "uvicorn.access"
 
 
 class JsonLines(logging.Formatter):
-    """A record as one line of ASCII: no text in it can begin a line of its own."""
+    """A record as one line of ASCII: no text in it can start a new line."""
 
     def format(self, record: logging.LogRecord) -> str:
         """Return the line."""

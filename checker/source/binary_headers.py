@@ -21,7 +21,7 @@ from checker.base.record import Record
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _AROUND = 12
-"""Bytes of a chunk beside its data: length, kind and check sum."""
+"""Bytes of a chunk besides its data: length, kind and check sum."""
 
 _OTHERS = {
     b"\xff\xd8\xff": "a JPEG file",
@@ -35,7 +35,7 @@ _OTHERS = {
 def png_fault(data: bytes) -> str | None:
     """Return why the bytes are no whole PNG file, as the end of a sentence; None if they are.
 
-    Signature, chunks and their check sums are looked at (PNG specification, second edition, 5).
+    Signature, chunks and their check sums are read (PNG specification, second edition, 5).
     """
     if not data.startswith(_SIGNATURE):
         other = next((name for start, name in _OTHERS.items() if data.startswith(start)), None)

@@ -1,4 +1,4 @@
-"""Ruby with places: tree-sitter's tree as plain nodes that know their characters.
+"""Ruby with places: tree-sitter's tree as plain nodes with their offsets.
 
 Each node stands by itself (type, children, fields, character offsets), comments are left out,
 and every heredoc's opening (`<<~XML`) is joined to its body.

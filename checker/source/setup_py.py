@@ -116,7 +116,7 @@ def _calls(tree: ast.Module) -> Iterator[ast.Call]:
 
 
 def _constants(tree: ast.Module) -> dict[str, ast.expr]:
-    """Return the names that are set at the top of the file, but for those that change."""
+    """Return the names that are set at the top of the file, except those that change."""
     values: dict[str, ast.expr] = {}
     for statement in tree.body:
         if isinstance(statement, ast.Assign):

@@ -277,7 +277,7 @@ class Element(Record, eq=False, dict=True):
 
     @property
     def stray_texts(self) -> Iterator[Span]:
-        """Text beside the elements inside: leftovers, where the format knows no mixed content."""
+        """Text between the elements inside: leftovers, where the format knows no mixed content."""
         children = self.children
         starts = [self.position.start_end, *(child.position.end for child in children)]
         ends = [*(child.position.start for child in children), self.position.end_start]

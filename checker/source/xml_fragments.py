@@ -43,6 +43,6 @@ def parse_fragments(source: SourceText) -> XmlDocument | XmlFault:
 
 
 def unwrapped(span: Span) -> tuple[int, int]:
-    """Return the offsets of a span in the text that was handed to `parse_fragments`."""
+    """Return the offsets of a span in the text that was passed to `parse_fragments`."""
     offset = span.source.offset if isinstance(span.source, WrappedText) else 0
     return span.start - offset, span.end - offset

@@ -61,7 +61,7 @@ def insert_behind(element: Element, lines: Sequence[str]) -> Edit:
 
 
 def _written(parent: Element, lines: Sequence[str]) -> tuple[str, str]:
-    """Return what goes in front of an end tag on a line of its own, and lines to put in."""
+    """Return the text before an end tag on its own line, and lines to insert."""
     outer, inner = _indentations(parent)
     if inner is None:
         return "", "".join(line.strip() for line in lines)

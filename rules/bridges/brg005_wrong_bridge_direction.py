@@ -47,7 +47,7 @@ def check(simulations: Simulations) -> Findings:
 
 
 def _also_bridged(simulation: Simulation, entry: BridgeEntry, way: Direction) -> bool:
-    """Return whether another bridge of the topic goes the right way."""
+    """Return whether another bridge of the topic has the right direction."""
     return any(
         other.gz_topic == entry.gz_topic and other.direction in (way, Direction.BOTH)
         for other in simulation.entries

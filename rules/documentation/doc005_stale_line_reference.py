@@ -48,7 +48,7 @@ MOST_REFERENCES = 200
 def check(
     package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
 ) -> Findings:
-    """Read the lines that specifications.md names and their neighbours, and look for what it says.
+    """Read the lines that specifications.md names and the adjacent lines, and search for the claim.
 
     Options:
         around: Lines that are read above and below those that specifications.md names.

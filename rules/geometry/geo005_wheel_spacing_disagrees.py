@@ -26,7 +26,7 @@ def check(
     """Report distances less than `least` or more than `most` times the true ones.
 
     Steering depends on the geometry only, and so does the turning of a robot whose controller
-    drives one wheel on each side: these have a limit of their own.
+    drives one wheel on each side: these have their own limit.
 
     Options:
         least: Smallest ratio of a distance in the plugin to the true distance; less is reported.

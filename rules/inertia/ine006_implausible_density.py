@@ -45,7 +45,7 @@ def check(
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
             visuals if that is more; more is a warning, or information if these are meshes.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
-            because no metal is so dense, but for the foot of a robot that only stands.
+            because no metal is so dense, except the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
         contrast: Factor by which such a link is denser than the rest of the robot.

@@ -13,7 +13,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 @rule("LCH008", "classic-spawner-with-gazebo-sim", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch) -> Findings:
-    """Report spawners of Gazebo Classic beside Gazebo Sim."""
+    """Report spawners of Gazebo Classic with Gazebo Sim."""
     for graph in launch.entries:
         if not _starts_gazebo_sim(graph):
             continue

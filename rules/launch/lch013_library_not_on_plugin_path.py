@@ -46,14 +46,14 @@ def check(simulations: Simulations, package: Package) -> Findings:
 
 
 def _plugins(simulation: Simulation) -> Iterator[Plugin]:
-    """Yield the plugins of what a launch file spawns into a Gazebo of its own."""
+    """Yield the plugins of what a launch file spawns into its own Gazebo."""
     if simulation.starts_gazebo and not simulation.unread:
         for spawned in simulation.robots:
             yield from (p for p in spawned.robot.all_plugins if "/" not in p.filename.value)
 
 
 def _private_folder(package: Package, library: str) -> Iterator[str]:
-    """Yield the folder of its own into which a package installs a library that it builds."""
+    """Yield its own folder into which a package installs a library that it builds."""
     build = package.build
     if build is None or build.faults:
         return

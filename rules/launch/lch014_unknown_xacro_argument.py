@@ -22,7 +22,7 @@ _WORD = re.compile(r"\w+")
 
 @rule("LCH014", "unknown-xacro-argument", Severity.INFO, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
-    """Report arguments that no file of the description mentions; a warning beside a similar one."""
+    """Report arguments that no file of the description mentions; a warning for a similar one."""
     for graph in launch.entries:
         for described in loaded_descriptions(package, graph):
             gathered = Gathered(package)

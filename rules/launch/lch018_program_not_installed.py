@@ -24,7 +24,7 @@ _CMAKE = re.compile(
     r"|\bFetchContent|\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{",
     re.IGNORECASE,
 )
-"""Among others a call with a variable, beside the name of the project."""
+"""Among others a call with a variable, next to the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
 _SETUP = re.compile(r"[\"']lib/|\bf[\"']|\.format\(|\bfor\b")
 _NOT_PLAIN = {

@@ -107,7 +107,7 @@ def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix
 
 
 def _install_fix(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
-    """Return the fix that installs more; None if nothing goes to the package's share folder."""
+    """Return the fix that installs more; None if no file is in the share folder."""
     fitting = [install for install in build.installs if _goes_to_share(install, build)]
     for install in fitting:
         last = install.items[-1]

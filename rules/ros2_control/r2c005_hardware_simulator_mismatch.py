@@ -41,7 +41,7 @@ _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in name
 def check(control: RobotControl) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
-    Gazebo's hardware without a plugin, and a plugin beside other hardware, are warnings.
+    Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings.
     """
     for manager in control.managers:
         yield from _names(manager)

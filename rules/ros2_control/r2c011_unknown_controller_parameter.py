@@ -30,7 +30,7 @@ _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinemati
 def check(control: RobotControl, context: Context) -> Findings:
     """Report parameters of ros2_controllers that have no effect.
 
-    One that only other distributions know is information, but for `use_stamped_vel: false`.
+    One that only other distributions know is information, except `use_stamped_vel: false`.
     """
     distribution = distribution_of(context)
     for controller in control.controllers:

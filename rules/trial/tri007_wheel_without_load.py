@@ -40,7 +40,7 @@ def check(
 
 
 def _rover(radius: float, mark: str = "") -> str:
-    """Return a rover whose left front wheel has a radius of its own."""
+    """Return a rover whose left front wheel has a different radius."""
     text = rover(centre="-0.05 -0.05 0").replace("<radius>0.1<", f"<radius>{radius}<", 1)
     return text.replace('type="revolute">', f'type="revolute">{mark}', 1)
 

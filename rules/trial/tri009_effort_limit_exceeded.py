@@ -52,7 +52,7 @@ _SHORTEST_WORD = 4
 
 
 def _is_explained(joint: Joint, sheet: Specification | None) -> bool:
-    """Return whether the sheet speaks of the effort limit of such joints: then it is meant.
+    """Return whether the sheet names the effort limit of such joints: then it is meant.
 
     A passage that only gives the place of the limit explains nothing.
     """

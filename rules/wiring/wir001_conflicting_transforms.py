@@ -131,7 +131,7 @@ _MANAGER = """        Node(package="controller_manager", executable="ros2_contro
 
 
 def _on_hardware(settings: str, mark: str = "", manager: str = "") -> dict[str, object]:
-    """Return a rover whose drive is run by ros2_control_node, beside a filter."""
+    """Return a rover whose drive is run by ros2_control_node, in addition to a filter."""
     nodes = _EKF.format("", "").partition("\n")[2]
     return {
         "@bridge": True,
@@ -214,7 +214,7 @@ _CONTAINER = """<launch>
 
 
 def _component(tf_broadcast: str, mark: str = "") -> dict[str, object]:
-    """Return a launch file with a component that localises beside a filter."""
+    """Return a launch file with a component that localises in addition to a filter."""
     launch = _CONTAINER.replace("@", tf_broadcast).replace("%", mark)
     return {"@bridge": True, "launch/nav.launch.xml": launch}
 
@@ -232,7 +232,7 @@ _INCLUDED = """<launch>
 
 
 def _included_example(slam: str, yaml: str, mark: str = "") -> dict[str, object]:
-    """Return a filter for the map beside the navigation of another package."""
+    """Return a filter for the map in addition to the navigation of another package."""
     return {
         "@bridge": True,
         "launch/nav.launch.xml": _INCLUDED.replace("@", slam).replace("%", mark),

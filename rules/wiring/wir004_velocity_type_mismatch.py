@@ -20,7 +20,7 @@ from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 @rule("WIR004", "velocity-type-mismatch", Severity.ERROR, Concern.INTERFACE)
 def check(wiring: Wiring, context: Context) -> Findings:
-    """Report publishers of velocities all of whose known readers want another type."""
+    """Report publishers of velocities whose known readers all expect another type."""
     distribution = distribution_of(context)
     known = [*velocities(wiring, distribution)]
     for published in known:

@@ -209,7 +209,7 @@ _INCLUDED = """<launch>
 
 
 def _included_example(topic: str) -> dict[str, object]:
-    """Return a lidar beside the mapping of another package."""
+    """Return a lidar in addition to the mapping of another package."""
     yaml = f"slam_toolbox:\n  ros__parameters:\n    scan_topic: {topic}\n"
     return {"@bridge": True, "launch/slam.launch.xml": _INCLUDED, "config/slam.yaml": yaml}
 

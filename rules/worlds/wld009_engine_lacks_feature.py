@@ -29,7 +29,7 @@ class _Loss(Record, eq=False):
     Attributes:
         kind: Losses of one kind are one finding with several places.
         part: What it is.
-        effect: What becomes of it, and what to do.
+        effect: The effect, and what to do.
         severity: None for the rule's own.
     """
 

@@ -1,4 +1,4 @@
-"""A robot's trial beside the same course in the physics of Gazebo Fortress."""
+"""A robot's trial compared with the same course in the physics of Gazebo Fortress."""
 
 from __future__ import annotations
 

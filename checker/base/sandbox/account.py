@@ -1,4 +1,4 @@
-"""A user of its own for a process that root starts: to it, all files are those of others."""
+"""A separate user for a process that root starts: all files belong to others."""
 
 from __future__ import annotations
 

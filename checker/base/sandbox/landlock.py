@@ -36,7 +36,7 @@ _TO_WORK = (
     *(_READ, _LIST, _WRITE, _TRUNCATE, _REFER),
     *(_REMOVE_DIR, _REMOVE_FILE, _MAKE_DIR, _MAKE_FILE),
 )
-"""In a folder of its own: neither links nor devices, sockets or pipes, and no programs."""
+"""In its own folder: neither links nor devices, sockets or pipes, and no programs."""
 _TO_DRAW = _READ | _LIST | _WRITE | _DEVICE
 
 
@@ -123,7 +123,7 @@ def _call(*arguments: object) -> int:
 
 @once
 def _libc() -> ctypes.CDLL:
-    """Return the C library; each process in the sandbox asks it forty times before it begins."""
+    """Return the C library; each process in the sandbox calls it forty times before it begins."""
     libc = ctypes.CDLL(None, use_errno=True)
     libc.syscall.restype = ctypes.c_long
     return libc

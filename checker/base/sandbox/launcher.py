@@ -117,7 +117,7 @@ class Launcher:
 
 
 class OwnLauncher(Launcher):
-    """A launcher with a process of its own, which ends with this one."""
+    """A launcher with its own process, which ends with this one."""
 
     def __init__(
         self,
@@ -226,7 +226,7 @@ _LOCK = threading.Lock()
 
 @once
 def _launchers(_: int) -> list[Launcher]:
-    """Return a list of the launcher of this process, empty at first; a fork has one of its own."""
+    """Return a list of the launcher of this process, empty at first; a fork has its own."""
     return []
 
 

@@ -89,7 +89,7 @@ _COUNTS_BY_NAMESPACE = (5, 14)
 
 
 class _Process:
-    """A process that was started: its input, and where its exit code goes."""
+    """A process that was started: its input, and the target of its exit code."""
 
     def __init__(self, id: int, input: int, code: int) -> None:
         self.id, self.input, self.code = id, input, code

@@ -1,6 +1,6 @@
 """The sandbox of a process: its layers, and which of them hold on this machine.
 
-Each holds by itself, as far as it goes; docs/security.md describes what each protects.
+Each is independent of the others; docs/security.md describes what each protects.
 """
 
 from __future__ import annotations

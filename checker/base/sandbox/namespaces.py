@@ -104,7 +104,7 @@ def leave_network() -> None:
     """Leave the network, and the memory and names that processes share.
 
     Call it before a library starts threads: a process of several threads cannot become another
-    user, which Linux wants of all but root (unshare(2)).
+    user, which Linux requires of all but root (unshare(2)).
 
     Raises:
         NotHeld: The system, or a container, does not allow it.

@@ -1,4 +1,4 @@
-"""A filter of system calls: what this process can no longer ask of the kernel.
+"""A filter of system calls: calls that are forbidden for this process.
 
 Forbidden are the calls that reach other processes, other machines and other programs, and those
 by which holes in the kernel are usually reached; all others are left. A forbidden call fails with
@@ -79,7 +79,7 @@ _CHANGING = (
 )
 """Calls that change files by their names."""
 _LEAVING = ("setpgid", "setsid")
-"""Calls by which a process leaves the group that is ended at once. In a session of its own, each
+"""Calls by which a process leaves the group that is ended at once. In its own session, each
 would also have as much of the processors as all of another one (sched(7))."""
 _OWN_PROCESS_ONLY = {
     "prlimit64": 0,

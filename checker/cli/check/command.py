@@ -75,7 +75,7 @@ def _wishes(options: argparse.Namespace, renewed: Baseline | None) -> Mapping[st
 
 
 def _baseline(options: argparse.Namespace) -> Baseline | None:
-    """Return the baseline that the command line wants; None leaves it to the settings."""
+    """Return the baseline of the command line; None leaves it to the settings."""
     if not options.baseline:
         return None
     baseline = read_baseline(Path(options.baseline))

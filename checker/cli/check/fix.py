@@ -40,8 +40,8 @@ class NotWritten(CheckerError):
 def write_files(package: Package, files: Iterable[FixedFile]) -> None:
     """Write files, each in one step.
 
-    First all new contents are put beside the files, so that a full disk or a folder that cannot
-    be written to leaves everything as it was; then each takes its file's place.
+    First all new contents are written next to the files, so that a full disk or a folder that
+    cannot be written to leaves everything as it was; then each takes its file's place.
 
     Raises:
         NotWritten: A file is a link, is outside, changed meanwhile, or cannot be written.
@@ -129,7 +129,7 @@ _ARCHIVES_STAY = "unpack it first; --diff shows what would change"
 
 
 class FixedPackage(Record):
-    """A package and what fixing it comes to; `shown` is its path as the user would write it."""
+    """A package and the result of fixing it; `shown` is its path as the user would write it."""
 
     name: str
     shown: str
@@ -144,7 +144,7 @@ def fix_paths(
     write: bool,
     dirty: bool = False,
 ) -> list[FixedPackage]:
-    """Fix every package at the paths; files are written when all packages are looked at.
+    """Fix every package at the paths; files are written when all packages are fixed.
 
     Args:
         paths: What to fix.

@@ -88,7 +88,7 @@ def _start(request: Request, written: str) -> int:
 def _expression_word(
     request: Request, name: str, kind: CompletionKind, detail: str, rank: int, start: int
 ) -> Completion:
-    """Return a word of an expression: it goes from its start to the caret alone."""
+    """Return a word of an expression: from its start to the caret only."""
     text = f"{rank}{name}"
     return Completion(name, kind, detail, "", name, start, request.offset, False, text)
 

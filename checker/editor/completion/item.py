@@ -45,11 +45,11 @@ class Completion(Record):
     Attributes:
         label: What the list shows.
         kind: What it is.
-        detail: A few words beside the label.
+        detail: A few words next to the label.
         documentation: Markdown; empty for none.
         insert: The text to put in place of the characters from `start` to `end`.
         start: Offset in the text.
-        end: Offset behind the last character that goes.
+        end: Offset behind the last character that is replaced.
         is_snippet: Whether `insert` has places to fill in, as LSP writes them.
         sort: What the list is sorted by.
     """
@@ -102,7 +102,7 @@ class Request(Record, eq=False, dict=True):
             label: What the list shows.
             kind: What it is.
             insert: The text; the label, as XML writes it, where it is None.
-            detail: A few words beside the label.
+            detail: A few words next to the label.
             documentation: Markdown.
             rank: 0 comes first, 9 last.
             is_snippet: Whether `insert` has places to fill in.

@@ -57,7 +57,7 @@ def expression_at(pointed: Pointed, offset: int) -> Expression | None:
 def expression_card(
     expression: Expression, pointed: Pointed, names_: XacroNames, parts: RobotParts
 ) -> str | None:
-    """Return what an expression is about and comes to, as Markdown; None where nothing is known."""
+    """Return the names and value of an expression, as Markdown; None if unknown."""
     command = _COMMAND.fullmatch(expression.text)
     rows = []
     if command is not None and command[1] == "find":

@@ -45,7 +45,7 @@ def frame_card(robot: Robot, frame: Frame | Model, note: str = "") -> str:
 
 
 def _contents(robot: Robot, model: Model) -> Iterator[tuple[str, str]]:
-    """Yield what a nested model adds to the robot; a merged one has no names of its own."""
+    """Yield what a nested model adds to the robot; a merged one has no names."""
     inside = {element.node for element in model.definition.children}
     links = [link for link in robot.links if link.element.node in inside]
     joints = [joint for joint in robot.joints if joint.element.node in inside]

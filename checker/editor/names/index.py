@@ -19,7 +19,7 @@ from checker.package.package import Package
 from checker.source.text import SourceText
 
 INHERITED = ("launch/description.launch", "launch/vehicle_topics.launch")
-"""Files that a package may have from a sibling, beside the model."""
+"""Files that a package may have from a sibling, besides the model."""
 SIBLING_FILES = 100
 """Files of siblings that are read because the package includes them."""
 
@@ -153,7 +153,7 @@ class NameIndex(Record, eq=False, dict=True):
                         yield shown, source.position(other.start)[0]
 
     def mentions_from_composed(self, mention: Mention) -> Iterator[Mention]:
-        """Yield mentions by the names that a composed one may come to."""
+        """Yield mentions by the names that are possible values of a composed one."""
         kind = mention.kind
         values = self.scopes.values.get(self.scopes.xacro.get(mention.path, ""), frozenset())
         for (other, scope, name), mentions in self._groups.items():

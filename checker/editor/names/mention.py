@@ -114,7 +114,7 @@ class FileNames(Record, eq=False):
         format: `sdf`, `robot` (URDF, xacro), `srdf`, `launch`, `yaml`, `ruby` or `python`.
         names: The names in no order.
         included: Files that it includes.
-        values: Texts that expressions of the file may come to.
+        values: Texts that expressions of the file may have as values.
         parameters: Names of the parameters of its macros.
         model: Name of the model or robot that the file contains.
         fault: The reason why it cannot be read; empty when it can.

@@ -35,7 +35,7 @@ def key_of(mention: Mention) -> Key:
 
 
 class ComposedDefinition(Record):
-    """A thing whose name is composed, and what its expressions may come to."""
+    """A thing whose name is composed, and the possible values of its expressions."""
 
     mention: Mention
     values: frozenset[str]

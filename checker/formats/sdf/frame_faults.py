@@ -1,6 +1,6 @@
 """Frames that parts and axes of a robot name and that do not exist.
 
-Links, joints and frames hang in the frame graph, which finds those itself.
+Links, joints and frames are part of the frame graph, which finds those itself.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ class ModelIncludes(Record):
         return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
 
     def _path(self, uri: str, folder: str) -> str | None:
-        """Return the path of a model: beside the file, else of an available package.
+        """Return the path of a model: next to the file, else of an available package.
 
         A bare name is looked up as `model://name` is: along the paths of the simulator.
         """

@@ -52,7 +52,7 @@ def read_sdf(document: XmlDocument, include: IncludeReader = read_no_include) ->
 def read_robot(
     element: Element, include: IncludeReader = read_no_include, placed: Element | None = None
 ) -> Robot:
-    """Read one `<model>` as a robot of its own; an include places it and may rename it."""
+    """Read one `<model>` as a separate robot; an include places it and may rename it."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
     version = sdf_version(document)

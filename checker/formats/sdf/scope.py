@@ -21,7 +21,7 @@ class Scope(Record):
     """A model whose inside is being read.
 
     Attributes:
-        prefix: What goes in front of names inside: empty for the robot, `arm::` for a model in it.
+        prefix: Prefix of names inside: empty for the robot, `arm::` for a model in it.
         model_frame: Scoped name of the model's own frame.
         version: SDF version of the file, as (1, 6).
         values: Reads values, collects faults.

@@ -62,7 +62,7 @@ class UrdfDescription(Record, eq=False, dict=True):
         document: The expanded document; places are those of the files that a person wrote.
         transmissions: The transmissions in order.
         gazebo: The `<gazebo>` tags in order.
-        for_rviz: Whether it accompanies an SDF model, only to be looked at.
+        for_rviz: Whether it accompanies an SDF model, for display only.
         call: The call of the macro that makes the robot, where the file itself makes none.
         values: Values of arguments that differ from those the file is read with: `model:=waffle`.
     """
@@ -85,12 +85,12 @@ class UrdfDescription(Record, eq=False, dict=True):
 
 
 def read_description(document: XmlDocument, file: str, *, for_rviz: bool) -> UrdfDescription:
-    """Read what a URDF document states beside links and joints.
+    """Read what a URDF document states besides links and joints.
 
     Args:
         document: The document, expanded.
         file: Path of the file that was expanded.
-        for_rviz: Whether it accompanies an SDF model, only to be looked at.
+        for_rviz: Whether it accompanies an SDF model, for display only.
     """
     root = document.root
     return UrdfDescription(

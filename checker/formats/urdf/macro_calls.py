@@ -18,7 +18,7 @@ _PARAMETERS_LIMIT = 5000
 """Characters; real macros have a tenth of that."""
 _ORIGIN = "origin"
 WORLD = "world"
-"""The link that a macro is hung on; Gazebo holds it in its place."""
+"""The link to which a macro is connected; it is fixed in Gazebo."""
 _GIVEN = {"parent": WORLD, "parent_link": WORLD, "prefix": "", "tf_prefix": ""}
 
 

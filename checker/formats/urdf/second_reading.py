@@ -1,4 +1,4 @@
-"""A URDF as yourdfpy reads it, beside our own reading."""
+"""A URDF as yourdfpy reads it, compared with our own reading."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Expands the xacro files of a package: asks the child process, and keeps what it answers."""
+"""Expands the xacro files of a package: calls the child process, and keeps its answers."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _KINDS = frozenset(kind.value for kind in XacroFaultKind)
 
 
 def is_answer(data: Any) -> bool:
-    """Return whether something has the form of what became of one file (`processor.expand`)."""
+    """Return whether something has the form of the result of one file (`processor.expand`)."""
     match data:
         case {"xml": str(), "origins": list(origins), "files": list(files)}:
             return all(map(_is_place, origins)) and all(isinstance(file, str) for file in files)
@@ -130,7 +130,7 @@ class Expansions:
         self._begun = self._begin()
 
     def outcomes(self) -> list[Outcome]:
-        """Wait, and return what became of each file, in the order wanted."""
+        """Wait, and return the result of each file, in the order wanted."""
         for _ in range(_ROUNDS):
             answers = [*self._begun.results().values()]
             missing = [
@@ -220,7 +220,7 @@ class Expansions:
 
 
 def _answer(data: Any) -> dict[str, Any]:
-    """Return what became of one file.
+    """Return the result of one file.
 
     Raises:
         ValueError: It is something else.

@@ -266,7 +266,7 @@ class _Expansion:
             return text_value(text, symbols, self._allowance)
 
     def _substituted(self, expression: str, context: dict[str, Any]) -> str:
-        """Evaluate `$(eval …)`, in which args are names of their own."""
+        """Evaluate `$(eval …)`, in which args are names."""
         if "__" in expression:
             message = "$(eval ...) may not contain double underscore expressions"
             raise substitution_args.SubstitutionException(message)

@@ -116,7 +116,7 @@ NAMES: Mapping[str, Any] = MappingProxyType(
 
 
 LENGTH_LIMIT = 2_000_000
-"""Characters that one text may come to."""
+"""Characters of one value of a text."""
 _TOKEN = re.compile(
     r"\$(?P<escaped>\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<extension>[^)]*)\)"
     r"|(?P<words>[^$]+|\$[^{($]+|\$$)"
@@ -124,7 +124,7 @@ _TOKEN = re.compile(
 
 
 def text_value(text: str, symbols: Any, allowance: Allowance) -> Any:
-    """Return what a text comes to; if it is one expression alone, that value as it is.
+    """Return the value of a text; if it is one expression alone, that value as it is.
 
     Replaces `xacro.eval_text`.
 

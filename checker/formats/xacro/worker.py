@@ -1,6 +1,6 @@
 """Expands xacro files in a child process: the module behind `checker.base.child_process`.
 
-It is given texts and opens no file. Each file is expanded in a process of its own.
+It is given texts and opens no file. Each file is expanded in its own process.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
             whether it is expanded `as_melodic`, and the `call` that is added to it.
 
     Returns:
-        JSON: what became of each job (see `checker.formats.xacro.processor`), in the same order.
+        JSON: the result of each job (see `checker.formats.xacro.processor`), in the same order.
     """
     from checker.formats.xacro import processor
 

@@ -55,7 +55,7 @@ def left_outside(element: Element) -> dict[str, Located[str]]:
     """Return the attributes that are behind a tag which was closed too early.
 
     In `<node> pkg="p" type="t" name="n">` the text behind the first `>` is what the tag should
-    hold. Elements that have attributes of their own, or whose text is a value, have none.
+    hold. Elements with their own attributes, or whose text is a value, have none.
     """
     if element.node.attrib or element.tag not in ("node", "include") or "=" not in element.raw_text:
         return {}

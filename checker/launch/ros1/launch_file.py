@@ -45,7 +45,7 @@ class Load(Record):
 
 
 def loads(graph: LaunchGraph) -> Iterator[Load]:
-    """Yield what a launch file loads into parameters, or hands to a node with `-file`."""
+    """Yield what a launch file loads into parameters, or passes to a node with `-file`."""
     for param in graph.params:
         if param.kind == "command":
             yield from read_command(param.value)

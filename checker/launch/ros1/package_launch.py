@@ -206,7 +206,7 @@ class LaunchEntries(Record, eq=False):
 def launch_entries(package: Package) -> LaunchEntries:
     """Expand the launch files of a package; those that others include count with these.
 
-    A file that only a condition includes stays one of its own.
+    A file that only a condition includes stays a separate one.
     """
     documents = _launch_files(package)
     unread = []

@@ -93,7 +93,7 @@ class Scope:
         return any(name in declared for declared in self.args.maps[:-1])
 
     def remaps_with(self, own: list[Remap]) -> tuple[Remap, ...]:
-        """Return the remaps in force for a node with remaps of its own; the strongest first."""
+        """Return the remaps in force for a node with its own remaps; the strongest first."""
         inherited = (
             Remap(remap.source, remap.target, remap.span, inherited=True)
             for remap in reversed(self.remaps)

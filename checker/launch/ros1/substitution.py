@@ -17,7 +17,7 @@ Value = str | int | float | bool
 MAX_EXPRESSION = 400
 _CONSTANTS: Mapping[str, Value] = {"true": True, "false": False}
 _BUILTINS = ("list", "dict", "map", "str", "float", "int")
-"""Built-in functions that roslaunch offers, beside all of `math`."""
+"""Built-in functions that roslaunch offers, besides all of `math`."""
 
 
 class Unknown(Record):
@@ -75,7 +75,7 @@ class _Names:
 
 
 def evaluate(expression: str, args: Mapping[str, str]) -> Value | Unknown | ExpressionFault:
-    """Evaluate an expression as roslaunch does, which hands it to Python; here nothing is executed.
+    """Evaluate an expression as roslaunch does with Python's `eval`; here nothing is executed.
 
     Args:
         expression: The text between `$(eval ` and `)`.

@@ -28,7 +28,7 @@ _WORDS = {"true": True, "false": False, "nil": None}
 
 
 def launcher_globals(files: SpawnerFiles, path: str, *, ground_truth: bool) -> dict[str, Value]:
-    """Return what the launchers of the challenge set, and the example beside a spawner.
+    """Return what the launchers of the challenge set, and the example of a spawner.
 
     Args:
         files: The workspace.

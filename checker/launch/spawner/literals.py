@@ -197,7 +197,7 @@ def _lines(
     """Return each line as its start, the end of its indentation, its end, and if it begins here.
 
     The first line of a stretch behind `#{}` continues a line; a `#{}` in the first column
-    (`hole`) is a line of its own without indentation.
+    (`hole`) is a separate line without indentation.
     """
     lines = []
     while start < end:

@@ -70,7 +70,7 @@ class Spawner(Record, eq=False):
         sources: All files read for it, the entry first.
         unread: What could not be read; empty when everything was.
         syntax_faults: Syntax errors that are certain.
-        not_understood: The place where a file first goes beyond the grammar, if it has no such
+        not_understood: The place where a file first exceeds the grammar, if it has no such
             error.
     """
 

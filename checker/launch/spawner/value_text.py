@@ -59,7 +59,7 @@ def interpolate(data: Data, budget: Budget) -> str:
     """Write a value as string interpolation does.
 
     Raises:
-        NotWritable: The value has no text of its own.
+        NotWritable: The value has no text form.
     """
     if data is None:
         return ""

@@ -1,4 +1,4 @@
-"""Devices that a specification sheet names beside its list of sensors: remarks, links, costs."""
+"""Devices that a specification sheet names outside its list of sensors: remarks, links, costs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def devices_in_other_lines(
     Args:
         sheet: Its first 500 lines are read.
         known: Devices to look for.
-        configurations: Lines, and sections by their headings, that speak of others are left out.
+        configurations: Lines, and sections by their headings, about others are left out.
     """
     named: dict[str, NamedDevice] = {}
     for words in _lines(sheet, configurations):

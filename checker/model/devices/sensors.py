@@ -1,6 +1,6 @@
 """Finds out which sensor of a robot represents which device.
 
-The specification sheet's list of sensors counts most; where it is silent or leaves a choice, names
+The specification sheet's list of sensors counts most; if it has none or leaves a choice, names
 and comments of the model do, then the rest of the sheet. Two answers count as none: figures must
 not be compared with those of another device.
 """
@@ -29,7 +29,7 @@ from checker.model.specification.sheet import Specification
 from checker.source.text import Located
 
 SENSORS_LIMIT = 500
-"""Sensors of a robot that are looked at; real ones have less than 50."""
+"""Sensors of a robot that are read; real ones have less than 50."""
 PASSAGES_LIMIT = 100
 _WORDS = {
     **dict.fromkeys(("front", "forward"), "front"),
@@ -71,7 +71,7 @@ def find_sensor_devices(
         robot: Its sensors beyond the first 500 are left out.
         known: Devices to choose from.
         sheet: None when it is not available: then the model's own words are all there is.
-        configurations: Numbers of sensor configurations of which the sheet may speak.
+        configurations: Numbers of sensor configurations that the sheet may name.
     """
     sensors = [_read_sensor(sensor, known) for sensor in robot.sensors[:SENSORS_LIMIT]]
     if sheet is None:
@@ -161,7 +161,7 @@ def _may_be(item: _Item, named: _Named) -> bool:
 
 
 def _narrowed(named: _Named, items: list[_Item], present: set[LidarClass | None]) -> list[_Item]:
-    """Leave those items out that a sensor's words or its rays speak against."""
+    """Leave out the items that a sensor's words or rays contradict."""
     if named.device is not None:
         return [item for item in items if item.device is named.device]
     if named.lidar_class is not None:
@@ -175,7 +175,7 @@ def _narrowed(named: _Named, items: list[_Item], present: set[LidarClass | None]
 
 
 def _agreed(chosen: dict[_Named, _Item]) -> set[_Item]:
-    """Return the items that speak of as many sensors as were found to belong to them.
+    """Return the items for as many sensors as were found to belong to them.
 
     Where an item does not state how many, they must be set alike.
     """

@@ -122,7 +122,7 @@ def _is_near(box: Box, other: Box, gap: float) -> bool:
 
 
 def clusters(boxes: Sequence[Box], gap: float) -> list[list[int]]:
-    """Return the numbers of boxes that hang together over gaps up to `gap` metres.
+    """Return the numbers of boxes that are connected over gaps up to `gap` metres.
 
     Raises:
         TooManyPairs: More boxes lie side by side than are compared.

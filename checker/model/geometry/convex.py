@@ -55,7 +55,7 @@ def extent(
 
 
 def own_extent(geometry: Geometry, local: Vector, meshes: Meshes) -> Extent | None:
-    """Return the extent of a shape about its own centre, along a direction of its own frame."""
+    """Return the extent of a shape about its own centre, along a direction in its own frame."""
     if not geometry.has_size:
         return None
     x, y, z = local
@@ -115,7 +115,7 @@ Support = Callable[[Vector], float]
 """Function from a direction of length 1 to the extent of a shape in it, metres."""
 
 _AROUND = 96
-"""Directions all around that the search starts with: neighbours are 20° apart."""
+"""Directions all around that the search starts with: adjacent ones are 20° apart."""
 _BEST = 6
 """Number of the first directions that are followed downhill."""
 _FIRST_STEP = 0.2

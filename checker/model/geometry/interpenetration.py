@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 _FILLS = 0.9
-"""Share of its hull that a mesh must fill to be taken for convex."""
+"""Share of its hull that a mesh must fill to count as convex."""
 DEEP_PAIRS = 60
 """Greatest number of findings: each takes some ms."""
 

@@ -139,7 +139,7 @@ class _Extent(Record):
 
 
 def _unit(large: float, small: float, near: float, units: Mapping[str, float] = UNITS) -> str:
-    """Return the unit whose factor lies between two lengths; empty when none does."""
+    """Return the unit whose factor is between two lengths; empty when none does."""
     if not 0.0 < small < large < math.inf:
         return ""
     off = {unit: abs(math.log(large / small / factor)) for unit, factor in units.items()}

@@ -105,4 +105,4 @@ def find_wheels(
 
 
 _NO_WHEELS = ("well", "mount", "hub", "cover", "guard", "steer", "arm", "suspension")
-"""Words that make a `wheel_…` something beside a wheel."""
+"""Words that make a `wheel_…` something other than a wheel."""

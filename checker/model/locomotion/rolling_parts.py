@@ -23,7 +23,7 @@ class RollingPart(Record, eq=False):
 
     Attributes:
         links: All of it; the first is the wheel's or the track's own.
-        wheel: None for a track, and for a wheel beside those that a plugin drives.
+        wheel: None for a track, and for a wheel that no plugin drives.
         is_track: Whether it is a track.
         box: The bounding box of its collisions, in the robot's frame.
         suspended: Whether it is connected to a joint that gives way, beside its own and its

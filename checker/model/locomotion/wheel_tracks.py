@@ -15,13 +15,14 @@ if TYPE_CHECKING:
 
 
 class OutOfLine(Record, eq=False):
-    """A wheel that stands farther out than its neighbour, where the other side has no such step.
+    """A wheel that stands farther out than the next wheel, where the other side has no such step.
 
     Attributes:
         wheel: The one farther out.
         neighbour: The wheel in front of it or behind it, on the same side.
         step: Metres by which it stands farther out.
-        other_step: Metres by which the wheel across it stands farther out than its own neighbour.
+        other_step: Metres by which the wheel across it stands farther out than its own adjacent
+            wheel.
     """
 
     wheel: Wheel

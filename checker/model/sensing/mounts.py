@@ -95,7 +95,7 @@ _DEVICE = re.compile(
     r"|thermal|tof|velodyne"
 )
 _LONGEST = 200
-"""Characters of a name that are looked at."""
+"""Characters of a name that are read."""
 
 
 class CalledDirections(Record):

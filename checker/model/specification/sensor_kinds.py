@@ -31,7 +31,7 @@ class SensorKind(enum.StrEnum):
 
     @property
     def is_sensor(self) -> bool:
-        """True if a `<sensor>` or a plugin of its own represents it in the model."""
+        """True if a `<sensor>` or its own plugin represents it in the model."""
         return self not in _PAYLOADS
 
 

@@ -75,7 +75,7 @@ def _distance(a: Point, b: Point, point: Point) -> float:
 
 
 _RIM = 16
-"""Points that represent the rim of a disc that lies flat."""
+"""Points that represent the rim of a disc in a horizontal plane."""
 _FLAT = 0.99
 """Cosine of the tilt (8°) up to which a disc counts as lying flat."""
 
@@ -135,7 +135,7 @@ def _lowest_of_ellipsoid(radii: Iterable[float], pose: Transform) -> Vector:
 
 
 def _lowest_of_disc(radius: float, height: float, pose: Transform) -> list[Vector]:
-    """Return the lowest point of a disc across z; the whole rim where it lies flat."""
+    """Return the lowest point of a disc across z; the whole rim if it is horizontal."""
     x, y, z = _down(pose)
     sideways = math.hypot(x, y)
     points: list[Vector] = []

@@ -77,7 +77,7 @@ class SpanningTree(Record, eq=False):
 
     Attributes:
         order: Scoped names, each behind the one it is connected to.
-        by: The tie by which a link hangs, by the link; roots have none.
+        by: The tie of a link to its parent, by the link; roots have none.
         left_out: Ties whose child is connected to another link already.
     """
 

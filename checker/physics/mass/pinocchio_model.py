@@ -124,7 +124,7 @@ class _Builder:
         self.poses = {WORLD: Transform()}
 
     def add(self, name: str) -> None:
-        """Add a link and the joint by which it hangs."""
+        """Add a link and the joint to its parent."""
         import pinocchio as pin
 
         link = self.robot.tree.links[name]

@@ -67,7 +67,7 @@ def gravity_torques(
         robot: The robot.
         spanning_tree: The tree of links.
         links: Their masses and centres.
-        standing: Names of links on the ground: what hangs above them is carried from below.
+        standing: Names of links on the ground: what is above them is carried from below.
     """
     loads = {name: _load(link) for name, link in links.items()}
     stands = set(standing)

@@ -1,4 +1,4 @@
-"""A Wavefront OBJ file, and material files beside it; its numbers are metres, as for Gazebo."""
+"""A Wavefront OBJ file, and its material files; its numbers are metres, as for Gazebo."""
 
 from __future__ import annotations
 

@@ -151,7 +151,7 @@ class PackageMeshes(Record, eq=False, dict=True):
     def _placed(
         self, key: str | MeshFault, results: Mapping[str, _Read | WorkerFailed], file: MeshFile
     ) -> _Read:
-        """Return what was read as that of a file, with what the files beside it state."""
+        """Return what was read as that of a file, with the content of the files next to it."""
         read = key if isinstance(key, MeshFault) else results[key]
         if isinstance(read, WorkerFailed):
             reason = f"was not read: its reader {read.reason}"

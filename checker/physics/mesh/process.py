@@ -27,14 +27,14 @@ SIZE_LIMIT = 100_000_000
 SECONDS_FOR_ONE = 20
 """Processor time for one file."""
 SECONDS_FOR_ALL = 90
-"""Processor time for the files of one robot; those left then are not looked at."""
+"""Processor time for the files of one robot; those left then are not read."""
 MEMORY = 1_000_000_000
 """Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""
 
 _LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
 _SUFFIXES = (".dae", ".stl", ".obj", *(f".{suffix}" for suffix in TRIMESH_SUFFIXES))
 _LOOKED_AT = 20
-"""Files; where none of these is known, the package is taken for one that is new."""
+"""Files; where none of these is known, the package counts as new."""
 
 T = TypeVar("T")
 

@@ -1,6 +1,6 @@
 """The trial as numbers that MuJoCo needs to repeat it: gains, states and commands.
 
-As a module behind `checker.base.child_process` it drives the robot; `recorded` asks it.
+As a module behind `checker.base.child_process` it drives the robot; `recorded` calls it.
 """
 
 from __future__ import annotations

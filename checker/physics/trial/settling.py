@@ -48,7 +48,7 @@ def excess_figures(
 
 
 def unsettled_reason(trial: Trial) -> str:
-    """Return why the figures of the drive mean nothing; empty for a robot that came to rest."""
+    """Return why the figures of the drive are not valid; empty for a robot that came to rest."""
     return (
         "the robot does not come to rest before it is driven" if any(excess_figures(trial)) else ""
     )

@@ -89,7 +89,7 @@ def in_view(middle: Array, radius: float, grid: Grid) -> bool:
 
 
 def _reach(corners: Array, rays: Array) -> Array:
-    """Return the metres along each ray to its triangle, which faces the origin; NaN beside it."""
+    """Return the metres along each ray to its triangle, which faces the origin; NaN for a miss."""
     import numpy as np
 
     a, b, c = corners.transpose(1, 0, 2)

@@ -127,7 +127,7 @@ class Grid(Record, dict=True):
 
 
 def grid_from_json(data: dict[str, Any]) -> Grid:
-    """Return what `Grid.as_json` was asked of."""
+    """Return the grid from `Grid.as_json`."""
     picture = data["picture"]
     return Grid(
         Steps(**data["across"]),

@@ -158,7 +158,7 @@ class _Scene(Record, eq=False):
     def add(
         self, number: int, shape: Visual | Collision, pose: Transform | None, content: Content
     ) -> None:
-        """Add a shape, or state why it cannot be looked at."""
+        """Add a shape, or state why it cannot be used."""
         geometry, kind = shape.geometry, "visual" if isinstance(shape, Visual) else "collision"
         see_through = isinstance(shape, Visual) and shape.is_see_through
         if see_through or geometry.shape in ("", "empty"):

@@ -23,7 +23,7 @@ from checker.source.text import Located
 
 _LIBRARIES = ("lxml", "numpy", "pycollada", "trimesh")
 _SMALL = 1500
-"""Pairs of sensor and visual up to which solids are looked at without a child: some 50 ms."""
+"""Pairs of sensor and visual up to which solids need no child process: some 50 ms."""
 _ROBOTS = 8
 """Greatest number for one file; a world with more of them is no submission."""
 
@@ -98,7 +98,7 @@ class RobotViews:
         return Background(work, self.cache, self.server)
 
     def _collected(self, number: int, robot: Robot) -> SensorViews:
-        """Wait for what was asked about a robot."""
+        """Wait for the answer about a robot."""
         request, begun = self._begin(number)
         if begun is None:
             nothing = tuple(View(sensor, (), 0.0, None) for sensor in request.sensors)

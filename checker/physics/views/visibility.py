@@ -1,6 +1,6 @@
 """Casts the rays of sensors at visuals, and those of lights at meshes around them.
 
-What is asked holds `sensors` (pose, grid, and whether they meet `collisions` instead of visuals),
+The request contains `sensors` (pose, grid, and whether they meet `collisions` instead of visuals),
 `solids` (shapes of one kind, with their sizes), `meshes` (files, with the shapes that show them)
 and optionally `lights` (see `covered_shares`), each with the `visual` that may enclose it.
 Shapes numbered from `visuals` on are collisions. Poses are 12 numbers in the robot's
@@ -48,7 +48,7 @@ def views_of(
 
     Args:
         item: See above.
-        sensors: The sensors that are asked about.
+        sensors: The sensors of the request.
         of_meshes: What is seen of each mesh (`visibility_of_mesh`).
 
     Returns:
@@ -84,7 +84,7 @@ def views_of(
 
 
 def sensors_of(item: Mapping[str, Any]) -> Sensors:
-    """Return poses and rays of the sensors that are asked about."""
+    """Return poses and rays of the sensors of the request."""
     import numpy as np
 
     sensors = item["sensors"]
@@ -161,9 +161,9 @@ def visibility_of_mesh(
 
     Args:
         sensors: The sensors that look at it.
-        mesh: One of the `meshes` that are asked about.
+        mesh: One of the `meshes` of the request.
         data: What is in the file.
-        lights: All that are asked about.
+        lights: All of the request.
     """
     import numpy as np
 

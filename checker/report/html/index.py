@@ -68,7 +68,7 @@ def entry_of(package: PackageReport, lead: str, aside: str, link: str) -> Entry:
         package: Its report.
         lead: Its verdict in words.
         aside: What the verdict leaves out.
-        link: Address of its own page; empty without.
+        link: Address of its page; empty without one.
     """
     robot = robots_of(package)[0]
     pictures = package.display.pictures if package.display else ()

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 _TEXT_LIMIT = 600
 SHOWN = 300
-"""Entries of a list; what goes beyond is counted."""
+"""Entries of a list; the rest is counted."""
 _CAUSES = {
     Cause.CRASHED: "internal error",
     Cause.NOT_AT_HAND: "not available",
@@ -102,7 +102,7 @@ SCRIPTS = ("findings.js", "plots.js", "stage.js")
 VIEWER = "viewer.js"
 """The 3D viewer, built from `templates/viewer`; a page without it shows pictures."""
 DOWNLOADS_LIMIT = 1_500_000
-"""Bytes of other reports that a page carries along; `--report` writes them beside it."""
+"""Bytes of other reports that a page carries along; `--report` writes them next to it."""
 
 
 def to_html(package: PackageReport, report: Report, manner: RenderSettings, index: str = "") -> str:

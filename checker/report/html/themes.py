@@ -35,7 +35,7 @@ class Leg(Record):
 
 
 class Course(Record):
-    """A trial, as the plots ask it."""
+    """A trial in the form that the plots need."""
 
     trial: Mapping[str, Any]
     time: tuple[float, ...]

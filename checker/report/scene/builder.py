@@ -146,7 +146,7 @@ def scene_of(
         robot: The robot.
         trial: Its motion; None without a trial.
         surfaces: What its mesh files look like.
-        marked: Whether marks such as joints and views are among it, beside its shapes.
+        marked: Whether marks such as joints and views are among it, besides its shapes.
     """
     notes = Notes()
     showing = Showing(robot, _frames(robot, notes), surfaces, notes)

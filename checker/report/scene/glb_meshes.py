@@ -160,7 +160,7 @@ class GlbMeshes:
 
 
 def linear(colour: Colour) -> list[float]:
-    """Return a colour as glTF wants it: linear, alpha as it is (IEC 61966-2-1, sRGB)."""
+    """Return a colour in the form of glTF: linear, alpha as it is (IEC 61966-2-1, sRGB)."""
     red, green, blue, alpha = colour
     return [*(_linear(number) for number in (red, green, blue)), alpha]
 

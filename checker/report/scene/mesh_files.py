@@ -130,7 +130,7 @@ class MeshFiles(Record, eq=False, dict=True):
 
     @cached_property
     def _asked(self) -> tuple[Mapping[str, str], Mapping[str, Any]]:
-        """Keys of the cache by the paths of files, and what is asked by the keys."""
+        """Keys of the cache by the paths of files, and the requests by the keys."""
         files: dict[str, tuple[MeshFile, str, Mesh]] = {}
         for uri in self.meshes.uris:
             mesh, place = self.meshes.load(uri), self.meshes.content(uri)
@@ -162,7 +162,7 @@ def surfaces_of(robot: Robot) -> MeshFiles | NoSurfaces:
 def _asked_of(
     package: Package, file: MeshFile, key: str, mesh: Mesh, most: int
 ) -> tuple[str, Mapping[str, Any]]:
-    """Return the cache's key of a file's appearance, and what is asked about it.
+    """Return the cache's key of a file's appearance, and the request.
 
     Args:
         package: The package whose robot names it.
@@ -196,7 +196,7 @@ def _lasts(read: Appearance) -> bool:
 
 
 def _files_of(item: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
-    """Yield what goes with a request: paths, and how many bytes each may have."""
+    """Yield the files of a request: paths, and how many bytes each may have."""
     yield item["file"], process.SIZE_LIMIT
     yield from ((path, PICTURE_LIMIT) for path in item["pictures"].values())
     yield from ((path, MATERIAL_LIMIT) for path in item["materials"])

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 MAX_VALUES = 200_000
 """Values of all YAML texts together, as often as they are loaded."""
 MAX_FILES = 200
-"""YAML files of a package that are looked at though no launch file loads them."""
+"""YAML files of a package that are read though no launch file loads them."""
 
 
 @dataclass(eq=False)
@@ -165,7 +165,7 @@ _PARAMETER = "robot_description"
 _READING = ("command", "textfile")
 _DESCRIPTION = re.compile(r"\$\(find\s{1,8}[\w-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b")
 _LONGEST = 5_000
-"""Characters of a command that are looked at."""
+"""Characters of a command that are read."""
 
 
 def control_system(
@@ -180,7 +180,7 @@ def control_system(
         package: The package.
         entries: Its launch files.
         robots: Its robots.
-        descriptions: What its URDF files state beside.
+        descriptions: Descriptions in its URDF files.
     """
     parameters, unread = Parameters(package), list(entries.graph.unread)
     launches = []

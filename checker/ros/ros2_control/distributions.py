@@ -15,7 +15,7 @@ from checker.rule import Context
 DEFAULT = "jazzy"
 ORDER = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 _CUT_FROM = {"lyrical": "rolling", "iron": "humble"}
-"""Distributions without a column of their own in the tables, and the one that they are like."""
+"""Distributions without their own column in the tables, and the one that they are like."""
 _GAZEBO_PACKAGES = ("gz_ros2_control", "ign_ros2_control", "gazebo_ros2_control")
 _COMPLETE = (*_GAZEBO_PACKAGES, "mock_components", "fake_components")
 """Packages of hardware components all of whose classes are in the table."""

@@ -42,7 +42,7 @@ class Spawner(Record, eq=False):
 
     @property
     def param_files(self) -> tuple[str, ...]:
-        """Files of parameters that it hands to its controllers."""
+        """Files of parameters that it passes to its controllers."""
         own = (file.path for file in self.node.parameter_files)
         return (*self.options.get("-p", ()), *self.options.get("--param-file", ()), *own)
 

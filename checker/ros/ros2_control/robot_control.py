@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from checker.source.yaml import YamlFault, YamlNode
 
 MAX_FILES = 200
-"""YAML files of a package that are looked at though no plugin names them."""
+"""YAML files of a package that are read though no plugin names them."""
 MAX_VALUES = 200_000
 """Values of all YAML files of a package together."""
 _LIBRARY = "ros2_control"

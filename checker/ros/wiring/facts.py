@@ -25,7 +25,7 @@ class NodeFacts(Record):
         subscribes: Topics that it may read, each with its types.
         transforms: The transforms that it publishes whose frames are parameters.
         defaults: The defaults of the parameters for topics and transforms.
-        offers: Services and actions of its own.
+        offers: Its own services and actions.
         waits_for: Services and actions of others that it cannot do without; `{x}` is each item of
             parameter x.
         unless: Parameters with which it may wait for others.

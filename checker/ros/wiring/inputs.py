@@ -18,7 +18,7 @@ _COSTMAPS = {
     "nav2_controller/controller_server": "local_costmap",
     "nav2_planner/planner_server": "global_costmap",
 }
-"""Programs of Nav2 that make a node of their own for a costmap, in a namespace of its name.
+"""Programs of Nav2 that make a separate node for a costmap, in a namespace of its name.
 
 That of a component gets its parameters from the container.
 """
@@ -43,7 +43,7 @@ class Input(Record, eq=False):
     Attributes:
         topic: The topic as the node names it.
         types: The types of the messages.
-        parameter: The parameter that names it; empty for a topic of its own, or the default of a
+        parameter: The parameter that names it; empty for its own topic, or the default of a
             parameter.
         setting: The setting of that parameter.
     """

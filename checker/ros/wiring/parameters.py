@@ -62,7 +62,7 @@ def settings_of(
 
     rcl joins all files by the keys of their blocks, each at the place where it comes first, and a
     later block counts. launch writes the parameters of a launch file into a block for every node
-    too, unless the node has a name and a namespace of its own. To a component launch hands all
+    too, unless the node has its own name and namespace. To a component launch hands all
     parameters in order.
 
     Args:

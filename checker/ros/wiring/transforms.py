@@ -24,7 +24,7 @@ _FRAMES = {
 }
 """Plugins of Gazebo that publish odometry: parameters for the parent and the child."""
 _CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
-"""Those whose transforms go to /tf itself; others publish them on a topic of their own."""
+"""Those whose transforms go to /tf itself; others publish them on their own topic."""
 
 _CLASSIC = {
     "gazebo_ros_ackermann_drive": ("publish_odom_tf", "false", "base_footprint"),

@@ -1,4 +1,4 @@
-"""Findings that the user has seen and set aside, and what became of the wish to do so.
+"""Findings that the user has set aside, and the effect of each suppression.
 
 The engine gives a `SuppressionMatcher` each place that a rule reports, before repeats are
 joined: message, places and fix are those of what is left. Rules run in three steps

@@ -34,7 +34,7 @@ _CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
 
 
 class Comment(Record):
-    """A comment that wants findings set aside.
+    """A comment that suppresses findings.
 
     Attributes:
         place: The place.

@@ -119,7 +119,7 @@ class SuppressionMatcher:
         return Suppression(SuppressedBy.SETTINGS, entries[0].reason) if entries else None
 
     def suppressions(self, looked: Collection[str], settings: Path | None) -> Suppressions:
-        """Return what the wishes came to.
+        """Return the effect of the suppressions.
 
         Args:
             looked: Ids of the rules that ran on complete data.

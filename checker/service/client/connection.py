@@ -72,7 +72,7 @@ class Answer(Record):
 
     @property
     def retry_after(self) -> float:
-        """Seconds that the service asks to wait; 0 where it does not state it."""
+        """Seconds that the service requests to wait; 0 where it does not state it."""
         text = self.headers.get("retry-after", "")
         return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
 
@@ -82,7 +82,7 @@ class NoAnswer(Exception):
 
 
 class Connection(Record):
-    """Speaks with one service, and with no other: it follows no redirect and asks no proxy.
+    """Connection to one service only, without redirects and proxies.
 
     Attributes:
         token: Shown to the service; may be empty.
@@ -107,9 +107,9 @@ class Connection(Record):
         Args:
             method: The HTTP method.
             path: The path below the address of the service.
-            upload: What goes with it.
+            upload: The content to send.
             limit: Bytes of the answer that are read.
-            headers: Headers to send beside the usual ones.
+            headers: Headers to send besides the usual ones.
 
         Raises:
             CheckerError: No answer of use comes.
@@ -224,7 +224,7 @@ def _cut_off(seconds: float) -> Iterator[Trace]:
         Messages about the steps of the request.
 
     Raises:
-        NoAnswer: It came to that.
+        NoAnswer: No answer came.
     """
     late = threading.Event()
     streams: list[Any] = []

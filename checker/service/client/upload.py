@@ -40,7 +40,7 @@ class Upload(Record):
     """A file to send.
 
     Attributes:
-        file: Its name goes along.
+        file: The file, which is sent with its name.
         profile: The profile of the check; empty for the service's own choice.
         say: Called with the share that is sent, once for each tenth.
         key: The key by which a service recognises repetitions.

@@ -1,6 +1,6 @@
 """One stage of a check: an upload in the store becomes a result in the store, by a child process.
 
-Nothing of an upload is looked into in the worker: the child opens it, and what it brings back
+The worker reads no part of an upload: the child process opens it, and its answer
 counts as a stranger's too. The worker writes all that is kept, under names that it knows.
 """
 

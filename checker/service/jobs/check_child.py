@@ -1,7 +1,7 @@
 """Reads an upload and checks it: what a process in the sandbox (`checker.base.sandbox`) does.
 
 It loads what a check needs, then waits for the upload. When there is nothing to do for a while, a
-process that reads meshes waits beside it. Its results go back as requested, in one file
+process that reads meshes waits as well. Its results go back as requested, in one file
 without a name; nothing that it writes elsewhere is read.
 """
 
@@ -69,7 +69,7 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
 _NEEDED = (f"{PACKAGE}.engine.review", f"{PACKAGE}.report.files", "markdown_it", "pinocchio")
 """Modules that nearly every check loads; some of them start threads."""
 _IDLE = 0.5
-"""Seconds without a check, after which the next one is taken for that of a new upload: of one that
+"""Seconds without a check, after which the next one counts as that of a new upload: of one that
 has waited, and of the second stage, the meshes are usually known."""
 
 

@@ -76,7 +76,7 @@ class _Place:
         return self._starter.alive and self.child.alive
 
     def excess(self, most: Usage) -> str:
-        """Return what its processes use too much of, looked at now and then; else nothing."""
+        """Return what its processes use too much of, checked now and then; else nothing."""
         begin = monotonic()
         if begin < self._next_look:
             return ""
@@ -119,7 +119,7 @@ class Children:
             request: See `checker.service.jobs.check_child`.
             contents: The files that go with it.
             seconds: Seconds of real time before it is stopped.
-            cancelled: Whether it is no longer wanted; asked a few times a second.
+            cancelled: Whether it is no longer wanted; called a few times a second.
             niceness: The value for `nice` that gives it a lower priority than other checks.
 
         Yields:

@@ -33,7 +33,7 @@ class Refused(Record):
 
 
 class Died(Record):
-    """The checker could not finish, and would not the next time: a limit, or a fault of its own.
+    """The checker could not finish, and would not the next time: a limit, or an internal error.
 
     Attributes:
         reason: One sentence that begins with `UNFINISHED`.

@@ -27,7 +27,7 @@ def layers_of_checks(store: Store) -> Sequence[Layer]:
 
 
 def _of_store(layer: Layer, store: Store) -> Layer:
-    """Return a layer, which hides nothing where the data lies among the files of the program."""
+    """Return a layer, which hides nothing if the data is among the files of the program."""
     folder = store.folder.resolve()
     within = next((path for path in program_paths() if folder.is_relative_to(path)), None)
     if within is None or layer.name == ACCOUNT:

@@ -53,7 +53,7 @@ class Deadline:
 
 
 class Connection(H11Protocol):
-    """HTTP/1.1 as the server speaks it, with an end to its patience.
+    """HTTP/1.1 as the server implements it, with time limits.
 
     The server waits for ever for the rest of a request's head, and for a client that does not read
     its answer. As many connections as it takes at once would be enough to shut everybody out.
@@ -138,7 +138,7 @@ class Connection(H11Protocol):
 
 
 class ProxyConnection(Connection):
-    """The same from a proxy, which speaks for many."""
+    """The same from a proxy, which represents many clients."""
 
     per_client = 0
 

@@ -1,6 +1,6 @@
 """Keeps processes running: starts them, starts again what has died, and stops them in good order.
 
-A process that ends with exit code 0 was asked to end, and is not restarted.
+A process that ends with exit code 0 was told to end, and is not restarted.
 """
 
 from __future__ import annotations

@@ -37,7 +37,7 @@ class FolderObjects(Record):
     folder: Path
 
     def find(self, kind: Kind, key: str) -> Path | None:
-        """Return where an object lies; None without."""
+        """Return the path of an object; None if there is none."""
         place = self._place(kind, key)
         return place if place.exists() else None
 

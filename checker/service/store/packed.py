@@ -23,7 +23,7 @@ _HEADER = re.compile(rb'<header(?: class="[a-z_ ]*")?>')
 
 
 def pack(folder: Path) -> None:
-    """Put compressed files beside those of a result."""
+    """Add compressed files to those of a result."""
     for path in [*folder.glob("*"), *folder.glob("*/*")]:
         name = path.relative_to(folder).as_posix()
         if not ARTEFACT_NAME.fullmatch(name) or path.stat().st_size > LARGEST:

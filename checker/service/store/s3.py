@@ -1,7 +1,7 @@
 """Objects in a bucket of S3, which all machines reach; each keeps copies of what it works with.
 
 `uploads/ab/<hash>/content` is what was uploaded, `results/ab/<key>/content` and
-`parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` beside it states
+`parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` next to it states
 when it was last used. Copies are in a folder as in a service without S3 (`FolderObjects`).
 """
 
@@ -82,7 +82,7 @@ class S3Objects(Record):
         self.copies.put(kind, key, source)
 
     def add(self, kind: Kind, key: str, source: Path) -> None:
-        """Put the files of a folder beside those of the copy, and keep all of them."""
+        """Add the files of a folder to those of the copy, and keep all of them."""
         self.copies.add(kind, key, source)
         if (folder := self.copies.find(kind, key)) is not None:
             self._put_folder(kind, key, folder)

@@ -72,7 +72,7 @@ class Store(Record):
 
     @contextmanager
     def workplace(self) -> Iterator[Path]:
-        """Make a folder for work in progress; it goes at the end, or by `sweep` if we die."""
+        """Make a folder for work in progress; removed at the end, or by `sweep`."""
         make_folder(self.folder)
         with workplace(self.folder / "incoming") as place:
             yield place

@@ -1,6 +1,6 @@
 """Folders and files for work in progress, which go with the process that works in them.
 
-Its owner holds a lock on a file: that of an upload itself, or one beside the folder. The system
+Its owner holds a lock on a file: that of an upload itself, or one next to the folder. The system
 drops the lock when the owner ends, however it ends: a process id would be given again, and means
 nothing in another container.
 """
@@ -202,7 +202,7 @@ def _remove_all(place: Path) -> None:
     """Remove a folder, even if a compromised process has changed it.
 
     Folders in folders are moved to the top before they are removed: `rm` takes the longer for each,
-    the deeper it lies, so that a million of them would take days.
+    the deeper it is, so that a million of them would take days.
     """
     waiting = [place] if place.is_dir() else []
     while waiting:

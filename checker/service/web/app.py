@@ -123,7 +123,7 @@ _NO_TELEMETRY: TelemetryConfig = {
 
 
 def app_from_environment() -> FastAPI:
-    """Return the application as the environment wants it, with all loaded that an upload needs.
+    """Return the application that the environment configures, with all loaded that an upload needs.
 
     Raises:
         CheckerError: A variable has a value that makes no sense, or there is no place for data.
@@ -155,7 +155,7 @@ def create_app(
         jobs: The engine that checks.
         store: Uploads and results.
         config: What is allowed.
-        indexes: Reads those of archives; None for one of its own.
+        indexes: Reads those of archives; None for its own.
     """
     from fastapi import FastAPI
 

@@ -92,7 +92,7 @@ class Health(Record):
         return Response(text, headers={"Content-Type": CONTENT_TYPE_PLAIN_0_0_4})
 
     def _figures(self) -> bytes:
-        """Return the metrics; a database that is away is asked once."""
+        """Return the metrics; a database that is away is queried once."""
         alive = self._alive()
         taken: Mapping[str, float] = {}
         if alive is not None:

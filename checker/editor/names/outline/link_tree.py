@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.editor.names.outline.symbol import Symbol
 
 DEPTH_LIMIT = 60
-"""Links below each other; one that is deeper begins a tree of its own."""
+"""Links below each other; one that is deeper starts its own tree."""
 
 
 class JointSymbol(Record):
@@ -25,7 +25,7 @@ class JointSymbol(Record):
 def link_tree(links: Sequence[Symbol], joints: Sequence[JointSymbol]) -> tuple[Symbol, ...]:
     """Return the links that nothing carries, with all that they carry; each link and joint once.
 
-    A joint without a known parent is beside them. Links that carry each other in a loop begin
+    A joint without a known parent is next to them. Links that carry each other in a loop begin
     with the one that the file names first; of two links with one name, the first is meant.
     """
     return _Tree(links, joints).symbols()

@@ -22,7 +22,7 @@ from checker.source.xml import Element
 
 _LINE_END = re.compile(r"\r\n|[\r\n\t]")
 NAMESPACE = "robotNamespace"
-"""Parameter that goes in front of the topics of some plugins."""
+"""Parameter that is a prefix of the topics of some plugins."""
 RESERVED = frozenset({"", "world", "__model__", "__root__"})
 """Names of frames that are always there."""
 _LISTS = ("joints", "links", "jointname", "jointnames", "wheelnames")

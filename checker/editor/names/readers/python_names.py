@@ -38,7 +38,7 @@ class PythonNames:
     def _node(
         self, node: ast.AST, key: str, files: tuple[str, ...]
     ) -> Iterator[tuple[ast.AST, str, tuple[str, ...]]]:
-        """Read one node; yield what is in it, with what it is given to and files named beside."""
+        """Read one node; yield what is in it, with its receivers and files named with it."""
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             self._string(node, node.value, key, files)
         elif isinstance(node, ast.JoinedStr):

@@ -56,7 +56,7 @@ def _without_xml_comments(text: str) -> str:
 
 
 def ruby_values(source: SourceText) -> frozenset[str]:
-    """Return the strings of a Ruby file, which its expressions may come to."""
+    """Return the strings of a Ruby file, which are possible values of its expressions."""
     found = (match[7] or match[5] or match[8] for match in _TEXT.finditer(source.text))
     return frozenset(word for text in found if text for word in (text, *_WORDS.split(text)))
 

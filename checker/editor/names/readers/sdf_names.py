@@ -94,7 +94,7 @@ class SdfNames:
         return prefix if is_first else f"{prefix}{value}::"
 
     def _include(self, element: Element, prefix: str) -> None:
-        """Note a model that is included; without a name of its own, it has that of its file."""
+        """Note a model that is included; without its own name, it has that of its file."""
         name, uri = element.child("name"), element.child("uri")
         text = verbatim(name.text) if name is not None else None
         value = text.value if text is not None else ""

@@ -11,7 +11,7 @@ from checker.editor.names.readers.expressions import EXPRESSION
 _MODEL = re.compile(r"(?:world/[^/]+/)?model/([^/]+)/")
 _WORD = re.compile(r"[A-Za-z0-9_./~*${}()# -]+")
 DERIVED = "camera_info"
-"""A camera publishes it beside its own topic."""
+"""A camera publishes it in addition to its own topic."""
 
 
 def topic_key(topic: str) -> tuple[str, int]:
@@ -50,6 +50,6 @@ def topics_below() -> frozenset[str]:
 
 
 def info_topic(key: str) -> str:
-    """Return the key of the `camera_info` beside a topic."""
+    """Return the key of the `camera_info` of a topic."""
     folder, slash, _ = key.rpartition("/")
     return f"{folder}{slash}{DERIVED}"

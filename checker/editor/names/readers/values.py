@@ -202,7 +202,7 @@ def scoped_names(
         start: Its offset.
         kinds: What the last part may be.
         role: The role of all parts.
-        prefix: What goes in front of it: empty, or `robot::`.
+        prefix: Its prefix: empty, or `robot::`.
     """
     steps = name.split("::")
     at, full = start, prefix

@@ -35,7 +35,7 @@ class XacroNames:
     Attributes:
         names: What is written, as it is found.
         included: Files that it includes.
-        values: Texts that expressions may come to.
+        values: Texts that expressions may have as values.
         parameters: Names of all parameters of macros.
     """
 

@@ -22,7 +22,7 @@ def dependent(rename: Rename) -> str:
 
 
 def _beside_topic(rename: Rename) -> Iterator[str]:
-    """Yield the mentions of the camera_info beside a topic, which would move along."""
+    """Yield the mentions of the camera_info of a topic, which would move along."""
     stated = {it.name for it in rename.index.mentions if it.is_definition}
     for name in rename.names:
         old, new = info_topic(name), info_topic(rename.topic_after(name))
@@ -38,7 +38,7 @@ def _beside_topic(rename: Rename) -> Iterator[str]:
 def _handed_on(rename: Rename) -> Iterator[str]:
     """Yield which launch file has the argument from the one that includes it, unsaid.
 
-    A launch file of ROS 2 hands on what it was given; one of ROS 1 where `pass_all_args` states it.
+    A launch file of ROS 2 passes on its arguments; one of ROS 1 where `pass_all_args` states it.
     """
     index = rename.index
     for it in rename.mentions:

@@ -18,7 +18,7 @@ from checker.source.xml import Element
 
 
 _SAME = 1e-14
-"""Numbers that differ by less are the same but for rounding."""
+"""Numbers that differ by less differ only by rounding."""
 _DIGITS = 15
 """Digits behind the point: metres and radians far below the precision of any solver."""
 

@@ -106,7 +106,7 @@ def mapping(kind: type) -> Work:
 
 
 def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[Any, ...]:
-    """Return what goes into a dictionary, once the hashes of its keys are paid for.
+    """Return the items of a dictionary, once the hashes of its keys are paid for.
 
     Args:
         budget: The budget to take the steps from.

@@ -45,7 +45,7 @@ class Interpreter:
         self._handlers = handlers
 
     def value(self, node: ast.AST, scope: Scope | None) -> Any:
-        """Return what a node comes to: data, or what yields its items one by one."""
+        """Return the value of a node: data, or what yields its items one by one."""
         self.budget.spend()
         handler = self._handlers.get(type(node))
         if handler is None:
@@ -53,7 +53,7 @@ class Interpreter:
         return handler(self, node, scope)
 
     def data(self, node: ast.AST, scope: Scope | None) -> Any:
-        """Return what a node comes to if it is data, such as a list may hold."""
+        """Return the value of a node if it is data, such as a list may hold."""
         return plain(self.value(node, scope))
 
     def look_up(self, name: str, scope: Scope | None) -> Any:

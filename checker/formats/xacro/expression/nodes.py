@@ -125,7 +125,7 @@ def add_key(run: Interpreter, key: Any, among: Any) -> Any:
 
 
 def items(run: Interpreter, nodes: list[ast.expr], scope: Scope | None) -> Iterator[Any]:
-    """Yield what elements of a display or a call come to; `*x` is all that x holds."""
+    """Yield the values of the elements of a display or a call; `*x` is all that x holds."""
     for node in nodes:
         if type(node) is ast.Starred:
             yield from consumed(run.value(node.value, scope), run.budget)

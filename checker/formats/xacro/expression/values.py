@@ -25,7 +25,7 @@ SEQUENCES = frozenset({list, YamlListWrapper, tuple})
 HASHED = MAPPINGS | {set, frozenset}
 COLLECTIONS = SEQUENCES | {set, frozenset} | _VIEWS
 PLAIN = SCALARS | COLLECTIONS | MAPPINGS
-"""Types of data: what a list may hold, and what an expression may come to."""
+"""Types of data: the possible items of a list, and values of an expression."""
 SIZED = (COLLECTIONS | MAPPINGS) | {str, range}
 LAZY: frozenset[type] = frozenset(
     {map, filter, zip, enumerate, GeneratorType, reversed}

@@ -80,7 +80,7 @@ def _plain_text(value: Value) -> str:
 
 
 def bounded(run: Interpreter, node: ast.AST, work: Callable[[Budget], Value]) -> Value:
-    """Return what some work on data comes to; Unknown when Python, or this reader, refuses it."""
+    """Return the result of some work on data; Unknown when Python, or this reader, refuses it."""
     run.allowance.spend()
     try:
         return add_place(work(Budget()), run.span(node))
@@ -99,7 +99,7 @@ def _reason(refused: str) -> str:
 
 
 def evaluate(run: Interpreter, node: ast.expr, scope: Scope) -> Value:
-    """Return what an expression comes to."""
+    """Return the value of an expression."""
     run.allowance.spend()
     with run.allowance:
         handler = _HANDLERS.get(type(node))

@@ -66,7 +66,7 @@ class Interpreter:
         allowance: What it may still take.
         world: What it may query.
         guards: Conditions around the statement that is being evaluated.
-        by_argument: Whether a value that was looked at depends on an argument or a file.
+        by_argument: Whether a value that was read depends on an argument or a file.
         notes: What was skipped.
     """
 
@@ -265,7 +265,7 @@ class Interpreter:
         return LocalFunction(node, scope, self.source, defaults, named)
 
     def call(self, node: ast.Call, scope: Scope) -> Value:
-        """Return what a call comes to."""
+        """Return the value of a call."""
         function = chosen_value(evaluate(self, node.func, scope))
         positional = sequence(self, node.args, scope)
         named: dict[str, Value] = {}

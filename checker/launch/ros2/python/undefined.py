@@ -17,7 +17,7 @@ def undefined_names(tree: ast.Module, entry: str) -> list[ast.Name]:
     """Return the first use of each name that Python cannot find when the file is launched.
 
     A name that is bound anywhere in the file counts as defined, whatever the order. What is in
-    a `try`, and functions that nothing names, are not looked at.
+    a `try`, and functions that nothing names, are not read.
 
     Args:
         tree: The tree of the file.

@@ -135,7 +135,7 @@ class Interpreter:
         """Return the pieces of `to_s` of any value, computed at `span`.
 
         Raises:
-            Unreadable: The value has no text of its own.
+            Unreadable: The value has no text form.
         """
         if isinstance(value.data, RubyString):
             return self.traced(value, span)

@@ -199,4 +199,4 @@ _WITH_BLOCK: Mapping[str, tuple[Methods, ...]] = {
     "Range": (ENUMERABLE_WITH_BLOCK,),
     "Integer": (INTEGER_WITH_BLOCK,),
 }
-"""Methods that take a block are in tables of their own."""
+"""Methods that take a block are in separate tables."""

@@ -91,7 +91,7 @@ _LEAST = 1e-3
 
 
 def measure_turn(motion: Motion) -> Iterator[Measurement]:
-    """Measure the turn, and where the centre of mass lies that governs it."""
+    """Measure the turn, and the centre of mass that governs it."""
     centre = _centre_of_wheels(motion)
     if centre is not None:
         front, side = _centre_of_mass(motion) - centre

@@ -152,7 +152,7 @@ def excess_links(scene: Scene) -> Iterator[str]:
 
 
 _MOST_PARTS = 40
-"""Links, and joints, that get series of their own."""
+"""Links, and joints, that get their own series."""
 
 
 def series_of(motion: Motion) -> dict[str, Sequence[float]]:

@@ -43,11 +43,11 @@ class Forest(Record, eq=False, dict=True):
 
     @cached_property
     def tops(self) -> list[str]:
-        """Links that hang on nothing, or on the world."""
+        """Links without a parent, or with the world as parent."""
         return [name for name in self.order if self.base(name) is None]
 
     def tie(self, name: str) -> Tie | None:
-        """Return the tie by which a link hangs; None for one that is free."""
+        """Return the tie of a link to its parent; None for one that is free."""
         return self.spanning_tree.by.get(name)
 
     def base(self, name: str) -> str | None:

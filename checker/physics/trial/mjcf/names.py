@@ -12,7 +12,7 @@ from checker.model.geometry.transform import Rotation, Transform
 
 
 FAR = 1e6
-"""Metres beyond which a place is taken for a slip: sums of squares must stay exact to 1 mm."""
+"""Metres beyond which a place counts as a slip: sums of squares must stay exact to 1 mm."""
 LARGEST = 1e12
 """Greatest mass, moment or stiffness in SI units; beyond it products in a mass matrix overflow."""
 

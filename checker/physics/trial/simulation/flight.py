@@ -98,7 +98,7 @@ class Allocation(Record):
 def balanced_shares(effect: Array, wanted: Array) -> Array | None:
     """Return the shares s ≥ 0 with effect · s = wanted whose largest is the least; None without.
 
-    A linear program: least squares would ask too much of the weakest arm of a hexacopter.
+    A linear program: least squares would overload the weakest arm of a hexacopter.
     """
     import numpy as np
     from scipy.optimize import linprog
@@ -221,7 +221,7 @@ class Pilot:
         return velocity
 
     def _risen(self, time: float) -> float:
-        """Return how far the course wants it above its hover, metres."""
+        """Return the height of the course above its hover, metres."""
         if self.climb is None:
             return 0.0
         return min(max(time - self.climb.start, 0.0) * self.climb.linear, CLIMB_METRES)

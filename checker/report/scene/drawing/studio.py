@@ -59,7 +59,7 @@ def drawn_size(item: Mapping[str, Any]) -> tuple[int, int]:
 
 
 def model_of(item: Mapping[str, Any]) -> Any:
-    """Return the model that shows what is asked; see `checker.report.scene.drawing.request`."""
+    """Return the model of the request; see `checker.report.scene.drawing.request`."""
     import mujoco
 
     spec = mujoco.MjSpec.from_string(_STUDIO)

@@ -1,6 +1,6 @@
 """Draws pictures with MuJoCo: what the modules behind `checker.base.child_process` share.
 
-Each link is a body that is put where a shot wants it; nothing is simulated.
+Each link is a body that is placed for each shot; nothing is simulated.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ _NO_ADDRESS = (
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 METADATA = sa.MetaData()
-"""Tables of our own, beside those of DBOS. Nothing in them is worth keeping: they are made again
+"""Tables of our own, besides those of DBOS. Nothing in them is worth keeping: they are made again
 where their columns differ."""
 
 
@@ -112,7 +112,7 @@ def now(engine: sa.Engine) -> sa.ColumnElement[float]:
 
 
 def client_of(engine: sa.Engine) -> DBOSClient:
-    """Return what asks DBOS's tables; where the database is away, it fails at once."""
+    """Return the connection to DBOS's tables; where the database is away, it fails at once."""
     from dbos import DBOSClient, DBOSPortableJSONSerializer
 
     configure_logging()
@@ -145,13 +145,13 @@ def _is_amiss(record: logging.LogRecord) -> bool:
 
 
 def _cause(error: sa.exc.SQLAlchemyError) -> str:
-    """Return what the database stated, without the statement that it was asked."""
+    """Return what the database stated, without the SQL statement."""
     cause = getattr(error, "orig", None) or type(error).__name__
     return plain(shortened(str(cause).partition("\n")[0], _SHOWN))
 
 
 def _make(file: Path) -> None:
-    """Make the file, for its owner alone: SQLite would let all read it, and what is beside it.
+    """Make the file, for its owner alone: SQLite would let all read it, and its companion files.
 
     Raises:
         JobsUnreachable: It cannot be made or written.

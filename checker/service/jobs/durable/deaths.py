@@ -33,7 +33,7 @@ class Deaths:
             workers: The workers with a recent sign of life.
             store: The store, with the folder of workers on this machine.
             name: The name of this worker.
-            silence: Seconds after which a worker is taken for dead.
+            silence: Seconds after which a worker counts as dead.
         """
         self._checks, self._workers, self._folder = checks, workers, store.workers
         self._name, self._silence = name, silence
@@ -46,7 +46,7 @@ class Deaths:
         `drained` is set once an operator has drained this worker.
 
         When the database was away, or this machine slept, all workers have been silent: the first
-        one that is back must not take the others for dead.
+        one that is back must not regard the others as dead.
         """
         if self._workers.record_heartbeat(self._name):
             self.drained.set()

@@ -120,7 +120,7 @@ class Row(Record):
         begun: The time when a worker took it; 0 before.
         ended: The time when it ended; 0 before.
         executor: Name of the worker that took it last.
-        end: What the check came to with it.
+        end: The result of the check.
         cancelled: The time when the check was cancelled, in its first row; 0 if it was not.
     """
 

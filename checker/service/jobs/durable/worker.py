@@ -39,7 +39,7 @@ _LOG = logging.getLogger(__name__)
 _LANDING_SECONDS = 10
 """For the children of what is handed back to end, and for the database to hear of it."""
 _DRAIN_SECONDS = 3600.0
-"""For a worker that is drained to finish its checks; each has limits of its own, of minutes."""
+"""For a worker that is drained to finish its checks; each has its own limits, of minutes."""
 _VERSION = "1"
 """The version of the workflows for DBOS: workers do not take tasks of another version."""
 
@@ -56,7 +56,7 @@ class WorkerOptions(Record):
         grace_seconds: The time to finish running tasks after the signal to stop; then they are
             returned.
         beat_seconds: The time between two signs of life.
-        silence_seconds: After which other workers take this one for dead.
+        silence_seconds: After which other workers regard this one as dead.
         cleaning_seconds: The time between two rounds that delete expired files.
         unused_seconds: The time that files without a check are kept.
         pauses: Seconds before each further try of a task that failed (see `tasks.PAUSES`).
@@ -144,7 +144,7 @@ def _take_tasks(
 
 
 def _function(run: Callable[[dict[str, Any]], dict[str, Any]]) -> Callable[..., dict[str, Any]]:
-    """Return a function of its own for each workflow: DBOS writes the name on it."""
+    """Return a separate function for each workflow: DBOS writes the name on it."""
 
     def workflow(task: dict[str, Any]) -> dict[str, Any]:
         return run(task)

@@ -112,7 +112,7 @@ def _of_framework(error: HTTPException) -> Refused:
 
 
 def _with_head(headers: dict[str, str]) -> dict[str, str]:
-    """Name HEAD wherever GET is allowed: no route knows of it (`answers.bodies`)."""
+    """Name HEAD wherever GET is allowed: no route has it (`answers.bodies`)."""
     allowed = headers.get("Allow", "").split(", ")
     if "GET" in allowed:
         headers["Allow"] = ", ".join(sorted({*allowed, "HEAD"}))

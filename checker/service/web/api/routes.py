@@ -205,7 +205,7 @@ class Api(Record):
         return await event_stream(request, self.services, state, after)
 
     def index(self, request: Request, id: str) -> Response:
-        """Lead to the list of packages, beside their folders: its links are relative."""
+        """Lead to the list of packages, next to their folders: its links are relative."""
         self._file(request, id, "index.html")
         return RedirectResponse(address_of(id, "index.html"), 307)
 

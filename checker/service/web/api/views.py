@@ -40,7 +40,7 @@ class EventStream(StreamingResponse):
 async def event_stream(request: Request, services: Services, state: State, after: int) -> Response:
     """Return the events of a check behind event number `after`, until the check ends.
 
-    When nothing will come any more, the answer is 204: browsers stop to ask.
+    When nothing will come any more, the answer is 204: browsers stop asking.
 
     Raises:
         Refused: Too many watch.

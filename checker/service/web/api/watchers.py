@@ -17,7 +17,7 @@ from checker.service.jobs.port import Event, Jobs, JobsUnreachable
 from checker.service.logs import LOGGER
 
 QUIET_SECONDS = 15.0
-"""Time after which a comment keeps the stream alive; proxies close silent ones."""
+"""Time after which a comment keeps the stream alive; proxies close idle ones."""
 STREAM_SECONDS = 600.0
 """Time after which a stream ends; browsers reconnect and state where they were."""
 PAUSE_SECONDS, LONGEST_SECONDS, PAUSE_SHARE = 0.3, 1.0, 9.0

@@ -1,4 +1,4 @@
-"""Places for work that takes its time: clients with much of it wait in lines of their own."""
+"""Queues for long work: clients with much of it wait in separate queues."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ class Rate(Record):
 
         Args:
             client: The client for whom it counts.
-            count: Zero to ask only.
+            count: Zero to query only.
         """
         if not self.per_minute:
             return 0.0

@@ -103,7 +103,7 @@ STEPS = {
     Stage.TRIAL: "Trial",
     Stage.DONE: "Report",
 }
-"""The way of a check that goes well."""
+"""The stages of a check without faults."""
 _AGAIN = "Send the package again; if it happens again, tell the operator of this service."
 _TEXT_LIMIT = 600
 
@@ -189,7 +189,7 @@ def _ahead(state: State) -> str:
 
 
 def main_package(packages: Sequence[PackageLine]) -> PackageLine | None:
-    """Return the only one, or the only package beside worlds and other files; None without one."""
+    """Return the only one, or the only package besides worlds and other files; None without one."""
     found = [each for each in packages if not each.is_file or len(packages) == 1]
     return found[0] if len(found) == 1 else None
 

@@ -114,7 +114,7 @@ _FILES = {
     "report.sarif": ("SARIF", "for code scanning"),
     "robot.glb": ("robot.glb", "the robot and its trial for Blender and other viewers"),
 }
-"""Files of a result that the page offers beside the report, with their names and uses."""
+"""Files of a result that the page offers besides the report, with their names and uses."""
 
 
 def router(services: Services) -> APIRouter:
@@ -150,7 +150,7 @@ class _Pages(Record):
     services: Services
 
     def start(self, request: Request) -> Response:
-        """Show the form, and what becomes of what is sent."""
+        """Show the form, and the result of what is sent."""
         config, limits = self.services.config, ArchiveLimits()
         return html(
             "start.html.j2",

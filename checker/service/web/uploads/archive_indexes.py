@@ -56,7 +56,7 @@ class _Reader:
 
         Raises:
             TimeoutError: It does not answer in time.
-            OSError: The archive cannot be opened or copied, or it has died before it was asked.
+            OSError: The archive cannot be opened or copied, or it died before the request.
             ValueError: It answers with nonsense, or has died.
         """
         # A copy, of which nothing leads to what is kept.

@@ -22,7 +22,7 @@ _LOG = logging.getLogger(LOGGER)
 
 
 def sweep_while_serving(store: Store) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
-    """Return the task that runs beside an application as long as it serves.
+    """Return the task that runs with an application as long as it serves.
 
     Args:
         store: The store whose work in progress is searched, that of workers included.
