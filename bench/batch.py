@@ -1,13 +1,13 @@
-"""A batch of packages on PostgreSQL: how much sooner several workers are through with it than one.
+"""A batch of packages on PostgreSQL: the time with several workers and with one.
 
-Each package is the robot of a real one, made a trifle heavier, so that every check drives its own;
-each number of workers begins with an empty database, store and cache. A check keeps more than one
-processor busy at times, and so each worker is given its own (`compose.yaml` gives them
-their own containers): with as many processors as it likes, one worker would take those of the
-other. More workers than processors share them. Of each check, what it takes of processors, of the
-database and of the disk is printed, too. Run with `python -m bench.batch [--packages N]` from the
-top folder, as `make bench` does; SUBT_CHECK_CORPUS names the folder of real packages, the samples
-are used where there is none.
+Each package is the robot of a real one, made slightly heavier, so that every check has its own
+trial; each number of workers begins with an empty database, store and cache. A check keeps more
+than one processor busy at times, and so each worker is given its own (`compose.yaml` gives them
+their own containers): with any number of processors, one worker would take those of the other. More
+workers than processors share them. For each check, the use of processors, of the database and of
+the disk is printed, too. Run with `python -m bench.batch [--packages N]` from the top folder, as
+`make bench` does; SUBT_CHECK_CORPUS names the folder of real packages, the samples are used where
+there is none.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Measure the load of the machine: others may use the same processors.
 
-What the host gives to others while something is measured states nothing of the program: such a
+The load of the host by others says nothing about the program: such a
 figure is measured again. The speed of the processors differs too, by two from hour to hour, as
 `pace` shows.
 """

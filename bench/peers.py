@@ -2,7 +2,7 @@
 
 `make bench` prints the ratios. Peers: `ign sdf -k` (Debian's ignition-tools), which loads one SDF
 file; catkin_lint, which reads the manifests of a package; and simcheck, which drops a URDF robot in
-MuJoCo and PyBullet. They take turns, so that a machine which slows down slows both; what is quoted
+MuJoCo and PyBullet. They take turns, so that a slower machine slows both; the quoted figure
 is the median of the ratios, by processor time of the processes that each waits for and by the
 clock.
 """

@@ -1,4 +1,4 @@
-"""A hundred clients that upload at once: how long they wait for their answer, and what it takes.
+"""A hundred clients that upload at once: the time to an answer, and the use of resources.
 
 Each sends its own package of 1 MB to a service that is new, five times over. All checks of the
 last time are waited for: each ends with one report of its own upload. Run with

@@ -1,4 +1,4 @@
-"""Many pages that follow checks: what they cost the web process, and how late events are there.
+"""Many pages that follow checks: the load of the web process, and the delay of events.
 
 Two hundred streams follow twenty checks, to one of which something happens twice a second, then one
 to which nothing happens, whose pages look by themselves now and then. Run with

@@ -152,7 +152,7 @@ Check = Callable[..., Findings]
 
 
 class Rule(Record, dict=True):
-    """A rule of the book: one function, and what is known about it.
+    """A rule of the book: one function, and its properties.
 
     Attributes:
         id: Three letters of its group and a number: `SEN005`.

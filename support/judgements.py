@@ -1,4 +1,4 @@
-"""Findings on real packages that people judged, and what the rules report there now.
+"""Findings on real packages that people judged, and the present findings there.
 
 Each file `<source>.json` lists findings with a verdict: `true`, a fault that the target suffers
 from, at this severity; `false`, none, or one of a lesser severity; `arguable`.

@@ -50,7 +50,7 @@ _QUICK = {
 
 
 class NotStarted(Exception):
-    """The server did not come up; the text is what it stated."""
+    """The server did not come up; the text is its output."""
 
 
 @dataclass(frozen=True)

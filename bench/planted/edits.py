@@ -1,6 +1,6 @@
 """Small edits of the files of a package, made at a place that chance picks.
 
-No edit moves the lines below it: what a sheet states about line numbers stays true.
+No edit moves the lines below it: line numbers in a sheet stay correct.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Limits of processor time and memory for one piece of work within this process.
 
 Child processes have their own limits (`checker.base.child_process`). This process cannot be ended
-for one piece, so that a timer interrupts the piece and what comes after it continues.
+for one piece, so that a timer interrupts the piece and the work after it continues.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ def _watched(watch: _Watch) -> Iterator[None]:
 
 
 class _Watch:
-    """Looks now and then at what a piece of work has used: the handler of the timer's signal."""
+    """Checks the use of a piece of work now and then: the handler of the timer's signal."""
 
     def __init__(self, seconds: float, too_long: str, most: int, too_large: str) -> None:
         """Begin to count.

@@ -98,7 +98,7 @@ class Asked:
 
 
 class Server:
-    """Starts its process at the first request; a dead one is started again."""
+    """Starts its process at the first request; one that ended is started again."""
 
     def __init__(self, module: str, limits: Limits) -> None:
         """Start nothing yet.

@@ -1,4 +1,4 @@
-"""Work in a forked process that may die: quicker than a new interpreter."""
+"""Work in a forked process that may crash: faster than a new interpreter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parts of a package that rules need: what makes them, and why one is not available.
+"""The parts of a package that rules need: their providers, and why one is not available.
 
 A part is found by its type. A function marked `@part` makes it: the type that it returns is that
 of the part, and the types of its parameters are those of the parts that it is made of.
@@ -34,7 +34,7 @@ class NotAvailable(Record):
 
 
 class WorkerFailed(Record):
-    """A process gave no result: it died, ran out of what it may use, or answered with nonsense.
+    """A process gave no result: it crashed, exceeded its limits, or gave an invalid answer.
 
     Attributes:
         reason: The reason, as the end of a sentence whose subject is the work.

@@ -1,4 +1,4 @@
-"""`subt-check init`: writes what is missing, overwrites nothing, and states what it did."""
+"""`subt-check init`: writes missing files, overwrites none, and prints what it did."""
 
 from __future__ import annotations
 

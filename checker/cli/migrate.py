@@ -1,4 +1,4 @@
-"""`subt-check migrate`: makes the package, checks it, and states what is left to do."""
+"""`subt-check migrate`: makes the package, checks it, and prints the remaining work."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scene of the trial as files: the MJCF with what was driven, and its meshes."""
+"""The scene of the trial as files: the MJCF with the driven robot, and its meshes."""
 
 from __future__ import annotations
 

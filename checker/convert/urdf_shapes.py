@@ -29,7 +29,7 @@ from checker.source.text import Located
 
 
 class Shape(Record, eq=False):
-    """One shape of what replaces a geometry.
+    """One shape of the replacement of a geometry.
 
     Attributes:
         kind: Its tag.

@@ -6,7 +6,7 @@
 - `session` has the open files and, for each of their packages, the last check. A change makes a
   new package, a new `Subject` and a new run of the static rules: nothing can be stale, and it
   takes a tenth of a second, since texts, meshes and expansions are known.
-- What reads packages works in one thread; the event loop continues. What weighs and drives runs
+- Packages are read in one thread; the event loop continues. Weights and the trial run
   in its own process (`full_check`), which the user can stop; its findings stay with their
   elements while the text changes (`measured`).
 - Garbage is collected while the editor is idle: otherwise it takes half the time of a check.

@@ -1,4 +1,4 @@
-"""Lines above a model: what it weighs, the verdict, and what can be done with it."""
+"""Lines above a model: its mass, the verdict, and commands."""
 
 from __future__ import annotations
 

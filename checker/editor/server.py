@@ -1,6 +1,6 @@
-"""The language server: when it checks, and what it sends without a request.
+"""The language server: the time of checks, and messages without a request.
 
-Whatever reads packages works in one thread, one thing after the other; the event loop talks to the
+All packages are read in one thread, one after the other; the event loop serves the
 editor meanwhile. A check begins as soon as a text changes. Changes that come while it runs are
 checked together when it ends.
 """

@@ -95,7 +95,7 @@ class Context(Record):
 
 @dataclass(slots=True)
 class _Markup:
-    """A start tag, an end tag (`/`), or what is neither (`!`).
+    """A start tag, an end tag (`/`), or another tag (`!`).
 
     Attributes:
         is_whole: Whether it ends with its own `>`.

@@ -1,4 +1,4 @@
-"""One fault, one finding: what a rule leaves to a more precise one that reports the same part."""
+"""One fault, one finding: findings that a more precise rule reports for the same part."""
 
 from __future__ import annotations
 

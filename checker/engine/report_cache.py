@@ -1,6 +1,6 @@
 """Remembers reports: a package that did not change is not checked again.
 
-What a report depends on is hashed: the program, the settings, the package's content, and which
+The inputs of a report are hashed: the program, the settings, the package's content, and which
 files are in the sibling packages (by size and time of change).
 """
 

@@ -1,4 +1,4 @@
-"""Judges one package: its parts, the rules over them, and what is known at the end."""
+"""Judges one package: its parts, the rules, and the results."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from checker.source.text import SourceText
 
 @dataclass(frozen=True, order=True)
 class Stretch:
-    """Characters `start` up to, not including, `end`, and what is to be there."""
+    """Characters `start` up to, not including, `end`, and the new text."""
 
     start: int
     end: int

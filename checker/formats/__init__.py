@@ -1,1 +1,1 @@
-"""Formats of robots and worlds: what a file may say, and how it is read into the model."""
+"""Formats of robots and worlds: the content of files, and how it is read into the model."""

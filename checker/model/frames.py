@@ -1,4 +1,4 @@
-"""The graph of frames: what each is posed relative to, and the resulting positions."""
+"""The graph of frames: the frame that each is relative to, and the resulting positions."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Packages as files: opening what the user gives, indexing it, and finding inherited parts."""
+"""Packages as files: opening the input, indexing it, and finding inherited parts."""

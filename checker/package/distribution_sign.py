@@ -30,7 +30,7 @@ _ITEMS = 5_000
 
 
 class DistributionSign(Record):
-    """A distribution, and what names it: `Dockerfile:1 names ros:humble`."""
+    """A distribution, and its source: `Dockerfile:1 names ros:humble`."""
 
     distro: str
     words: str

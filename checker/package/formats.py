@@ -1,4 +1,4 @@
-"""The formats of robots: the files in each of them, and what reads these.
+"""The formats of robots: the files in each of them, and their readers.
 
 A format is a folder of `checker/formats/` that defines `FORMAT`. Those of other distributions come
 through the entry-point group `subt_check.formats`; an entry point names a `Format`.

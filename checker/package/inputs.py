@@ -1,4 +1,4 @@
-"""Opening what the user gives: a package, a folder of packages, an archive, or one model file."""
+"""Opening the input: a package, a folder of packages, an archive, or one model file."""
 
 from __future__ import annotations
 

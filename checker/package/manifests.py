@@ -23,7 +23,7 @@ DEPENDENCY_TAGS = (
 
 
 class Person(Record, eq=False):
-    """A maintainer or author; what is not stated is empty and placed at the person's tag."""
+    """A maintainer or author; missing values are empty and placed at the person's tag."""
 
     name: Located[str]
     email: Located[str]

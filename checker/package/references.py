@@ -1,6 +1,6 @@
 """Other packages that a package names: in its spawner's text and in its package.xml.
 
-Text patterns find the names without evaluating any Ruby; what the spawner really emits is
+Text patterns find the names without evaluating any Ruby; the XML that the spawner emits is
 found elsewhere.
 """
 

@@ -8,7 +8,7 @@
   the check continues.
 - In `trial`, `mjcf.scene` writes the robot as MJCF, and `drivers` plan what each kind of drive
   commands over the legs of `course`. Both go to the child, where `worker` has `simulation`
-  drive and `measures` collect the figures; `trial` is what comes back. `recording` drives the
+  drive and `measures` collect the figures; `trial` is the result. `recording` drives the
   same for `export`.
 - The trial starts before the rules and drives while they run; the first rule that needs it
   waits.

@@ -1,4 +1,4 @@
-"""The robots with their meshes, and what is measured of them: masses, views of sensors, trials."""
+"""The robots with their meshes, and their measurements: masses, views of sensors, trials."""
 
 from __future__ import annotations
 

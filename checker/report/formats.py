@@ -1,4 +1,4 @@
-"""The formats of a report by name; each loads what it needs."""
+"""The formats of a report by name; each loads its own modules."""
 
 from __future__ import annotations
 

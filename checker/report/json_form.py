@@ -1,4 +1,4 @@
-"""The members of the JSON report by type: what is written, what is read, and its schema.
+"""The members of the JSON report by type: written ones, read ones, and the schema.
 
 A report that is read may come from another machine, and a terminal shows it: words that the checker
 chooses itself must look like such words, and line numbers like line numbers.

@@ -1,6 +1,6 @@
 """The report as JSON (`json_form` has its members), and read back, wherever it comes from.
 
-What the JSON does not hold is missing afterwards: what the rules' pages state (why, how, title,
+Facts that are not in the JSON are missing afterwards: parts of the rules' pages (why, how, title,
 source), the key of a finding, the text that an edit replaces, the rules that looked and found
 nothing, the 3D view and the patch.
 """

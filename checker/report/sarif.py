@@ -31,7 +31,7 @@ LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 
 
 class PackageFinding(Record):
-    """A finding, of which package, and what set it aside."""
+    """A finding, of which package, and its suppression."""
 
     package: PackageReport
     finding: ReportedFinding

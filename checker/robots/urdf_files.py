@@ -1,4 +1,4 @@
-"""The URDF files of a package that represent a robot, and what is wrong with those that cannot."""
+"""The URDF files of a package that represent a robot, and the faults of those that cannot."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scripts that print a robot's description: what they give to xacro, read as text and never run."""
+"""Scripts that print a robot's description: the arguments for xacro, read as text and never run."""
 
 from __future__ import annotations
 

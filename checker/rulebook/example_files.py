@@ -1,4 +1,4 @@
-"""The packages that examples of rules make: minimal ones, with what the example changes.
+"""The packages that examples of rules make: minimal ones, with the changes of the example.
 
 `checker.rule_testing` describes the form of an example.
 """

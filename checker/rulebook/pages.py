@@ -1,6 +1,6 @@
 """The page of a rule, from the docstring of its module.
 
-A page has a title line that states what is wrong, a body that states why it matters, and two marked
+A page has a title line with the fault, a body with the reason why it matters, and two marked
 paragraphs: `Fix:` and `Source:`.
 """
 

@@ -1,4 +1,4 @@
-"""Profiles: what is judged, for which target. They are data (`checker/data/profiles.json`)."""
+"""Profiles: a target and its rules. They are data (`checker/data/profiles.json`)."""
 
 from __future__ import annotations
 

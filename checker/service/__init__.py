@@ -10,7 +10,7 @@
 - DBOS holds the queues: each try of a stage is a workflow, and the state of a check follows
   from the rows of its workflows alone (`jobs.durable.tasks`). Workers take tasks
   (`jobs.durable.worker`); what fails for a reason outside of the check is tried again, also by
-  others if a worker dies (`jobs.durable.deaths`).
+  others if a worker crashes (`jobs.durable.deaths`).
 - Each stage (static rules, then the trial) is a child process in the sandbox, which opens the
   upload and answers with a result; a finished stage is not repeated. The child of the next
   stage is started before it is needed (`jobs.children`).

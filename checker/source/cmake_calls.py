@@ -1,7 +1,7 @@
 """The calls that a CMake file makes: variables put in, loops over words unrolled.
 
 What is inside `if()` is marked conditional. What is not known, such as
-`${CATKIN_PACKAGE_SHARE_DESTINATION}`, stays as written.
+`${CATKIN_PACKAGE_SHARE_DESTINATION}`, is kept as written.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class Command(Record, eq=False):
 
 
 class _Tokens:
-    """Cuts a text into arguments, and remembers what is never closed."""
+    """Cuts a text into arguments, and keeps the parts that are not closed."""
 
     def __init__(self, source: SourceText, faults: list[CMakeFault]) -> None:
         self._source = source

@@ -1,6 +1,6 @@
 """Markdown as passages of visible text, every character at its offset in the file.
 
-What a reader of the rendered page does not see as text (comments, code fences, struck-through
+Parts that the rendered page does not show as text (comments, code fences, struck-through
 words, tags, link targets, markers) is blanked out, so offsets in a passage are offsets in the file.
 """
 

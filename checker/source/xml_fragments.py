@@ -1,4 +1,4 @@
-"""XML texts without one outermost element, such as what a spawner emits."""
+"""XML texts without one outermost element, such as those of a spawner."""
 
 from __future__ import annotations
 

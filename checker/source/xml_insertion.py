@@ -1,4 +1,4 @@
-"""Text edits that put elements into XML, laid out like what is there, and take them out."""
+"""Text edits that put elements into XML, laid out like their surroundings, and take them out."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _BLANKS = (" ", "\t")
 
 
 class Insertion(NamedTuple):
-    """A stretch of text, and what is to be there with the elements put in."""
+    """A stretch of text, and the new text with the elements."""
 
     span: Span
     text: str

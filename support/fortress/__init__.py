@@ -1,4 +1,4 @@
-"""Robots in the physics of Gazebo Fortress: Debian's libraries in a small program of ours.
+"""Robots in the physics of Gazebo Fortress: Debian's libraries in a small program.
 
 Debian's `libignition-physics-dev`, `libsdformat-dev` and a compiler are needed.
 """

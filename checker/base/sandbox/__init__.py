@@ -1,4 +1,4 @@
-"""The sandbox of processes that read strangers' files.
+"""The sandbox of processes that read untrusted files.
 
 One process starts all others (`launcher_process`). It is started again, with nothing of its
 parent's, enters its sandbox (`layers`) before there is anything to read, and forks. So no

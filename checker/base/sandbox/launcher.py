@@ -1,6 +1,6 @@
-"""Starts processes that read strangers' files: all by one clean process in the sandbox.
+"""Starts processes that read untrusted files, from one clean process in the sandbox.
 
-That one is started again, with none of the descriptors, variables and memory of its parent, and
+That one is started again, without the descriptors, variables and memory of its parent, and
 enters its sandbox before it does anything else. A new process is a fork of it: two milliseconds,
 against fifty for a new interpreter.
 """

@@ -1,4 +1,4 @@
-"""The files of this program: all that a process needs which is handed what it reads."""
+"""The files of this program: all that a process needs besides its input."""
 
 from __future__ import annotations
 

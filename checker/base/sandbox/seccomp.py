@@ -2,7 +2,7 @@
 
 Forbidden are the calls that reach other processes, other machines and other programs, and those
 by which holes in the kernel are usually reached; all others are left. A forbidden call fails with
-EPERM, so that a library that merely tries continues. See seccomp(2).
+EPERM, so that a library that only tries it continues. See seccomp(2).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Draws one small frame by whatever OpenGL is there (see `checker.base.child_process`)."""
+"""Draws one small frame with the available OpenGL (see `checker.base.child_process`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files and folders, where XML names one: packages, then what is in the folder so far."""
+"""Files and folders, where XML names one: packages, then the content of the folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elements as snippets: what has to be stated, with places to fill in."""
+"""Elements as snippets: the required parts, with places to fill in."""
 
 from __future__ import annotations
 

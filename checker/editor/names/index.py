@@ -1,4 +1,4 @@
-"""The names of a package: what is defined where, and all that mentions it."""
+"""The names of a package: definitions and mentions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A name as a file writes it, and what it turns out to mention."""
+"""A name as a file writes it, and the thing that it mentions."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class ComposedDefinition(Record):
 
 
 class Lookup:
-    """Finds what names mention.
+    """Finds the things that names mention.
 
     Attributes:
         mentions: The mentions of the package's own files, and the definitions in siblings.

@@ -1,4 +1,4 @@
-"""The outline of one file, whatever its format."""
+"""The outline of one file of any format."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elements of SDFormat that change nothing of what the target simulates."""
+"""Elements of SDFormat without effect on the simulation of the target."""
 
 from __future__ import annotations
 

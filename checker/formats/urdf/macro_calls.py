@@ -31,7 +31,7 @@ def macro_around(element: Element) -> Element | None:
 
 
 class MacroCall(Record, eq=False):
-    """A call that gives a macro nothing but what it must have.
+    """A call of a macro with only the required arguments.
 
     Attributes:
         name: The name of the macro.

@@ -1,6 +1,6 @@
 """Files as xacro sees them: below a made-up folder, `<ROOT>/<package>/<path>`.
 
-Texts that it needs to expand some files, what they include, are found without running it.
+The texts that it needs to expand files, their includes, are found without running it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Launch files of the challenge's own package, which no submission holds: what they start.
+"""Launch files of the challenge's own package, which no submission contains: the nodes they start.
 
-The table `models_common` states what is assumed of each, and from where.
+The table `models_common` has the assumptions about each, and their sources.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Bridges between Gazebo and ROS: what the command lines of the bridge programs state.
+"""Bridges between Gazebo and ROS: the command lines of the bridge programs.
 
 `parameter_bridge` takes `topic@ros_type[ign_type` (Gazebo to ROS), `]` (ROS to Gazebo) or a second
 `@` (both ways); `image_bridge` takes plain topics. The programs kept this language while their

@@ -62,7 +62,7 @@ def _follow_nothing(package: str, path: str, from_file: str) -> str:
 
 
 class _Expansion:
-    """Walks the elements and gathers what they start."""
+    """Visits the elements and collects the nodes they start."""
 
     def __init__(self, read_launch: ReadLaunch, *, asleep: bool = False) -> None:
         self._read_launch = read_launch

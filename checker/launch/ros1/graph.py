@@ -86,7 +86,7 @@ class LaunchFault(Record, eq=False):
 
 
 class Remap(Record, eq=False):
-    """A `<remap>` that is in force for a node.
+    """A `<remap>` that applies to a node.
 
     Attributes:
         source: The name that the node uses (`from`).

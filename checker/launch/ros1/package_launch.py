@@ -1,4 +1,4 @@
-"""The launch graph of a package: what the commands of its spawner start, joined into one."""
+"""The launch graph of a package: all that the commands of its spawner start, in one graph."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def _reason(include: UnresolvedInclude) -> str:
 
 
 class LaunchFiles(Record):
-    """Finds launch files, and what they name, in the package and its siblings."""
+    """Finds launch files, and the files they name, in the package and its siblings."""
 
     package: Package
 
@@ -180,7 +180,7 @@ MAX_PARTS = 20_000
 
 
 class LaunchEntry(Record, eq=False):
-    """A launch file that no other one of the package starts, with what it starts."""
+    """A launch file that no other one of the package starts, with its graph."""
 
     file: str
     graph: LaunchGraph

@@ -1,6 +1,6 @@
 """Substitutions of roslaunch: `$(arg x)`, `$(dirname)`, `$(eval …)` and those left alone.
 
-What only the launching machine knows (`find`, `env`, `optenv`, `anon`) stays as it is written.
+What depends on the launching machine (`find`, `env`, `optenv`, `anon`) stays as it is written.
 """
 
 from __future__ import annotations

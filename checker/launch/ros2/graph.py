@@ -1,6 +1,6 @@
 """The graph of ROS 2 launch files: all that they start, every item with its place.
 
-Texts hold what the launch system would put there. A share folder stands as a path below `ROOT`, so
+Texts contain the values of the launch system. A share folder is a path below `ROOT`, so
 that paths can be joined and looked up; `share_path` takes them apart. What is only known when it is
 launched is kept as a substitution (`$(env HOME)`, `$(var ur_type)`, `$(command xacro …)`): a text
 that still holds `$(` is not known.

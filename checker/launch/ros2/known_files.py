@@ -1,4 +1,4 @@
-"""Included launch files of other packages that are known: what they read, and what they start."""
+"""Known launch files of other packages: their arguments, and the nodes they start."""
 
 from __future__ import annotations
 

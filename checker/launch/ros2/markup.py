@@ -63,7 +63,7 @@ class XmlEntity(Record, eq=False):
 
 
 class YamlEntity(Record, eq=False):
-    """An element of a YAML launch file: a key, and what it contains."""
+    """An element of a YAML launch file: a key and its content."""
 
     tag: str
     span: Span

@@ -1,4 +1,4 @@
-"""Reads a launch file, in whatever language, with all that it includes."""
+"""Reads a launch file, in any of its languages, with all that it includes."""
 
 from __future__ import annotations
 

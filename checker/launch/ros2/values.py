@@ -17,7 +17,7 @@ Value = Any
 
 
 class LaunchLimit(Exception):
-    """A launch file that takes more than it may; what it takes, as a predicate."""
+    """A launch file that exceeds a limit; the limit as a predicate."""
 
 
 MAX_STEPS = 200_000

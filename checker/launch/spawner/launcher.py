@@ -1,4 +1,4 @@
-"""The globals that a launcher sets before it loads a spawner, and what they hold."""
+"""The globals that a launcher sets before it loads a spawner, and their values."""
 
 from __future__ import annotations
 

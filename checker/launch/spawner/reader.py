@@ -1,4 +1,4 @@
-"""The spawner of a package: its functions, what they emit, and what could not be read."""
+"""The spawner of a package: its functions, the emitted XML, and unread parts."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def read_spawner(files: SpawnerFiles, path: str, entry: SourceText) -> Spawner:
 
 @dataclass(eq=False)
 class _Program:
-    """A spawner's files, and what is known of them from the calls so far."""
+    """A spawner's files, and the results of the calls so far."""
 
     files: SpawnerFiles
     entry: SourceText

@@ -1,4 +1,4 @@
-"""Ruby's values: each carries the parameters that influenced it.
+"""Ruby's values, each with the parameters that influenced it.
 
 Strings, arrays and hashes are shared by reference and can be changed, as in Ruby.
 """
@@ -48,7 +48,7 @@ class RubyArray:
 
 @dataclass(eq=False, slots=True)
 class RubyHash:
-    """A hash; `entries` maps what makes keys equal (`key_of`) to the key and its value."""
+    """A hash; `entries` maps the identity of a key (`key_of`) to the key and its value."""
 
     entries: dict[Hashable, tuple[Value, Value]] = field(default_factory=dict)
     default: Value | None = None

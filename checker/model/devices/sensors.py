@@ -1,8 +1,8 @@
 """Finds out which sensor of a robot represents which device.
 
-The specification sheet's list of sensors counts most; if it has none or leaves a choice, names
-and comments of the model do, then the rest of the sheet. Two answers count as none: figures must
-not be compared with those of another device.
+The specification sheet's list of sensors counts most; if it has none or leaves a choice, names and
+comments of the model do, then the rest of the sheet. Two different answers count as no answer:
+figures must not be compared with those of another device.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Reads what moves a robot out of its drive plugins."""
+"""Reads the drive of a robot from its plugins."""
 
 from __future__ import annotations
 

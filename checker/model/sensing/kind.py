@@ -1,4 +1,4 @@
-"""Kinds of sensors: what the type of a `<sensor>` means, whichever release spells it."""
+"""Kinds of sensors: the meaning of the type of a `<sensor>`, in the spelling of any release."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from checker.source.xml import Element
 
 
 class Noise(Record, eq=False):
-    """A `<noise>`; all figures in the unit of what it is added to.
+    """A `<noise>`; all figures in the unit of the value that it is added to.
 
     Attributes:
         type: `none`, `gaussian` or `gaussian_quantized`.

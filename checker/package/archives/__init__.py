@@ -1,1 +1,1 @@
-"""Strangers' archives: checked before anything is unpacked."""
+"""Untrusted archives: checked before anything is unpacked."""

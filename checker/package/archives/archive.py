@@ -1,4 +1,4 @@
-"""Unpacking a stranger's archive: its whole index is checked before the first byte is written."""
+"""Unpacking an untrusted archive: its whole index is checked before the first byte is written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads the index of an archive that a stranger sends: a process in the sandbox.
+"""Reads the index of an untrusted archive: a process in the sandbox.
 
 On its socket comes the name of an archive, one JSON object a message, with a descriptor of the
 file; it answers in a line whether the archive can be unpacked, or that the disk fails, and opens

@@ -1,4 +1,4 @@
-"""The inertia of each link without numpy: what is written, its principal moments, its pieces."""
+"""The inertia of each link without numpy: stated values, principal moments, rigid pieces."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Reads mesh files in a child process: the module behind `checker.physics.mesh.process`.
 
-A request states what is `wanted` of its `items`: facts or the appearance of files, or what sensors
+A request has `items` and the `wanted` results: facts or the appearance of files, or what sensors
 see of them. Each file is read in a fork, so that one which takes its reader down costs only itself.
 """
 

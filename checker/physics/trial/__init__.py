@@ -1,1 +1,1 @@
-"""The driven trial: a robot on a course in MuJoCo, and what was measured."""
+"""The driven trial: a robot on a course in MuJoCo, and the measurements."""

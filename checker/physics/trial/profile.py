@@ -1,4 +1,4 @@
-"""Commands over time, as corners of straight lines: what a velocity limiter lets through."""
+"""Commands over time, as corners of straight lines: the output of a velocity limiter."""
 
 from __future__ import annotations
 

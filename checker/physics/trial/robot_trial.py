@@ -12,7 +12,7 @@ from checker.physics.trial.trial import Leg, Trial
 
 
 class RobotTrial(Record, eq=False, dict=True):
-    """A robot that was driven, and what was measured.
+    """A robot that was driven, and the measurements.
 
     Attributes:
         others: The reason why other robots of the package are not among those; of the first robot
@@ -97,7 +97,7 @@ _CREEP = 0.05
 
 
 class SettledTrial(RobotTrial):
-    """A robot that came to rest before it was driven: figures of its drive mean something."""
+    """A robot that came to rest before it was driven: the figures of its drive are valid."""
 
 
 class RepeatedTrial(RobotTrial, kw_only=True):

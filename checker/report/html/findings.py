@@ -22,7 +22,7 @@ _LINES_SHOWN = 20
 
 
 class Frame(Record):
-    """A line of source in three parts; the middle one is what the finding is about."""
+    """A line of source in three parts; the middle one has the fault."""
 
     line: int
     before: str

@@ -54,7 +54,7 @@ class Reason(Record):
 
 
 class SetAside(Record):
-    """A finding that does not count: what it states, where, and why it does not."""
+    """A finding that does not count: its message, its place, and the reason."""
 
     rule: str
     message: str

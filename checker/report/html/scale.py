@@ -1,4 +1,4 @@
-"""The scale of a plot: neither do few far samples flatten the rest, nor is noise magnified."""
+"""The scale of a plot: few far samples do not flatten the rest, and noise is not magnified."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Builds what is shown of a robot and its trial: all layers, link by link."""
+"""Builds the scene of a robot and its trial: all layers, link by link."""
 
 from __future__ import annotations
 

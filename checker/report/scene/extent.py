@@ -1,4 +1,4 @@
-"""Extent of what is shown."""
+"""Extent of the shown scene."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ def short(name: str) -> str:
 
 
 class Surfaces(Protocol):
-    """Gives what the mesh files of a robot look like."""
+    """Appearance of the mesh files of a robot."""
 
     def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:
         """Return what the mesh file behind a URI looks like.
@@ -96,7 +96,7 @@ _LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada", "tr
 
 
 class MeshFiles(Record, eq=False, dict=True):
-    """Gives what the mesh files of a robot look like: a `Surfaces`.
+    """Appearance of the mesh files of a robot: a `Surfaces`.
 
     Attributes:
         meshes: The places and contents of the meshes, and what reads them.

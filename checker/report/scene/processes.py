@@ -1,4 +1,4 @@
-"""Processes that are started before it is known what they are to do.
+"""Processes that are started before their task is known.
 
 They load their libraries while their parent loads its own, which takes each of them half a second.
 """

@@ -49,7 +49,7 @@ class Item(Record, eq=False):
 
 
 class LinkNode(Record, eq=False):
-    """A link with what is connected to it.
+    """A link with its items.
 
     Attributes:
         name: Scoped name; no two links have the same.
@@ -80,7 +80,7 @@ class Tracks(Record, eq=False):
 
 
 class DisplayScene(Record, eq=False):
-    """All there is to see of a robot.
+    """The scene of a robot.
 
     Attributes:
         robot: Its name.

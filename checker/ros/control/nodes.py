@@ -1,4 +1,4 @@
-"""Nodes that have to do with control: spawners, robot_state_publisher, spawn_model."""
+"""Nodes for control: spawners, robot_state_publisher, spawn_model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Interfaces that controllers claim: which joints they name, and what they need of each."""
+"""Interfaces that controllers claim: the joints that they name, and the interfaces of each."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _LISTENED = ("extra_joints", "_state_names", "_state_joint_name", "reference_and
 
 
 class Claim(Record, eq=False):
-    """A joint that a controller names, with what it needs of it.
+    """A joint that a controller names, with the interfaces that it needs.
 
     Attributes:
         joint: The joint as the parameter names it.

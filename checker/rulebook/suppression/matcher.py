@@ -56,7 +56,7 @@ class Suppression(Record):
 
 
 class SuppressionMatcher:
-    """The wishes about one package, and which of them were of use.
+    """The suppressions of one package, and which of them had an effect.
 
     Attributes:
         held: What the baseline holds of the package.

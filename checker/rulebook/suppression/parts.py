@@ -17,14 +17,14 @@ class UnknownName(Record):
 
 
 class UnusedComment(Record):
-    """A comment, and the id of a rule that looked and found nothing for it to set aside."""
+    """A comment, and the id of a rule that ran and found nothing that it suppresses."""
 
     comment: Comment
     rule: str
 
 
 class UnusedEntries(Record):
-    """Entries of a settings file that set nothing aside.
+    """Entries of a settings file that suppress nothing.
 
     Attributes:
         place: The place of the settings file, or of the package folder when it is elsewhere.

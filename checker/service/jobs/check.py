@@ -1,7 +1,7 @@
 """One stage of a check: an upload in the store becomes a result in the store, by a child process.
 
 The worker reads no part of an upload: the child process opens it, and its answer
-counts as a stranger's too. The worker writes all that is kept, under names that it knows.
+is not trusted either. The worker writes all that is kept, under its own names.
 """
 
 from __future__ import annotations

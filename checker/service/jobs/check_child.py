@@ -1,4 +1,4 @@
-"""Reads an upload and checks it: what a process in the sandbox (`checker.base.sandbox`) does.
+"""Reads an upload and checks it: the work of a process in the sandbox (`checker.base.sandbox`).
 
 It loads what a check needs, then waits for the upload. When there is nothing to do for a while, a
 process that reads meshes waits as well. Its results go back as requested, in one file

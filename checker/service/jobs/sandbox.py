@@ -1,4 +1,4 @@
-"""Layers that are in force around the processes that check uploads on this machine."""
+"""Active layers of the sandbox around the processes that check uploads on this machine."""
 
 from __future__ import annotations
 

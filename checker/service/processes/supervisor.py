@@ -1,4 +1,4 @@
-"""Keeps processes running: starts them, starts again what has died, and stops them in good order.
+"""Keeps processes running: starts them, restarts those that ended, and stops them in order.
 
 A process that ends with exit code 0 was told to end, and is not restarted.
 """

@@ -1,1 +1,1 @@
-"""Uploads and reports on disk, by the hash of what they hold."""
+"""Uploads and reports on disk, by the hash of their content."""

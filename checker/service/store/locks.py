@@ -1,4 +1,4 @@
-"""Files that processes lock as long as they live, so that others know at once that one has died.
+"""Files that processes lock while they run, so that others notice at once that one has ended.
 
 The system drops a lock when its owner ends, however it ends. A process that hangs, or whose machine
 is gone from the network, holds it still: that is what signs of life are for.

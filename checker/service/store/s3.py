@@ -1,4 +1,4 @@
-"""Objects in a bucket of S3, which all machines reach; each keeps copies of what it works with.
+"""Objects in a bucket of S3, which all machines reach; each keeps copies of those it uses.
 
 `uploads/ab/<hash>/content` is what was uploaded, `results/ab/<key>/content` and
 `parts/ab/<hash>/content` are zips of folders. The time of the empty object `used` next to it states

@@ -1,6 +1,6 @@
-"""Uploads and results by hash and key: whole or not at all, whichever process dies meanwhile.
+"""Uploads and results by hash and key: whole or not at all, even if a process ends meanwhile.
 
-Work in progress is in the folder `incoming/` of this machine; what is kept is behind a port
+Work in progress is in the folder `incoming/` of this machine; finished objects are behind a port
 (`checker.service.store.objects`). Many processes use it at once, on any number of machines.
 """
 

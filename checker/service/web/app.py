@@ -1,4 +1,4 @@
-"""The web application: routes, and what is around all of them."""
+"""The web application: routes, and the middleware around them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names in launch files in XML: arguments, topics, and what is given to nodes."""
+"""Names in launch files in XML: arguments, topics, and parameters of nodes."""
 
 from __future__ import annotations
 

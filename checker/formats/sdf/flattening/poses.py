@@ -1,4 +1,4 @@
-"""Before SDF 1.7: what was written in a nested model's frame is written in the robot's."""
+"""Before SDF 1.7: poses in a nested model's frame become poses in the robot's."""
 
 from __future__ import annotations
 

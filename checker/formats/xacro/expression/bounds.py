@@ -32,7 +32,7 @@ class Allowance:
 
 
 class Budget:
-    """Steps that are left to one expression; what is large is paid for before it is made."""
+    """Steps that are left to one expression; a large result is counted before it is made."""
 
     def __init__(self, allowance: Allowance | None = None) -> None:
         self._allowance = allowance or Allowance()

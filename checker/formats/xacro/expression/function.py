@@ -1,4 +1,4 @@
-"""A function of the language: a name, and what a call of it does."""
+"""A function of the language: a name, and the effect of a call."""
 
 from __future__ import annotations
 

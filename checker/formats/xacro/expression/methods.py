@@ -1,4 +1,4 @@
-"""Methods that expressions may call, by the exact type of what they belong to."""
+"""Methods that expressions may call, by the exact type of their object."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Operators: Python's own, on data alone, once the size of what they make is known."""
+"""Operators: Python's own, on data alone, once the size of the result is known."""
 
 from __future__ import annotations
 

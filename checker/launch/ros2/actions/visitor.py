@@ -1,4 +1,4 @@
-"""Visits launch actions in order, as the launch system does, and gathers what they start."""
+"""Visits launch actions in order, as the launch system does, and collects the nodes they start."""
 
 from __future__ import annotations
 

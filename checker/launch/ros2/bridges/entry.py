@@ -1,4 +1,4 @@
-"""One topic that a bridge of ROS 2 passes, and what can be wrong with how it is written."""
+"""One topic that a bridge of ROS 2 passes, and the faults of its notation."""
 
 from __future__ import annotations
 

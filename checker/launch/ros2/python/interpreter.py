@@ -1,4 +1,4 @@
-"""Evaluates a launch file in Python: names, calls and tests; what it makes are values."""
+"""Evaluates a launch file in Python: names, calls and tests; the results are values."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from checker.source.text import Located, SourceText, Span
 
 
 class World(Protocol):
-    """Environment of a launch file: what it may query while it is evaluated."""
+    """Environment of a launch file: the queries during its evaluation."""
 
     def read(self, path: str, span: Span) -> SourceText | str:
         """Return the text of a file below a share folder, or why it cannot be had."""

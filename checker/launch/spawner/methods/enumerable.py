@@ -1,4 +1,4 @@
-"""Methods of what can be walked through: arrays, hashes and ranges."""
+"""Methods of collections: arrays, hashes and ranges."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Differential and skid-steer drives, commanded as gz-sim's DiffDrive does it.
 
 A wheel turns at (v ∓ ω · separation / 2) / radius about its joint's axis as the file states it,
-with the separation and the radius of the plugin: what is wrong in either shows on the course.
+with the separation and the radius of the plugin: a fault in either has an effect on the course.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The figures that a trial yields: what each means, and its unit. Rules name those they judge."""
+"""The figures that a trial yields: their meanings and units. Rules name those they judge."""
 
 from __future__ import annotations
 

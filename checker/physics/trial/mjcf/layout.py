@@ -1,4 +1,4 @@
-"""The links of a robot as nested bodies of MuJoCo, with what they weigh and touch with."""
+"""The links of a robot as nested bodies of MuJoCo, with their inertias and contact shapes."""
 
 from __future__ import annotations
 

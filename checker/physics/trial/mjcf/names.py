@@ -1,4 +1,4 @@
-"""Names in a scene are ours: those of robots may hold anything, or nothing, or come twice."""
+"""Names in a scene: generated, since those of robots may be empty, repeated or of any form."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Contacts with the ground, and parts of a robot inside each other.
 
 Links that are fixed to each other count as one, and those that a joint ties may overlap: wheels sit
-on hubs. How deep shapes are inside each other is the way by which one would have to be moved out.
+on hubs. How deep shapes are inside each other is the shift that would separate them.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Flies a multicopter: a controller commands forces, the rotors give what they can."""
+"""Flies a multicopter: a controller commands forces, the rotors apply it within their limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draws pictures with MuJoCo: what the modules behind `checker.base.child_process` share.
+"""Draws pictures with MuJoCo: common code of the modules behind `checker.base.child_process`.
 
 Each link is a body that is placed for each shot; nothing is simulated.
 """

@@ -1,1 +1,1 @@
-"""One file a layer: what it shows of a robot."""
+"""Layers of a scene, one file for each."""

@@ -1,6 +1,6 @@
 """Checks as rows of DBOS: ordered, tried again, looked up, cancelled and forgotten.
 
-No table of ours states where a check stands, so that nothing can differ from what DBOS does. Every
+There is no second table with the state of a check, which could differ from DBOS. Every
 call may be made twice, by several processes at once: a workflow id is entered once.
 """
 

@@ -17,7 +17,7 @@ _KNOWN_SILENCES = 60
 
 
 class Deaths:
-    """Shows that this worker lives, and retries the tasks of dead workers.
+    """Reports that this worker runs, and retries the tasks of workers that ended.
 
     The lock of a file shows at once that a worker on this machine has ended; silence shows that
     those on others, or hanging ones, have.

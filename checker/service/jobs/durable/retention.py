@@ -16,7 +16,7 @@ _AT_ONCE = 200
 
 
 class Retention(Record):
-    """Deletes what has had its time; any number of workers may do so at once.
+    """Deletes expired objects; any number of workers may do so at once.
 
     Attributes:
         checks: The checks in the database.

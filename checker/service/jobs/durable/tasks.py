@@ -1,4 +1,4 @@
-"""Tries of the stages of a check, which are workflows of DBOS, and what is read from their rows.
+"""Tries of the stages of a check, which are workflows of DBOS, and their rows.
 
 A check is known by its key (`receipts.key_of_check`), and try `n` of a stage by the workflow id
 `KEY.STAGE.n`. The rows of these workflows are all that is kept of a check: where it is and what

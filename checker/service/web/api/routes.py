@@ -173,7 +173,7 @@ def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
 
 
 class Api(Record):
-    """The routes. What is no coroutine runs in a thread: it waits for the engine or the disk."""
+    """The routes. Functions that wait for the engine or the disk run in a thread."""
 
     services: Services
 

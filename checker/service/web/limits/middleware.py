@@ -87,7 +87,7 @@ _HOST = re.compile(r"(\[[0-9A-Fa-f:.]{2,45}\]|[A-Za-z0-9._-]{1,253})(?::\d{1,5})
 
 
 class OwnOrigin(Record):
-    """Refuses what is meant for another host, or changes something on behalf of another site.
+    """Refuses requests for another host, and changes on behalf of another site.
 
     A service for this machine alone answers to names of this machine only: any site can give its
     own name this machine's address (DNS rebinding), but not change the name that browsers send.

@@ -47,7 +47,7 @@ class Bucket:
 
 
 class Rate(Record):
-    """So many a minute for each client, all of them at once if it likes.
+    """Rate limit of each client per minute, which it may use all at once.
 
     Attributes:
         per_minute: Zero for any number.

@@ -1,7 +1,7 @@
-"""Room on the disk for uploads that are under way: reserved a little ahead of what has come.
+"""Room on the disk for uploads that are under way: reserved a little ahead of the received bytes.
 
-By what they announce, a sender could hold the room of all others without sending a byte. What has
-been written is no longer free, so only what is still to come is kept from others.
+With the announced sizes, a sender could reserve the room of all others without sending a byte. What
+has been written is no longer free, so only what is still to come is kept from others.
 """
 
 from __future__ import annotations

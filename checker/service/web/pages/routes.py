@@ -142,7 +142,7 @@ def router(services: Services) -> APIRouter:
 
 
 class _Pages(Record):
-    """The pages that need what the service works with.
+    """The pages that need the objects of the service.
 
     What is no coroutine runs in a thread: the engine and the disk may take their time.
     """

@@ -1,4 +1,4 @@
-"""Work in progress whose owners were killed: the web process removes it while it serves."""
+"""Work in progress whose owners were killed: the web process removes it while it runs."""
 
 from __future__ import annotations
 

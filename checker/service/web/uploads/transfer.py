@@ -1,4 +1,4 @@
-"""An upload on its way from a request into the store; whatever ends it leaves nothing behind."""
+"""Transfer of an upload from a request into the store; nothing is left if it fails."""
 
 from __future__ import annotations
 
