@@ -168,7 +168,7 @@ def planted(numbers: tuple[int, ...], place: int, seed: int) -> Result | None:
         seed: The seed of the random choice of the place.
 
     Returns:
-        None where no robot has anything that could have this fault.
+        None if no robot has anything that could have this fault.
     """
     for number in numbers:
         robot, kind = ROBOTS[number], ROBOTS[number].kinds[place]

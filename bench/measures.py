@@ -61,7 +61,7 @@ class Measure:
     linear: bool = False
 
     def of(self, rule: str, message: str) -> float | None:
-        """Return the value in a message; None where it has another."""
+        """Return the value in a message; None if it has another."""
         found = re.search(self.pattern, message) if rule == self.rule else None
         if found is None:
             return None

@@ -86,7 +86,7 @@ class Task(Record):
 
     Attributes:
         path: The path as the user gave it.
-        package: The one to check there; None where it has to be opened first.
+        package: The one to check there; None if it has to be opened first.
         settings: The settings to judge by, instead of those next to the package.
         wishes: Fields of the settings to replace.
         say: Called with a message when a long step starts.

@@ -120,7 +120,7 @@ class Context(Record):
     Attributes:
         profile: Name of the profile that judges the package (`subt`, `sdf`, …).
         release: Gazebo release that the profile aims at (`dome`, `harmonic`, `classic`).
-        sdf_version: SDF version that the profile requires; empty when the file's own counts.
+        sdf_version: SDF version that the profile requires; empty if the file's own counts.
         reads: Newest SDF version that the target knows: it converts older files to that one, so
             that its new elements count in them too.
         distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile without one.

@@ -64,7 +64,7 @@ class Judgement:
 
 
 def folder_of(source: str) -> Path | None:
-    """Return the folder of a source of packages; None where it is not there."""
+    """Return the folder of a source of packages; None if it is not there."""
     if source == "urdf":
         if (named := named_folder(URDFS)) is not None:
             return named

@@ -30,7 +30,7 @@ _OWN_TESTS = {"bugs", "repro"}
 
 
 def named_folder(variable: str) -> Path | None:
-    """Return the folder that a variable names; None where there is none."""
+    """Return the folder that a variable names; None if there is none."""
     name = os.environ.get(variable, "").strip()
     folder = Path(name).absolute()
     return folder if name and folder.is_dir() else None
@@ -52,7 +52,7 @@ def _judged_names() -> dict[str, list[str]]:
 
 
 def judged_folders(variable: str) -> list[Path]:
-    """Return the judged folders below the one that a variable names; none where it is unset."""
+    """Return the judged folders below the one that a variable names; none if it is unset."""
     folder = named_folder(variable)
     paths = [folder / name for name in _judged_names()[variable]] if folder else []
     return [path for path in paths if path.is_dir()]

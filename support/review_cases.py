@@ -76,7 +76,7 @@ class ReviewCase:
 
 
 def review_cases() -> list[ReviewCase]:
-    """Return all cases; none when there is no folder of them."""
+    """Return all cases; none if there is no folder of them."""
     if FOLDER is None:
         return []
     judged = {folder.name for folder in judged_folders(REVIEWS)}

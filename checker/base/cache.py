@@ -107,7 +107,7 @@ class Cache(Record):
         return self._disturbances[0] if self._disturbances else ""
 
     def get(self, kind: str, key: str) -> Any:
-        """Return a result as the JSON that was put; None when it is not known."""
+        """Return a result as the JSON that was put; None if it is not known."""
         if self.folder is None:
             return None
         path = self._path(kind, key)

@@ -45,7 +45,7 @@ class InvalidSettings(CheckerError):
     """Settings that name what does not exist, or have the wrong type.
 
     Attributes:
-        path: The settings file; None when the command line states it.
+        path: The settings file; None if the command line states it.
         problem: What is wrong, and what is known instead; it may repeat what a stranger wrote.
     """
 

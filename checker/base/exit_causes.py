@@ -24,7 +24,7 @@ def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
     """Return what is stated about a process that ended with an exit code other than 0.
 
     Args:
-        code: The exit code, for a signal its negative number; None where there is none.
+        code: The exit code, for a signal its negative number; None if there is none.
         seconds: Seconds of processor time that it had.
         memory: Bytes of address space that it had.
     """

@@ -154,7 +154,7 @@ def _allow(seconds: int, all_seconds: float) -> None:
 
 
 def _memory() -> int:
-    """Return the bytes of address space of this process; 0 where the system does not state it."""
+    """Return the bytes of address space of this process; 0 if the system does not state it."""
     try:
         return int(Path("/proc/self/statm").read_text("ascii").split()[0]) * resource.getpagesize()
     except OSError:

@@ -26,7 +26,7 @@ class NotAvailable(Record):
 
     Attributes:
         reason: The reason, as the end of a sentence.
-        applicable: False when the package has no such part and needs none.
+        applicable: False if the package has no such part and needs none.
     """
 
     reason: str

@@ -168,7 +168,7 @@ def joined_inertial(parts: Sequence[PartOfBody]) -> JoinedInertial:
 
 
 def single_inertial_part(parts: Sequence[PartOfBody]) -> PartOfBody | None:
-    """Return the one part that states an inertial; None when there are several or none."""
+    """Return the one part that states an inertial; None if there are several or none."""
     stated = [part for part in parts if part.link.inertial is not None]
     return stated[0] if len(stated) == 1 else None
 

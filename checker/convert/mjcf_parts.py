@@ -178,7 +178,7 @@ def _place(pose: Transform) -> dict[str, str]:
 
 
 def _place_of(robot: Robot, link: Link, sensor: Sensor) -> Transform | None:
-    """Return where a sensor is in its link's frame; None where unknown."""
+    """Return where a sensor is in its link's frame; None if unknown."""
     place = robot.pose_in_link(link, sensor.pose)
     return place if place is not None and is_finite_pose(place) else None
 

@@ -71,7 +71,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
         display: Whether the report is to hold the robot in 3D.
 
     Returns:
-        The report; None where there is none, with a message to the user.
+        The report; None if there is none, with a message to the user.
     """
     known = await server.state_of(uri)
     state = known[1] if known is not None else None

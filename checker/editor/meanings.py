@@ -20,7 +20,7 @@ class Meaning(Record):
 
     Attributes:
         unit: Empty for none.
-        words: A sentence; empty where nothing is known.
+        words: A sentence; empty if nothing is known.
     """
 
     unit: str = ""
@@ -42,7 +42,7 @@ def meaning_of(language: str, tags: Sequence[str], attribute: str = "") -> Meani
 
 
 def words_of_sdf(tags: Sequence[str], attribute: str, kind: str, target: Context) -> list[str]:
-    """Return the words among which an element or attribute of SDF chooses; none where any may be.
+    """Return the words among which an element or attribute of SDF chooses; none if any may be.
 
     Args:
         tags: The tags of the elements around it and its own tag.
@@ -66,7 +66,7 @@ def words_of_sdf(tags: Sequence[str], attribute: str, kind: str, target: Context
 
 
 def words_of_urdf(path: str, attribute: str) -> list[str]:
-    """Return the words among which an attribute of URDF chooses; none where any may be."""
+    """Return the words among which an attribute of URDF chooses; none if any may be."""
     if (path, attribute) == ("joint", "type"):
         return list(table("joint_types")["types"]["urdf"])
     if (path, attribute) == ("ros2_control", "type"):

@@ -42,7 +42,7 @@ class Measured(Record, eq=False):
         return tuple(found)
 
     def _current_place(self, place: Place, package: Package) -> Place | None:
-        """Return where the element of a place is now; None where it is not any more."""
+        """Return where the element of a place is now; None if it is not any more."""
         if not place.file or _text(self.package, place.file) == _text(package, place.file):
             return place
         document = package.xml(place.file)

@@ -21,7 +21,7 @@ class MemoryCache(Cache):
     _recent: OrderedDict[tuple[str, str], Any] = field(default_factory=OrderedDict)
 
     def get(self, kind: str, key: str) -> Any:
-        """Return a result as the JSON that was put; None when it is not known."""
+        """Return a result as the JSON that was put; None if it is not known."""
         if (kind, key) not in self._recent:
             self._note(kind, key, super().get(kind, key))
         self._recent.move_to_end((kind, key))

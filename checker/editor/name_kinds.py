@@ -53,7 +53,7 @@ _LINK_TAG = re.compile(r"link|frame|body", re.IGNORECASE)
 
 
 def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[NameKind, ...]:
-    """Return what a text or an attribute names; nothing where it names no part of a robot.
+    """Return what a text or an attribute names; nothing if it names no part of a robot.
 
     Args:
         tags: The tags of the elements around it, outermost first, and its own tag; xacro's are

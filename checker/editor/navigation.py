@@ -66,7 +66,7 @@ class Navigator:
         return list(self._locations(each for each in found if each not in made))
 
     def range(self, position: lsp.Position) -> lsp.Range | None:
-        """Return the range of the name at a position; None where none can be changed."""
+        """Return the range of the name at a position; None if none can be changed."""
         mention = self._mention_at(position)
         source = self._source(mention.path) if mention else None
         if mention is None or source is None:

@@ -30,7 +30,7 @@ class Parameter(Record):
 
     Attributes:
         path: The path below `<plugin>`: `a/b` nested, `@x` an attribute.
-        words: Its type, and its default where one is known; empty where neither is.
+        words: Its type, and its default where one is known; empty if neither is.
         usual: What packages set most often.
     """
 
@@ -52,7 +52,7 @@ class PluginFacts(Record):
         classes: Names that `name` may have.
         title: The project it belongs to: `Gazebo Harmonic`.
         releases: The releases that have it, as in messages.
-        parameters: The parameters by path; none where they are not known.
+        parameters: The parameters by path; none if they are not known.
         note: Further information.
     """
 
@@ -65,7 +65,7 @@ class PluginFacts(Record):
 
 
 def plugin_facts(filename: str, name: str, target: Context) -> PluginFacts | None:
-    """Return what is known of a plugin; None where nothing is.
+    """Return what is known of a plugin; None if nothing is.
 
     Args:
         filename: The filename of its library, as written; empty if none is.

@@ -156,7 +156,7 @@ class Server(LanguageServer):
                 self.text_document_publish_diagnostics(told_of)
 
     def _diagnostics(self, document: Document) -> list[lsp.Diagnostic] | None:
-        """Return what is found in a file; None where another text of it was checked."""
+        """Return what is found in a file; None if another text of it was checked."""
         own = self.session.state_of(document.path)
         if own is None:
             return []

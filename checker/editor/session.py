@@ -55,9 +55,9 @@ class State(Record, eq=False, dict=True):
 
     Attributes:
         unit: The unit as it is on disk.
-        checked: The last check; None when there was none.
-        problem: The reason why it is not checked; None when it is.
-        measured: The last check with weights and trial; None when there was none.
+        checked: The last check; None if there was none.
+        problem: The reason why it is not checked; None if it is.
+        measured: The last check with weights and trial; None if there was none.
     """
 
     unit: Unit

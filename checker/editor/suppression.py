@@ -115,7 +115,7 @@ _SECTION = re.compile(r"^[ \t]*\[tool\.subt-check\][ \t]*(?:#[^\n]*)?(?:\n|\Z)",
 
 
 def settings_insertion(source: SourceText, rule: str) -> Insertion | None:
-    """Return what adds a rule to `ignore` in a settings file; None where that cannot be done.
+    """Return what adds a rule to `ignore` in a settings file; None if that cannot be done.
 
     Args:
         source: subt-check.toml, or pyproject.toml.

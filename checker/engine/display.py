@@ -48,7 +48,7 @@ _SPARED: Sequence[Collection[Layer]] = (
 def display_of(
     robot: Robot, trial: Trial | None, surfaces: Surfaces, drawing: Drawing | None = None
 ) -> Display | None:
-    """Return the robot in 3D; None where nothing of it can be shown.
+    """Return the robot in 3D; None if nothing of it can be shown.
 
     Args:
         robot: The robot.
@@ -112,7 +112,7 @@ class RobotDisplay(Record, eq=False, dict=True):
             surfaces.stop()
 
     def build(self, trial: Trial | None) -> Display | None:
-        """Return the robot in 3D; None where there is nothing to see.
+        """Return the robot in 3D; None if there is nothing to see.
 
         Args:
             trial: Its motion; None without a trial.

@@ -280,7 +280,7 @@ def _meshes_are_known(robot: Robot) -> bool:
 
 
 def _size(robot: Robot) -> list[float] | None:
-    """Return the sides of the box around the robot; None where a part's extent is not known."""
+    """Return the sides of the box around the robot; None if a part's extent is not known."""
     shaped = [link for link in robot.links if link.collisions or link.visuals]
     boxes = [box for link in shaped if (box := robot.box_of(link)) is not None]
     if not boxes or len(boxes) < len(shaped):

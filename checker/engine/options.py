@@ -87,7 +87,7 @@ def options_of(rule: Rule, settings: Settings) -> dict[str, Any]:
 
 
 def _typed(value: object, default: object) -> object:
-    """Return a value of TOML in the type of a default; None when it has another, or makes no sense.
+    """Return a value of TOML in the type of a default; None if it has another, or makes no sense.
 
     Options are sizes, counts, shares: where the default is above 0, nothing is negative.
     """

@@ -88,7 +88,7 @@ def _spot(finding: ReportedFinding, place: Place) -> _Spot:
 def _untold(
     told: set[_Spot], description: UrdfDescription, finding: ReportedFinding
 ) -> ReportedFinding | None:
-    """Return a finding with the places that are new; None where its rule reports all of them."""
+    """Return a finding with the places that are new; None if its rule reports all of them."""
     source = description.document.source
     read = source.read if isinstance(source, ExpandedText) else ()
     files = {document.source.file for document in read}

@@ -59,7 +59,7 @@ ENTRIES_AROUND_A_FILE = 5_000
 
 
 def memory_key(package: Package, settings: Settings) -> str:
-    """Return the key of a package's report; empty when it is not worth remembering."""
+    """Return the key of a package's report; empty if it is not worth remembering."""
     resolved = replace(settings.for_package(package), commanded=())
     options = json.dumps(msgspec.to_builtins(resolved, enc_hook=str))
     parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
@@ -77,7 +77,7 @@ def program_parts() -> list[str]:
 
 
 def recall_report(cache: Cache, key: str, shown: str) -> PackageReport | None:
-    """Return the report that was remembered under a key; None when there is none."""
+    """Return the report that was remembered under a key; None if there is none."""
     data = cache.get(KIND, key) if key else None
     if data is None:
         return None

@@ -101,7 +101,7 @@ class Subject(Record, eq=False):
         return cast("tuple[T, ...] | NotAvailable", self._part(type_name(kind)))
 
     def cached_parts(self, kind: type[T]) -> tuple[T, ...]:
-        """Return a part that has been made; nothing when it was not requested or is missing."""
+        """Return a part that has been made; nothing if it was not requested or is missing."""
         had = self._made.get(type_name(kind), ())
         return () if isinstance(had, NotAvailable) else cast("tuple[T, ...]", had)
 

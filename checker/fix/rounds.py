@@ -48,7 +48,7 @@ class EditedText:
     stretches: list[Stretch] = field(default_factory=list)
 
     def stretch(self, edit: Edit) -> Stretch | None:
-        """Return what an edit replaces; None where the text differs from what it expects."""
+        """Return what an edit replaces; None if the text differs from what it expects."""
         offsets = self.source.stretch_of(edit)
         return None if offsets is None else Stretch(*offsets, edit.replacement)
 

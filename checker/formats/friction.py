@@ -12,7 +12,7 @@ from checker.source.xml import Element
 
 
 class Friction(Record, eq=False):
-    """Coefficients of sliding friction; None where they are left to the physics engine.
+    """Coefficients of sliding friction; None if they are left to the physics engine.
 
     Attributes:
         first: Along the first friction direction (`mu`, URDF `mu1`).

@@ -26,7 +26,7 @@ class Facts(Record):
 
     Attributes:
         mass: Kilograms.
-        size: Length, width and height in metres; empty where a part's extent is not known.
+        size: Length, width and height in metres; empty if a part's extent is not known.
         spawn_height: Added to z when the robot is spawned, metres.
         standing_height: z of a robot that stands on the ground, metres.
         sensors: The number of each kind: `3D lidar`, modeled by `gpu_lidar`.

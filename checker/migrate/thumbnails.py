@@ -29,7 +29,7 @@ class Thumbnails(Record):
 
     Attributes:
         files: PNG files by their name without suffix.
-        trouble: What the author has to do instead; empty when they were drawn.
+        trouble: What the author has to do instead; empty if they were drawn.
     """
 
     files: Mapping[str, bytes] = {}
@@ -57,7 +57,7 @@ def thumbnails_of(robot: Robot) -> Thumbnails:
 
 
 def _shots(scene: DisplayScene) -> Iterator[Shot]:
-    """Yield the shots; none where no visual can be shown."""
+    """Yield the shots; none if no visual can be shown."""
     for name, direction in _SIDES.items():
         if shot := shot_of(scene, Layer.VISUAL, direction, ASPECT, name):
             yield shot

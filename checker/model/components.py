@@ -141,7 +141,7 @@ class Plugin(Part):
                 yield from (child.text for child in holder.all(last) if child.text.stated)
 
     def number(self, path: str) -> Located[float] | None:
-        """Return the first number at a path; None when there is none that reads as one."""
+        """Return the first number at a path; None if there is none that reads as one."""
         for text in self.at(path):
             value = parse_number(text.value)
             return Located(value, text.span) if value is not None else None
@@ -218,7 +218,7 @@ class Link(Part):
 
     Attributes:
         scoped_name: The scoped name with the names of nested models in front: `arm::wrist`.
-        inertial: None when the file states none.
+        inertial: None if the file states none.
         gravity: Whether gravity acts on it.
         kinematic: Whether it only follows its joints, and no force moves it.
         default_mass: Kilograms of a link without inertial: 1 in SDF, 0 in URDF.
@@ -254,7 +254,7 @@ class Axis(Record, eq=False):
         damping: N·s/m or N·m·s/rad.
         friction: N or N·m.
         stiffness: The stiffness of a spring in the joint, N/m or N·m/rad.
-        initial_position: Metres or radians; 0 where the file states none.
+        initial_position: Metres or radians; 0 if the file states none.
     """
 
     xyz: tuple[Located[float], ...]

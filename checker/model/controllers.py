@@ -24,7 +24,7 @@ class Controller(Record, eq=False):
         own: Names of the parameters in its own block.
         listed: Whether the controller manager's block names it.
         span: The key of its block, else the place that states its type.
-        block: The key of its own block; None when it has none.
+        block: The key of its own block; None if it has none.
     """
 
     name: str

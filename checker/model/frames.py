@@ -94,7 +94,7 @@ class FrameGraph:
             self._poses[name] = None
 
     def pose_below(self, name: str, ancestor: str) -> Transform | None:
-        """Return the pose of a frame in one that it is connected to; None when it does not.
+        """Return the pose of a frame in one that it is connected to; None if it does not.
 
         Nothing is remembered, so that the ancestor itself may be placed later.
         """

@@ -48,7 +48,7 @@ class Attenuation(Record, eq=False):
 
 
 def read_attenuation(light: Element) -> Attenuation | None:
-    """Read the `<attenuation>` of a light; None when it has none. Defaults are SDFormat's."""
+    """Read the `<attenuation>` of a light; None if it has none. Defaults are SDFormat's."""
     element = light.child("attenuation")
     if element is None:
         return None

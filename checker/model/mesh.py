@@ -64,7 +64,7 @@ class Mesh(Record, dict=True):
         low: Least x, y, z of its box, metres.
         high: Greatest.
         metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
-        hull: Corners of the convex hull, metres; none where all points are in a plane.
+        hull: Corners of the convex hull, metres; none if all points are in a plane.
         volume: The volume of the surface as it is, m³; negative if inside out, None if not
             watertight or if adjacent triangles disagree on which side is outside.
         hull_volume: m³.

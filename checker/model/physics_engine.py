@@ -80,7 +80,7 @@ def _engine(key: str, *, is_default: bool) -> PhysicsEngine | None:
 
 
 def engine_name(world: World) -> Located[str] | None:
-    """Return what `<engine><filename>` of the world's plugins states; None when none does."""
+    """Return what `<engine><filename>` of the world's plugins states; None if none does."""
     for plugin in world.plugins:
         engine = plugin.element.child("engine")
         if engine is not None and (file := engine.child("filename")) is not None:

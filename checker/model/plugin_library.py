@@ -29,8 +29,8 @@ class PluginLibrary(Record):
         filename: The filename as plugins usually name it:
             `libignition-gazebo-diff-drive-system.so`.
         classes: Full names of its classes; none in Gazebo Classic, where `name` is any name.
-        parameters: Tags that its source reads; None where the source is not known.
-        computed: Pattern of further tags, whose names its source computes; empty where it does not.
+        parameters: Tags that its source reads; None if the source is not known.
+        computed: Pattern of further tags, whose names its source computes; empty if it does not.
         rewrites: Words that the release replaces in a class before it looks for it.
     """
 
@@ -46,7 +46,7 @@ class PluginLibrary(Record):
         return name in self.classes or _rewritten(name, self.rewrites) in self.classes
 
     def reads(self, tag: str) -> bool:
-        """Return whether its source reads a tag; True where the source is not known."""
+        """Return whether its source reads a tag; True if the source is not known."""
         known = self.parameters is None or tag in self.parameters
         return known or bool(self.computed and re.fullmatch(self.computed, tag))
 
@@ -126,7 +126,7 @@ def library_of_class(release: str, name: str) -> PluginLibrary | None:
 
 
 def package_of_library(stem: str) -> str:
-    """Return the ROS package that contains a library; empty where none is known."""
+    """Return the ROS package that contains a library; empty if none is known."""
     return str(table("gazebo_plugins")["ros_packages"].get(stem, ""))
 
 

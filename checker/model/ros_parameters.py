@@ -46,7 +46,7 @@ class Parameter(Record, eq=False):
 
     @property
     def type(self) -> str:
-        """Type that ROS gives it: `int`, `double_array`, …; empty where unknown."""
+        """Type that ROS gives it: `int`, `double_array`, …; empty if unknown."""
         if self.node.kind == "scalar":
             return _type_of(self.node)
         types = {_type_of(item) for item in self.node.items}

@@ -26,7 +26,7 @@ def parse_number(text: str) -> float | None:
 
 
 def stated_number(parent: Element, tag: str) -> Located[float] | None:
-    """Return the number in the child `tag`; None when there is none that reads as one."""
+    """Return the number in the child `tag`; None if there is none that reads as one."""
     child = parent.child(tag)
     value = parse_number(child.text.value) if child is not None else None
     return None if child is None or value is None else Located(value, child.text.span)
@@ -134,7 +134,7 @@ class ValueReader:
         return child.text
 
     def name(self, element: Element) -> Located[str]:
-        """Read the `name` attribute; empty when there is none."""
+        """Read the `name` attribute; empty if there is none."""
         return element.attribute("name") or Located("", element.span, stated=False)
 
 

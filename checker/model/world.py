@@ -38,7 +38,7 @@ class World(Record, eq=False, dict=True):
 
     @property
     def name(self) -> str:
-        """Its name; empty when it states none."""
+        """Its name; empty if it states none."""
         return (self.element.get("name") or "").strip()
 
     @property

@@ -108,7 +108,7 @@ class Use(Record):
 
     Attributes:
         how: The text that uses it.
-        path: The path of the file in it that is used; empty where that is not written.
+        path: The path of the file in it that is used; empty if that is not written.
     """
 
     package_name: str

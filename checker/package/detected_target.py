@@ -56,7 +56,7 @@ class DetectedTarget(Record):
 
     Attributes:
         is_classic: Whether the simulator is Gazebo Classic.
-        distro: ROS 2 distribution; empty where unknown.
+        distro: ROS 2 distribution; empty if unknown.
         reason: The reason, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
     """
 

@@ -37,7 +37,7 @@ class DistributionSign(Record):
 
 
 def distribution_sign(package: Package) -> DistributionSign | None:
-    """Return the distribution that a package is made for; None where there is no sign, or several.
+    """Return the distribution that a package is made for; None if there is no sign, or several.
 
     A container file counts before CI, and both before the README; of the repository around the
     package those at its top count too.

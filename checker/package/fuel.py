@@ -38,7 +38,7 @@ def is_on_fuel(uri: str) -> bool:
 
 
 def read_fuel_uri(uri: str) -> FuelUri | None:
-    """Return what a URI names; None where it is not of Fuel's form."""
+    """Return what a URI names; None if it is not of Fuel's form."""
     match = _MODEL.fullmatch(uri)
     return FuelUri(unquote(match["name"]), unquote(match["path"] or "")) if match else None
 
@@ -53,7 +53,7 @@ def package_on_fuel(package: Package, name: str) -> Package | None:
 def path_from_fuel(package: Package, uri: str) -> str | None:
     """Return the path of what a URI of Fuel names, from a package that names it.
 
-    None where the package that it belongs to is not available.
+    None if the package that it belongs to is not available.
     """
     named = read_fuel_uri(uri)
     holder = package_on_fuel(package, named.model) if named else None

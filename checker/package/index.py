@@ -142,7 +142,7 @@ def _stem(path: str) -> str:
 
 
 def normal_path(path: str) -> str | None:
-    """Return a relative path without `.` and inner `..`, or None when it is absolute or empty.
+    """Return a relative path without `.` and inner `..`, or None if it is absolute or empty.
 
     A path that leaves the folder keeps its leading `..`.
     """

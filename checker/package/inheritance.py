@@ -65,7 +65,7 @@ class Missing(Record):
         part: Its path, or `model`.
         reason: A clause that states why.
         package_not_at_hand: The sibling it comes from, when that is not available: then nothing is
-            known about the part. None when the package itself lacks it.
+            known about the part. None if the package itself lacks it.
     """
 
     part: str

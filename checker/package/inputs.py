@@ -124,7 +124,7 @@ def _archive_stem(shown: str) -> str:
 
 
 def _unwrapped(folder: Path) -> Path:
-    """Go down through folders that contain nothing but one folder, which is no package."""
+    """Go down through folders that contain only one folder, which is no package."""
     for _ in range(MAX_WRAPPERS):
         inner = _subfolders(folder)
         if looks_like_package(folder) or len(inner) != 1 or looks_like_package(inner[0]):

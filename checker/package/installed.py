@@ -35,7 +35,7 @@ _PYTHON_MODULES = "ament_python_install_package"
 
 
 def source_of(package: Package, path: str) -> str | None:
-    """Return the path in the source of what is installed at a path; None when nothing is.
+    """Return the path in the source of what is installed at a path; None if nothing is.
 
     Without a build file, the only file whose path ends so counts as that file.
 
@@ -106,7 +106,7 @@ def resolve_listed(package: Package, path: str) -> tuple[Package, str]:
 
 
 def installed_as(package: Package, path: str) -> str:
-    """Return where a file of the source is, below the installed package; empty when it is not."""
+    """Return where a file of the source is, below the installed package; empty if it is not."""
     for target, origin in package.installed:
         if path == origin or path.startswith(f"{origin}/") or origin == ".":
             return posixpath.normpath(posixpath.join(target, posixpath.relpath(path, origin)))

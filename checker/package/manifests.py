@@ -53,7 +53,7 @@ class PackageManifest(Record, eq=False):
     """A package.xml. A text whose tag is missing is empty, not stated, and placed at the root.
 
     Attributes:
-        format: `format` of the root: 1 when it is absent; None when it is not a number.
+        format: `format` of the root: 1 when it is absent; None if it is not a number.
         name: Name of the package.
         version: Version.
         description: Text of the description, tags within it left out.
@@ -201,7 +201,7 @@ class Paperwork(Record, eq=False, dict=True):
     package: Package
 
     def unread(self, path: str) -> str:
-        """Return why a paper that is there cannot be read; empty when it can, or is missing."""
+        """Return why a paper that is there cannot be read; empty if it can, or is missing."""
         if self.package.index.find(path) is None:
             return ""
         document = self.package.xml(path)
@@ -211,19 +211,19 @@ class Paperwork(Record, eq=False, dict=True):
 
     @cached_property
     def manifest(self) -> PackageManifest | None:
-        """package.xml; None when it is missing or not well-formed."""
+        """package.xml; None if it is missing or not well-formed."""
         document = self.package.xml("package.xml")
         return read_package_xml(document) if isinstance(document, XmlDocument) else None
 
     @cached_property
     def config(self) -> ModelConfig | None:
-        """model.config; None when it is missing or not well-formed."""
+        """model.config; None if it is missing or not well-formed."""
         document = self.package.xml("model.config")
         return read_model_config(document) if isinstance(document, XmlDocument) else None
 
     @property
     def build(self) -> CMakeFile | None:
-        """CMakeLists.txt; None when it is missing or no text."""
+        """CMakeLists.txt; None if it is missing or no text."""
         return self.package.build
 
 

@@ -58,7 +58,7 @@ def reason_not_checked(name: str) -> tuple[str, str]:
 
 
 def content_of(folder: Path) -> Instead | None:
-    """Return what a folder without a package contains; None where its names do not show it."""
+    """Return what a folder without a package contains; None if its names do not show it."""
     return _instead(list(islice(_names(folder), _FILES_LIMIT)))
 
 

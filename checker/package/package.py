@@ -184,7 +184,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def build_type(self) -> str | None:
-        """The build type that package.xml states; None where it states none."""
+        """The build type that package.xml states; None if it states none."""
         manifest = self.xml("package.xml")
         export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
         build_type = export.child("build_type") if export is not None else None
@@ -212,7 +212,7 @@ class Package(Record, eq=False, dict=True):
         return Place(path)
 
     def resolve(self, path: str) -> FileEntry | None:
-        """Return the file or folder at a path, or None when there is none in the workspace."""
+        """Return the file or folder at a path, or None if there is none in the workspace."""
         normal = normal_path(path)
         if normal is None:
             return None
@@ -308,7 +308,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def build(self) -> CMakeFile | None:
-        """CMakeLists.txt; None when it is missing or no text, or setup.py builds the package."""
+        """CMakeLists.txt; None if it is missing or no text, or setup.py builds the package."""
         if self.build_type == "ament_python":
             return None
         source = self.read("CMakeLists.txt")
@@ -316,7 +316,7 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def setup(self) -> SetupFile | None:
-        """setup.py; None when it is missing or calls no `setup`."""
+        """setup.py; None if it is missing or calls no `setup`."""
         source = self.read("setup.py") if self.index.find("setup.py") else None
         return read_setup(source) if isinstance(source, SourceText) else None
 

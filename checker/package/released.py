@@ -43,7 +43,7 @@ class ReleasedNames:
         return self._distro in distributions_with(name) or is_of_system(name)
 
     def correction_of(self, name: str) -> str | None:
-        """Return the name of which another is a misspelling; None where it may be its own.
+        """Return the name of which another is a misspelling; None if it may be its own.
 
         Names of packages that are not available are near to others by chance: one letter may be
         wrong, missing, too many or in the place of its neighbour, or `-` and `_` are confused.

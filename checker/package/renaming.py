@@ -38,7 +38,7 @@ def is_package_name(name: str) -> bool:
 def package_renamed(package: Package, old: str, new: str) -> Fix | None:
     """Return the fix that names a package otherwise, wherever its files mention the name.
 
-    None where a mention would be left over or lost: in the name of a file, in a longer name, in a
+    None if a mention would be left over or lost: in the name of a file, in a longer name, in a
     file that is not text, in a sibling package; where another package bears one of the names; and
     where a plain word such as `rover` represents something else too.
 
@@ -61,7 +61,7 @@ def package_renamed(package: Package, old: str, new: str) -> Fix | None:
 
 
 def _edits(package: Package, path: str, old: str, new: str) -> tuple[Edit, ...] | None:
-    """Return the edits of a file, none where it does not mention the name; None if it cannot."""
+    """Return the edits of a file, none if it does not mention the name; None if it cannot."""
     data = package.read_bytes(path, _LIMIT)
     if isinstance(data, NotReadable):
         return None

@@ -54,7 +54,7 @@ class SearchedFolder(Record, eq=False):
 
     Attributes:
         folder: The folder below the folder of all share folders: empty for that itself,
-            `arm/models`; None when it is not known, or is elsewhere.
+            `arm/models`; None if it is not known, or is elsewhere.
         known: Whether its place is known.
         span: What puts it there.
     """

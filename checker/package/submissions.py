@@ -45,7 +45,7 @@ def robot_of(name: str) -> str:
 
 
 def configuration_number(name: str) -> int | None:
-    """Return the number of a package's configuration; None when its name has none."""
+    """Return the number of a package's configuration; None if its name has none."""
     match = _NUMBER.search(name)
     digits = match.group().rpartition("_")[2] if match else ""
     return int(digits) if 0 < len(digits) <= _DIGITS else None
@@ -62,7 +62,7 @@ def described_package(text: str, *names: str) -> str:
 
 
 def stated_number(text: str) -> int | None:
-    """Return the one configuration that plain words name; None when they name none or several."""
+    """Return the one configuration that plain words name; None if they name none or several."""
     numbers = set(map(int, _NUMBERED.findall(text)))
     return numbers.pop() if len(numbers) == 1 else None
 

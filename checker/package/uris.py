@@ -25,7 +25,7 @@ class Unknown(Record):
 
     Attributes:
         reason: The reason, such as `is in arm_description, which is not available`.
-        package: The package; empty where none is named.
+        package: The package; empty if none is named.
     """
 
     reason: str

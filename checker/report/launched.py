@@ -41,7 +41,7 @@ class Launched(Record):
         nodes: The nodes, and everything else with topics.
         topics: The topics by name.
         transforms: Those of the robot's joints among them.
-        unknown: The reason why there may be more; empty where all is known.
+        unknown: The reason why there may be more; empty if all is known.
     """
 
     file: str

@@ -75,7 +75,7 @@ class RenderSettings(Record):
     Attributes:
         palette: Colours for a terminal.
         folder: The folder in which the command was run, absolute; paths of the report start there.
-        command: What was run, as a shell takes it; empty where there was no command.
+        command: What was run, as a shell takes it; empty if there was no command.
         infos: Whether the report for a terminal shows infos, and what does not apply.
         quiet: Whether it shows findings alone.
         concise: Whether it has one line a finding.

@@ -69,8 +69,8 @@ class NotChecked(Record):
     """A rule that did not look, and why.
 
     Attributes:
-        severity: The severity of what it may have missed; None where that is not known.
-        concern: What it may have missed is about; None where that is not known.
+        severity: The severity of what it may have missed; None if that is not known.
+        concern: What it may have missed is about; None if that is not known.
         momentary: Whether it may look the next time: the disk or the system failed.
     """
 
@@ -196,7 +196,7 @@ class Display(Record):
 
     Attributes:
         glb: A binary glTF file: the robot in layers, its trial as an animation.
-        pictures: The same for those without a 3D viewer; none where nothing can draw them.
+        pictures: The same for those without a 3D viewer; none if nothing can draw them.
         notes: What is not shown, or coarser than it is, as sentences.
     """
 
@@ -213,13 +213,13 @@ class PackageReport(Record):
         kind: `robot`, `configuration`, `plugin`, ….
         profile: Name of the profile that judged it.
         fail_on: Findings at or above this severity make the run fail.
-        settings: What a settings file changed, in words; empty when there is none.
+        settings: What a settings file changed, in words; empty if there is none.
         facts: Mass, links, joints, … of the first robot, by name.
         trial: What was driven and measured, as the JSON report has it; None without a trial.
             Of several robots, that of the first that was driven.
         timings: Seconds by stage.
         suppressed: What was found and does not count.
-        display: The robot in 3D; None where it was not requested, or where there is nothing to see.
+        display: The robot in 3D; None if it was not requested, or where there is nothing to see.
         patch: What the safe fixes change, where the display was requested.
         looked: Ids of the rules that ran on complete data.
         other_robots: Facts of the further robots of the package.
@@ -227,7 +227,7 @@ class PackageReport(Record):
         disturbed: Why something was not checked that may be the next time, such as a process that
             was killed from outside: the first of these reasons; empty without any.
         target_reason: The simulator or ROS 2 distribution detected from the content of the package,
-            and the evidence; empty where the user or a default chose it.
+            and the evidence; empty if the user or a default chose it.
         launched: The graphs of its launch files of ROS 2.
     """
 

@@ -32,7 +32,7 @@ class ReportedRobot(Record):
     Attributes:
         number: 0 for the first.
         facts: What is known of it.
-        trial: What was driven and measured; None where nothing was.
+        trial: What was driven and measured; None if nothing was.
     """
 
     number: int
@@ -46,7 +46,7 @@ class ReportedRobot(Record):
 
     @property
     def file(self) -> str:
-        """The file that describes it; empty where the package has one robot."""
+        """The file that describes it; empty if the package has one robot."""
         return str(self.facts.get("file", ""))
 
     @property

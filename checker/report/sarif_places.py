@@ -105,7 +105,7 @@ def _stretch(place: Place) -> Json:
 
 
 def fixes(fix: Fix | None, how: str, package: PackageReport, folder: str) -> list[Json]:
-    """Return a fix as a list of one; of none when there is none, or none that SARIF can hold."""
+    """Return a fix as a list of one; of none if there is none, or none that SARIF can hold."""
     if fix is None or len(fix.edits) > EDITS_LIMIT or not all(map(_is_text, fix.edits)):
         return []
     by_file: dict[str, list[Json]] = {}

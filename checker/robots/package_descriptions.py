@@ -286,7 +286,7 @@ class PackageDescriptions:
 
 
 def _misfit(outcome: Outcome | None, path: str) -> str:
-    """Return why another value of an argument may do better; empty where none would."""
+    """Return why another value of an argument may do better; empty if none would."""
     if isinstance(outcome, XacroFault) and outcome.kind is XacroFaultKind.ARGUMENT:
         return f"{path} is not expanded: {outcome.message}"
     return outcome.reason if isinstance(outcome, Unread) else ""

@@ -45,7 +45,7 @@ def all_ros_types() -> tuple[str, ...]:
 
 
 def service_messages(ros_type: str) -> Sequence[str] | None:
-    """Return Gazebo's messages of request and reply of a ROS service; None where not known."""
+    """Return Gazebo's messages of request and reply of a ROS service; None if not known."""
     names: Sequence[str] | None = table("bridge_types")["services"].get(ros_type)
     return names
 

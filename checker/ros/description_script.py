@@ -49,7 +49,7 @@ class DescriptionScript(Record, eq=False):
 
 
 def read_description_script(package: Package, path: str) -> DescriptionScript | None:
-    """Read a script; None when it is none, or does not run xacro according to its text.
+    """Read a script; None if it is none, or does not run xacro according to its text.
 
     Args:
         package: The package that contains it.
@@ -75,7 +75,7 @@ def read_description_script(package: Package, path: str) -> DescriptionScript | 
 
 
 def _value(written: str) -> str | None:
-    """Return a value without its quotes; None when it is computed."""
+    """Return a value without its quotes; None if it is computed."""
     value = written.strip("\"'`")
     return None if not value or _COMPUTED.search(value) else value
 

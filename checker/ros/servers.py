@@ -44,8 +44,8 @@ class GazeboServer(Record, eq=False):
     """A start of Gazebo.
 
     Attributes:
-        span: The place where its world is named, else where it is started.
-        starts: Whether it counts with the defaults of all arguments; None when not known.
+        span: The place where its world is named, else if it is started.
+        starts: Whether it counts with the defaults of all arguments; None if not known.
         worlds: The worlds that it loads.
         own_world: The file of Gazebo's own that it loads; else empty.
         unknown: The reason why its world is not known; else empty.

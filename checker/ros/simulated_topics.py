@@ -156,7 +156,7 @@ def _of_plugin(plugin: Plugin) -> Iterator[SimulatedTopic]:
 
 
 def _filled(plugin: Plugin, default: str) -> Iterator[str]:
-    """Yield a default topic with what the plugin states; nothing where it does not state it."""
+    """Yield a default topic with what the plugin states; nothing if it does not state it."""
     values: dict[str, list[str]] = {}
     for match in _PARAMETER.finditer(default):
         stated = [text.value.strip().strip("/") for text in plugin.at(match[1])]

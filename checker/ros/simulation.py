@@ -98,14 +98,14 @@ class Simulation(Record, eq=False, dict=True):
 
     @property
     def model_names(self) -> frozenset[str]:
-        """Names of the models in Gazebo; none where one is not known."""
+        """Names of the models in Gazebo; none if one is not known."""
         names = [spawned.name for spawned in self.robots]
         names += [model.name.value for world in self.worlds for model in world.models]
         return frozenset(names) if all(names) else frozenset()
 
     @property
     def world_names(self) -> frozenset[str]:
-        """Names of the worlds; none where one is not known."""
+        """Names of the worlds; none if one is not known."""
         names = [world.name for world in self.worlds]
         return frozenset(names) if all(names) and not self.unknown_worlds else frozenset()
 

@@ -44,7 +44,7 @@ class SpawnedRobot(Record, eq=False):
     Attributes:
         robot: The robot.
         control: Its ros2_control, if it has any.
-        name: The name in Gazebo; empty when it is not known.
+        name: The name in Gazebo; empty if it is not known.
         node: The node that spawns it.
         publisher: The node that publishes its transforms from the same description, if any.
     """
@@ -180,7 +180,7 @@ def _publisher(description: LoadedDescription, loaded: list[LoadedDescription]) 
 
 
 def _name(node: Node, robot: Robot) -> str:
-    """Return the name that a model gets in Gazebo; empty when it is not known."""
+    """Return the name that a model gets in Gazebo; empty if it is not known."""
     words = [word.value for word in node.arguments]
     name = robot.name.value
     if "-name" in words[:-1]:

@@ -36,7 +36,7 @@ class Channel(Record, eq=False):
         what: What it carries: `camera_info`.
         owner: The sensor or plugin.
         topics: Its spellings, made comparable by `comparable`.
-        ros_types: Message types on ROS's side; empty where no bridge knows any.
+        ros_types: Message types on ROS's side; empty if no bridge knows any.
         ign_types: Message types on Gazebo's side.
         direction: The direction of its messages.
         need: What it means when nothing bridges it.

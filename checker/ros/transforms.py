@@ -36,7 +36,7 @@ class OpticalFrame(Record, eq=False):
 
     @property
     def input_image(self) -> str:
-        """The absolute topic that it takes pictures from; empty when no remap names it."""
+        """The absolute topic that it takes pictures from; empty if no remap names it."""
         return self.remapped.get("input/image", "")
 
 

@@ -20,7 +20,7 @@ class Option(Record):
     Attributes:
         name: The name as in a settings file.
         default: The default as in a settings file.
-        words: Its effect, with its unit; empty where the rule does not describe it.
+        words: Its effect, with its unit; empty if the rule does not describe it.
     """
 
     name: str

@@ -89,7 +89,7 @@ def _profiles(rule: Rule) -> Iterator[str]:
 
 
 def _judged(judge: Profile, rule: Rule) -> str | None:
-    """Return the severity of a rule in a profile where it differs; None where it does not count."""
+    """Return the severity of a rule in a profile where it differs; None if it does not count."""
     other = judge.severity.get(rule.id, rule.severity)
     different = f" ({other})" if other != rule.severity else ""
     return different if judge.includes(rule) else None

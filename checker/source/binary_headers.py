@@ -113,7 +113,7 @@ class SharedLibrary(Record):
 
 
 def read_shared_library(data: bytes) -> SharedLibrary | None:
-    """Read the headers of an ELF file; None when it is none or makes no sense.
+    """Read the headers of an ELF file; None if it is none or makes no sense.
 
     Args:
         data: The whole file.

@@ -27,7 +27,7 @@ class Install(Record, eq=False):
     Attributes:
         kind: `DIRECTORY`, `FILES`, `PROGRAMS` or `TARGETS`.
         items: What is installed; a directory ending in `/` is installed without its own name.
-        destination: The first `DESTINATION`; empty when there is none.
+        destination: The first `DESTINATION`; empty if there is none.
         filtered: Whether patterns pick or leave out files of a directory.
         conditional: Whether it may not happen.
         span: The whole call.

@@ -142,7 +142,7 @@ class _Evaluation:
             self._variables[name] = outer
 
     def _items(self, words: Sequence[Located[str]]) -> list[str] | None:
-        """Return the items of a loop; None when it is not known."""
+        """Return the items of a loop; None if it is not known."""
         items = [word.value for word in words]
         match items:
             case ["RANGE", *_]:

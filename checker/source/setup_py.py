@@ -57,7 +57,7 @@ class Executable(Record, eq=False):
     Attributes:
         name: The name of the program.
         module: Dotted.
-        function: The function in the module; empty when none is named.
+        function: The function in the module; empty if none is named.
         span: The entry.
     """
 
@@ -90,7 +90,7 @@ class _Unknown(Exception):
 
 
 def read_setup(source: SourceText) -> SetupFile | None:
-    """Read a setup.py; None when it is no Python or calls no `setup`."""
+    """Read a setup.py; None if it is no Python or calls no `setup`."""
     if len(source.text) > LIMIT:
         return None
     try:

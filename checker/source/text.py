@@ -85,7 +85,7 @@ class SourceText(Record, eq=False, dict=True):
         return offset if offset < end else None
 
     def stretch_of(self, edit: Edit) -> tuple[int, int] | None:
-        """Return the offsets that an edit replaces; None where its text does not stand there."""
+        """Return the offsets that an edit replaces; None if its text does not stand there."""
         place = edit.place
         start = self.offset_of(place.line, place.column)
         end = self.offset_of(place.end_line, place.end_column)
@@ -168,7 +168,7 @@ class Located(Record, Generic[T]):
     Attributes:
         value: The value.
         span: Its text; when `stated` is false, the element that could have stated it.
-        stated: False when the value is a default that the file does not spell out.
+        stated: False if the value is a default that the file does not spell out.
     """
 
     value: T

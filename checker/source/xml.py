@@ -232,7 +232,7 @@ class Element(Record, eq=False, dict=True):
         return self.node.get(attribute, default)
 
     def attribute(self, name: str) -> Located[str] | None:
-        """Return an attribute's value and its place, or None when it is absent."""
+        """Return an attribute's value and its place, or None if it is absent."""
         value = self.attributes.get(name)
         if value is None:
             return None
@@ -269,7 +269,7 @@ class Element(Record, eq=False, dict=True):
 
     @property
     def comment_in_front(self) -> Located[str] | None:
-        """The comment right in front, with nothing but blanks between; its place is the tag."""
+        """The comment right in front, with only blanks between; its place is the tag."""
         node = self.node.getprevious()
         if not isinstance(node, etree._Comment) or (node.tail or "").strip(_BLANKS):
             return None

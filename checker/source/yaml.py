@@ -86,7 +86,7 @@ class YamlNode(Record, eq=False):
 
 
 class YamlDocument(Record, eq=False):
-    """The first document of a YAML file; `root` is None when it is empty or not readable."""
+    """The first document of a YAML file; `root` is None if it is empty or not readable."""
 
     source: SourceText
     root: YamlNode | None
@@ -143,7 +143,7 @@ class _Builder:
         self.faults.append(YamlFault(span, message))
 
     def build(self, events: Iterator[Event]) -> YamlNode | None:
-        """Put the first document together; None when a bound is passed."""
+        """Put the first document together; None if a bound is passed."""
         opened: list[_Open] = []
         for event in events:
             if isinstance(event, DocumentEndEvent):

@@ -150,7 +150,7 @@ def _claimed_limit(sheet: Specification, reference: LineReference) -> Limit | No
 
 
 def _other_number(limit: Limit | None, text: str, tolerance: float) -> str:
-    """Return the number that the lines should hold and do not; empty when they do."""
+    """Return the number that the lines should hold and do not; empty if they do."""
     numbers = [abs(float(number)) for number in _NUMBER.findall(text)]
     if limit is None or not numbers:
         return ""

@@ -81,7 +81,7 @@ def _far_away(plugin: Plugin, most: float) -> Iterator[Finding]:
 
 
 def _size(robot: Robot) -> float:
-    """Return the diagonal of the box around all shapes, metres; 0 where one is unknown."""
+    """Return the diagonal of the box around all shapes, metres; 0 if one is unknown."""
     boxes = [robot.box_of(link) for link in robot.links if link.collisions or link.visuals]
     known = [box for box in boxes if box is not None]
     if len(known) < len(boxes) or not known:
@@ -92,7 +92,7 @@ def _size(robot: Robot) -> float:
 
 
 def _vector(plugin: Plugin, tag: str, default: Vector) -> Vector | None:
-    """Return three numbers; None where there are others."""
+    """Return three numbers; None if there are others."""
     text = next(plugin.at(tag), None)
     if text is None:
         return default

@@ -184,7 +184,7 @@ def _size(box: Box) -> list[float]:
 def _box(
     robot: Robot, link: Link, shapes: tuple[Collision, ...] | tuple[Visual, ...]
 ) -> Box | None:
-    """Return the box around all shapes; None when one of them is not known."""
+    """Return the box around all shapes; None if one of them is not known."""
     with_shape = [shape for shape in shapes if shape.geometry.shape]
     known = list(place_shapes(robot, link, with_shape))
     return union(piece.box for piece in known) if len(known) == len(with_shape) else None

@@ -62,7 +62,7 @@ def _known_nodes(graph: LaunchGraph) -> Iterator[Node]:
 
 
 def _build_file(holder: Package) -> SourceText | None:
-    """Return the file that states what is installed; None where it does not state all."""
+    """Return the file that states what is installed; None if it does not state all."""
     sources = []
     for name, not_plain in _NOT_PLAIN.items():
         source = holder.read(name) if holder.exists(name) else None
@@ -76,7 +76,7 @@ def _build_file(holder: Package) -> SourceText | None:
 
 
 def _missing(program: str, build: SourceText) -> str:
-    """Return why a build file does not install a program; empty where it may."""
+    """Return why a build file does not install a program; empty if it may."""
     words = set(_WORD.findall(build.text))
     if program in words:
         return ""

@@ -36,7 +36,7 @@ _ONE_MORE = re.compile(
 
 
 class _Told(Record):
-    """A kind of sensor that a clause names, and how many; None when it states no number."""
+    """A kind of sensor that a clause names, and how many; None if it states no number."""
 
     kind: SensorKind
     count: int | None

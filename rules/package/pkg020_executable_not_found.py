@@ -40,7 +40,7 @@ def check(package: Package) -> Findings:
 
 
 def _fault(package: Package, executable: Executable) -> str:
-    """Return why a module or function cannot be imported; empty when it can, or may."""
+    """Return why a module or function cannot be imported; empty if it can, or may."""
     top, _, rest = executable.module.partition(".")
     path = executable.module.replace(".", "/")
     if not (package.exists(top) or package.exists(f"{top}.py")):
@@ -60,7 +60,7 @@ def _fault(package: Package, executable: Executable) -> str:
 
 
 def _names(source: object) -> set[str] | None:
-    """Return the names that a module has; None when not all of them are known."""
+    """Return the names that a module has; None if not all of them are known."""
     if not isinstance(source, SourceText) or len(source.text) > _LIMIT:
         return None
     try:

@@ -69,7 +69,7 @@ def _judge_version(place: Place, library: SharedLibrary, release: str) -> Iterat
 
 
 def _library(machine: int, needed: bytes) -> str:
-    """Make a shared library that is nothing but headers and one needed library."""
+    """Make a shared library that is only headers and one needed library."""
     header = struct.pack(
         "<16sHHIQQQIHHHHHH", b"\x7fELF\2\1\1", 3, machine, 1, 0, 64, 0, 0, 64, 56, 2, 64, 0, 0
     )

@@ -110,7 +110,7 @@ def _holder(package: Package, file: DescriptionFile) -> Package | None:
 
 
 def _is_given(description: RobotDescription, robot: str, script: DescriptionScript | None) -> bool:
-    """Return whether xacro gets the robot's name, as far as is known."""
+    """Return whether xacro gets the robot's name, as far as known."""
     if script is not None:
         if "name" in script.arguments:
             return script.arguments["name"] is None

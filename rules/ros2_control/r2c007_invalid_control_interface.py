@@ -85,7 +85,7 @@ def _numbers(joint: HardwareJoint, interface: Interface, known: Joint | None) ->
 
 
 def _bounds(joint: Joint | None, interface: str) -> tuple[float, float] | None:
-    """Return what the URDF allows an interface of a joint; None where it states nothing."""
+    """Return what the URDF allows an interface of a joint; None if it states nothing."""
     if joint is None or not joint.axes:
         return None
     axis = joint.axes[0]

@@ -44,7 +44,7 @@ def check(control: RobotControl, launch: Ros2Launch) -> Findings:
 
 
 def _base_frame(controller: Controller) -> Located[str] | None:
-    """Return what a controller takes for the robot's base; None where unknown."""
+    """Return what a controller takes for the robot's base; None if unknown."""
     known = controller_types().get(controller.type.value)
     usual = known.params.get(_FRAME) if known is not None else None
     if usual is None:

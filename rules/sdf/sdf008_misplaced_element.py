@@ -164,7 +164,7 @@ def _moved(element: Element, place: str, kinds: _Kinds) -> Fix | None:
 
 
 def _wrapping_fix(element: Element, kind: ElementType | None) -> Fix | None:
-    """Return the fix that puts an element around another one, if it needs nothing but that."""
+    """Return the fix that puts an element around another one, if it needs only that."""
     if kind is None or any(needed == "1" for _, _, needed in kind.attributes.values()):
         return None
     source, start = element.source, element.position.start

@@ -31,7 +31,7 @@ class _Start(Record, eq=False):
     """A command that starts a launch file.
 
     Attributes:
-        package_name: The package that it names; empty when it names the file by its path.
+        package_name: The package that it names; empty if it names the file by its path.
         file: Name of the launch file, without folders.
         path: The expected path of the file, from the package of the spawner.
         where: The command.

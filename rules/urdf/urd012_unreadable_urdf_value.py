@@ -73,7 +73,7 @@ def _out_of_range(colour: Element) -> Iterator[Finding]:
 
 
 def _problem(text: Located[str], count: int) -> str:
-    """Return what is wrong with the numbers of an attribute; nothing where they can be read."""
+    """Return what is wrong with the numbers of an attribute; nothing if they can be read."""
     words = text.value.split()
     for word in words:
         value = parse_number(word)

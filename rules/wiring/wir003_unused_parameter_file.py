@@ -49,14 +49,14 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _is_alone(node: WiredNode) -> bool:
-    """Return whether a process has no other nodes, as far as is known."""
+    """Return whether a process has no other nodes, as far as known."""
     kinds = (NodeKind.CONTAINER, NodeKind.INCLUDED)
     hosts = node.node.kind in kinds or node.node.package.value == MANAGER
     return bool(node.full_name) and not hosts and not node.node.unread
 
 
 def _orphans(wiring: Wiring, node: WiredNode, file: LoadedFile) -> list[NodeBlock]:
-    """Return the blocks of a file that no node reads; none where the node reads one."""
+    """Return the blocks of a file that no node reads; none if the node reads one."""
     if any(node.reads(block) for block in file.blocks):
         return []
     if not all(is_known(block.name) and "<" not in block.name for block in file.blocks):

@@ -25,7 +25,7 @@ STEADY = 1.0
 
 @dataclass(frozen=True)
 class Figures:
-    """The motion on the course; NaN where the course has no such leg.
+    """The motion on the course; NaN if the course has no such leg.
 
     Attributes:
         sink: The way down while settling, metres.

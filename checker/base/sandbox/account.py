@@ -17,7 +17,7 @@ _FIRST, _LAST = 61184, 65519
 
 
 def free_account() -> int:
-    """Return a user id that hardly any other process has; 0 where this process is not root's."""
+    """Return a user id that hardly any other process has; 0 if this process is not root's."""
     if os.getuid() != 0:
         return 0
     return _FIRST + secrets.randbelow(_LAST - _FIRST + 1)

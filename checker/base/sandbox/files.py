@@ -52,7 +52,7 @@ class Files:
         return tuple(self._table)
 
     def size(self, name: str) -> int:
-        """Return the bytes of a file; 0 where it could not be read."""
+        """Return the bytes of a file; 0 if it could not be read."""
         entry = self._table.get(name)
         return entry[1] if isinstance(entry, list) else 0
 
@@ -66,7 +66,7 @@ class Files:
         return NotReadable(name, "was not passed to this process")
 
     def copy(self, name: str, to: BinaryIO) -> None:
-        """Write what is in a file into another one; nothing where it could not be read."""
+        """Write what is in a file into another one; nothing if it could not be read."""
         match self._table.get(name):
             case [int(at), int(length)]:
                 for begin in range(at, at + length, _PIECE):

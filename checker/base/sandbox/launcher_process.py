@@ -242,7 +242,7 @@ def _code_of(id: int) -> int | None:
 
 
 def _close_all_but(kept: set[int]) -> None:
-    """Close what the launcher has open, so that a process has nothing but its own."""
+    """Close what the launcher has open, so that a process has only its own."""
     last = 2
     for descriptor in sorted(number for number in kept if number > last):
         os.closerange(last + 1, descriptor)

@@ -29,7 +29,7 @@ _TRY_SECONDS = 60
 
 
 def sandboxed_command(command: Sequence[str], read: Iterable[str], work: str = "") -> list[str]:
-    """Return the command that runs a command where nothing but some files can be seen.
+    """Return the command that runs a command where only some files can be seen.
 
     Args:
         command: Program and arguments.

@@ -28,8 +28,8 @@ class Architecture(Record):
 
     Attributes:
         audit: Its AUDIT_ARCH number, which a filter of system calls receives.
-        foreign: Least number of calls by another convention (x32); 0 where there is none.
-        calls: Number of each call by its name; None where it has no such call.
+        foreign: Least number of calls by another convention (x32); 0 if there is none.
+        calls: Number of each call by its name; None if it has no such call.
     """
 
     audit: int
@@ -38,7 +38,7 @@ class Architecture(Record):
 
 
 def architecture() -> Architecture | None:
-    """Return that of this process; None where its calls are not known."""
+    """Return that of this process; None if its calls are not known."""
     known = _ARCHITECTURES.get(platform.machine())
     return Architecture(**known) if known and sys.maxsize > _32_BITS else None
 

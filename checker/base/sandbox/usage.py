@@ -68,7 +68,7 @@ def usage_below(ancestor: int, folder: Path, most: Usage) -> Usage:
 
 
 def descendant_ids(ancestor: int) -> list[int]:
-    """Return the ids of all processes below another one; none where the system has no /proc."""
+    """Return the ids of all processes below another one; none if the system has no /proc."""
     children: dict[int, list[int]] = {}
     with suppress(OSError), os.scandir("/proc") as entries:
         for entry in entries:

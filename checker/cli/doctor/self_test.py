@@ -48,7 +48,7 @@ def sample() -> Path:
 
 
 def _trouble(report: PackageReport) -> str:
-    """Return what is not as it is known to be; empty when all is well."""
+    """Return what is not as it is known to be; empty if all is well."""
     if report.blind_spots:
         first = report.blind_spots[0]
         reason = first.reason.partition("; please report")[0]

@@ -34,7 +34,7 @@ _INSIDE = ("macro", "if", "unless")
 
 
 def expressions(request: Request) -> list[Completion] | None:
-    """Return what may be in the expression at the caret; None where there is none."""
+    """Return what may be in the expression at the caret; None if there is none."""
     if request.xml.where not in (Where.VALUE, Where.TEXT) or not request.is_xacro:
         return None
     match = _OPEN.search(request.xml.typed[-_TYPED_LIMIT:])

@@ -53,7 +53,7 @@ def files(request: Request) -> Iterator[Completion]:
 
 
 def _wanted_kind(request: Request) -> _Wanted | None:
-    """Return what kind of file the caret's place names; None where it names none."""
+    """Return what kind of file the caret's place names; None if it names none."""
     xml = request.xml
     if xml.where is Where.VALUE and xml.attribute == "filename":
         named = {"mesh": _MESHES, "texture": _PICTURES, "xacro:include": (".xacro", ".urdf")}

@@ -22,7 +22,7 @@ _LIMIT = 2000
 
 
 def names(request: Request) -> Iterator[Completion]:
-    """Yield the names that may be at the caret; nothing where it is no place for one."""
+    """Yield the names that may be at the caret; nothing if it is no place for one."""
     xml = request.xml
     tags = (*xml.tags, xml.tag) if xml.tag else xml.tags
     plugin = request.plugin.attributes.get("name", "") if request.plugin is not None else ""

@@ -41,7 +41,7 @@ class Expression(Record):
 
 
 def expression_at(pointed: Pointed, offset: int) -> Expression | None:
-    """Return the expression of xacro at an offset; None where there is none."""
+    """Return the expression of xacro at an offset; None if there is none."""
     if pointed.where not in (Where.VALUE, Where.TEXT):
         return None
     span = pointed.span
@@ -128,7 +128,7 @@ def tag_card(element: Element, known: XacroNames) -> str | None:
 
 
 def include_card(package: Package, element: Element) -> str | None:
-    """Return the file that a `<xacro:include>` names, as Markdown; None where it is computed."""
+    """Return the file that a `<xacro:include>` names, as Markdown; None if it is computed."""
     name = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", element.get("filename") or "")
     if "$" in name or not name:
         return None

@@ -56,7 +56,7 @@ class Hover(Record):
 def hover_at(
     subject: Subject, path: str, offset: int, target: Context | None = None
 ) -> Hover | None:
-    """Return what is known of the thing at an offset; None where there is nothing to state.
+    """Return what is known of the thing at an offset; None if there is nothing to state.
 
     Args:
         subject: The package.

@@ -92,7 +92,7 @@ def _as_known(parameter: Parameter) -> str:
 
 
 def hardware_card(name: str) -> str | None:
-    """Return what is known of a hardware component of ros2_control; None where nothing is."""
+    """Return what is known of a hardware component of ros2_control; None if nothing is."""
     known = table("ros2_control_hardware")["plugins"]
     entry = next((it for it in known if it["name"] == name), None)
     if entry is None:
@@ -103,7 +103,7 @@ def hardware_card(name: str) -> str | None:
 
 
 def parameter_card(plugin: Element, path: str, value: str, target: Context) -> str | None:
-    """Return what is known of a parameter of a plugin, as Markdown; None where nothing is.
+    """Return what is known of a parameter of a plugin, as Markdown; None if nothing is.
 
     Args:
         plugin: The `<plugin>` around it.

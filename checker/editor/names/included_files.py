@@ -20,7 +20,7 @@ _COMPUTED = re.compile(r"\$[{(]|[*?\[]")
 
 
 def included_path(package: Package, path: str, included: Included) -> str | None:
-    """Return the path of an included file; None when it is not known or not available.
+    """Return the path of an included file; None if it is not known or not available.
 
     Args:
         package: The package being checked.

@@ -30,7 +30,7 @@ class NameIndex(Record, eq=False, dict=True):
     Attributes:
         package: The package that was read.
         files: Names of each file, those of siblings that the package includes among them.
-        links: The paths of the files that each file includes, by its path; None where one is not
+        links: The paths of the files that each file includes, by its path; None if one is not
             known.
         scopes: What the things of each file belong to.
     """

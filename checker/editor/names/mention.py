@@ -117,7 +117,7 @@ class FileNames(Record, eq=False):
         values: Texts that expressions of the file may have as values.
         parameters: Names of the parameters of its macros.
         model: Name of the model or robot that the file contains.
-        fault: The reason why it cannot be read; empty when it can.
+        fault: The reason why it cannot be read; empty if it can.
     """
 
     source: SourceText

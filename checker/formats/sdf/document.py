@@ -174,7 +174,7 @@ class SdfDocument(Record, eq=False, dict=True):
 
     Attributes:
         document: Its XML.
-        version: The version that `<sdf>` states; empty when it states none.
+        version: The version that `<sdf>` states; empty if it states none.
     """
 
     document: XmlDocument

@@ -62,7 +62,7 @@ class ModelIncludes(Record):
         return None if isinstance(path, Unknown) else self._model_file_at(path, folder)
 
     def _model_file_at(self, path: str, folder: str) -> str | None:
-        """Return the model file at a path, which may be a folder; None when nothing is there."""
+        """Return the model file at a path, which may be a folder; None if nothing is there."""
         path = posixpath.normpath(path)
         entry = self.package.resolve(path)
         is_sibling = path.startswith("../") and path.count("/") == 1

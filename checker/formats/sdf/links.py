@@ -60,7 +60,7 @@ _PBR_MAPS = (
 
 
 def read_geometry(parent: Element, values: ValueReader) -> Geometry:
-    """Read the `<geometry>` below a collision or visual; shape is empty when there is none."""
+    """Read the `<geometry>` below a collision or visual; shape is empty if there is none."""
     geometry = parent.child("geometry") or parent
     shape = next((child for child in geometry.children if child.tag in SIZES), None)
     if shape is None or geometry is parent:

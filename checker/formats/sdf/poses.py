@@ -21,7 +21,7 @@ def in_degrees(pose: _HasAttributes) -> bool:
 
 
 def frame_of(pose: Element, version: tuple[int, int]) -> Located[str] | None:
-    """Return the frame that a `<pose>` names; None where it names none.
+    """Return the frame that a `<pose>` names; None if it names none.
 
     It is `relative_to` in any version: libsdformat turns the `frame` of files before SDF 1.7 into
     it, in place of one that is written, and then reads them all alike.

@@ -156,7 +156,7 @@ class _Collected:
                 self.merging.pop()
 
     def _refusal(self, document: XmlDocument, model: Element | None) -> str:
-        """Return the reason why an include is not read; empty when it is."""
+        """Return the reason why an include is not read; empty if it is."""
         if model is None:
             return "contains no <model>"
         if document in self.open_files:

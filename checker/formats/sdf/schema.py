@@ -48,7 +48,7 @@ class ElementType(Record, dict=True):
 
     @cached_property
     def value_type(self) -> str:
-        """Type of the text inside (`double`, `pose`, …); empty when there must be none."""
+        """Type of the text inside (`double`, `pose`, …); empty if there must be none."""
         return str(self.description.get("type", ""))
 
     @property
@@ -142,7 +142,7 @@ def holders_of(version: str, parent: str, tag: str) -> tuple[str, ...]:
 
 @cache
 def _triples(version: str) -> frozenset[tuple[str, str, str]]:
-    """Return what may hold what that may hold what; the first is empty where any may."""
+    """Return what may hold what that may hold what; the first is empty if any may."""
     types = _types(version)
     triples: set[tuple[str, str, str]] = set()
     stack: list[tuple[str, Any]] = [("", entry) for entry in types.values()]

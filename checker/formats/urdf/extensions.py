@@ -34,7 +34,7 @@ def extension_text(element: Element) -> Located[str]:
 
 
 def extension_number(tag: Element, name: str) -> Located[float] | None:
-    """Return the number in a child of a `<gazebo>` tag; None when none reads as one."""
+    """Return the number in a child of a `<gazebo>` tag; None if none reads as one."""
     child = tag.child(name)
     if child is None:
         return None

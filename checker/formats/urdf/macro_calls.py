@@ -68,7 +68,7 @@ class MacroCall(Record, eq=False):
 
 
 def minimal_call(package: Package, path: str) -> MacroCall | None:
-    """Return how to call the one macro of a file that makes links; None where that is not clear.
+    """Return how to call the one macro of a file that makes links; None if that is not clear.
 
     Args:
         package: The package being checked.
@@ -91,7 +91,7 @@ def _name(macro: Element) -> str:
 
 
 def _call(macro: Element, number: int) -> MacroCall | None:
-    """Return the call of a macro; None when it needs what only its user can know."""
+    """Return the call of a macro; None if it needs what only its user can know."""
     arguments: dict[str, str] = {}
     blocks: list[str] = []
     text = macro.get("params") or ""

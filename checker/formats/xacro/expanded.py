@@ -68,7 +68,7 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
 def expanded_document(
     answer: Mapping[str, Any], gathered: Gathered, file: str
 ) -> XmlDocument | None:
-    """Return the document that xacro made of a file; None when it cannot be read.
+    """Return the document that xacro made of a file; None if it cannot be read.
 
     Args:
         answer: The child's answer: the text, and for each element the one it is a copy of.

@@ -68,7 +68,7 @@ _COMPUTED = re.compile(r"\$[{(]|[*?\[]")
 
 
 def named_path(folder: str, name: str) -> str | None:
-    """Return how xacro sees a file that another one names; None where its name is computed.
+    """Return how xacro sees a file that another one names; None if its name is computed.
 
     Args:
         folder: The folder of the other file, as xacro sees it.

@@ -25,7 +25,7 @@ MAX_LENGTH = 2_000
 def assumed_nodes(
     include: UnresolvedInclude, remaps: Sequence[Remap] = ()
 ) -> tuple[Node, ...] | None:
-    """Return the nodes that an included template starts; None when it is not known.
+    """Return the nodes that an included template starts; None if it is not known.
 
     Args:
         include: The include of the unavailable file.
@@ -44,7 +44,7 @@ def assumed_nodes(
 def unknown_nodes(include: UnresolvedInclude) -> Hashable:
     """Return what distinguishes the nodes of a template that starts some with unknown names.
 
-    Two includes with the same answer start nodes of the same names; None where they are known.
+    Two includes with the same answer start nodes of the same names; None if they are known.
     """
     template = _template(include)
     if template is None or template["nodes"]:

@@ -110,7 +110,7 @@ class Reader:
         return self._steps > 0
 
     def text(self, element: Element, attribute: str, scope: Scope) -> Located[str] | None:
-        """Return an attribute with its substitutions made; None when it is absent."""
+        """Return an attribute with its substitutions made; None if it is absent."""
         if element.get(attribute) is None:
             written = left_outside(element).get(attribute)
         else:

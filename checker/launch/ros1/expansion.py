@@ -107,7 +107,7 @@ class _Expansion:
         )
 
     def expand(self, parent: Element, scope: Scope) -> bool:
-        """Follow the elements below one; False when a limit keeps it from seeing them all."""
+        """Follow the elements below one; False if a limit keeps it from seeing them all."""
         if scope.depth > MAX_DEPTH:
             message = f"groups and files are nested more than {MAX_DEPTH} levels deep"
             self._reader.fault(LaunchFaultKind.LIMIT, parent, message)

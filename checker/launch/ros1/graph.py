@@ -183,7 +183,7 @@ class UnresolvedInclude(Record, eq=False):
     """An `<include>` of a file that is not available.
 
     Attributes:
-        package: Package of `$(find …)`; empty when the file is named otherwise.
+        package: Package of `$(find …)`; empty if the file is named otherwise.
         file: Path within the package, or what the attribute states.
         arguments: The passed arguments, by name.
         namespace: The namespace that the nodes of the file would have.

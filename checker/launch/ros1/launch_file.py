@@ -102,8 +102,8 @@ class LaunchCommand(Record):
     """`roslaunch --wait P vehicle_topics.launch world_name:=w name:=n`, taken apart.
 
     Attributes:
-        package: The package; empty when the launch file is named by its path.
-        file: Name or path of the launch file; empty when the command names none.
+        package: The package; empty if the launch file is named by its path.
+        file: Name or path of the launch file; empty if the command names none.
         arguments: Args by name; the last one counts.
         options: Words that start with a hyphen.
         leftover: Words that fit nowhere.
@@ -117,7 +117,7 @@ class LaunchCommand(Record):
 
     @classmethod
     def parse(cls, command: str) -> LaunchCommand | None:
-        """Read a command line; None when it does not call roslaunch."""
+        """Read a command line; None if it does not call roslaunch."""
         program, *words = command.split() or [""]
         if program.rsplit("/", 1)[-1] != "roslaunch":
             return None
@@ -175,7 +175,7 @@ class Inclusion(Record, eq=False):
 
     Attributes:
         package: Package of `$(find …)`, else empty.
-        path: Path within the package; empty when it is not known before the launch.
+        path: Path within the package; empty if it is not known before the launch.
         file: The `file` attribute.
         arguments: All passed arguments.
         argument_places: The `<arg>` elements below it, by name.

@@ -133,7 +133,7 @@ class LaunchFiles(Record):
         return self._document(posixpath.join(prefix, path))
 
     def path_of(self, text: str) -> str | None:
-        """Return the path of `$(find package)/path`; None when the package is not available."""
+        """Return the path of `$(find package)/path`; None if the package is not available."""
         package, path = target_of(text.strip())
         prefix = self._folder(package) if package else ""
         if prefix is None or not path:

@@ -163,7 +163,7 @@ def substitute(text: str, args: Mapping[str, str], directory: str) -> Substitute
 
 
 def _value(content: str, args: Mapping[str, str], directory: str) -> str | SubstitutionFault | None:
-    """Return what a substitution represents; None when only the launching machine knows."""
+    """Return what a substitution represents; None if only the launching machine knows."""
     command, *words = content.split() or [""]
     if command == "arg":
         if len(words) != 1:

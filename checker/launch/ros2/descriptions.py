@@ -29,10 +29,10 @@ class LoadedDescription(Record, eq=False):
     Attributes:
         load: The file, and the arguments that are known.
         unknown: Names of arguments whose values are only known at launch.
-        choices: The values that the launch file allows for these; none where any text is allowed.
+        choices: The values that the launch file allows for these; none if any text is allowed.
         offered: The same of arguments that have the default of one of its own, by name.
         node: The node that gets it.
-        parameter: The parameter that contains it; None where it is among the arguments.
+        parameter: The parameter that contains it; None if it is among the arguments.
         span: The place where the file is named.
     """
 
@@ -97,7 +97,7 @@ def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, st
 
 
 def _as_listed(package: Package, path: str) -> str | None:
-    """Return how xacro sees a file that is installed at a path; None when it is not available."""
+    """Return how xacro sees a file that is installed at a path; None if it is not available."""
     local = local_file(package, path) if path.startswith(f"{ROOT}/") else None
     return None if local is None else path_of(package, local)
 

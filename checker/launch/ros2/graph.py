@@ -123,7 +123,7 @@ class Condition(Record, eq=False):
     Attributes:
         text: What is tested, substitutions made, with the defaults of arguments.
         wanted: The truth value that lets the action count; False of `UnlessCondition`.
-        holds: Whether the action counts; None when that is not known before the launch.
+        holds: Whether the action counts; None if that is not known before the launch.
         written: Whether no substitution takes part, so that it is the same in every launch.
     """
 
@@ -138,7 +138,7 @@ class Argument(Record, eq=False):
 
     Attributes:
         name: The name as `name:=value` gives it.
-        default: The default with the substitutions made; None when it must be given.
+        default: The default with the substitutions made; None if it must be given.
         choices: Values that are allowed; empty for all.
         description: The description for `ros2 launch --show-args`.
         conditions: Those around the declaration.
@@ -285,10 +285,10 @@ class Include(Started, eq=False, kw_only=True):
     Attributes:
         target: Its path; see `share_path`.
         arguments: The passed arguments, by name.
-        path: The file as the package lists it; empty when it is not available.
+        path: The file as the package lists it; empty if it is not available.
         accepts: Names of arguments that the file, or one that it includes, declares or uses; None
             when that is not known, as of a file that could not be read in full.
-        reason: The reason why the file is not read; empty when it is.
+        reason: The reason why the file is not read; empty if it is.
         nodes: The nodes that the file starts, if it is not read but known.
     """
 
@@ -310,7 +310,7 @@ class EnvironmentChange(Started, eq=False, kw_only=True):
 
     Attributes:
         name: The name of the variable.
-        value: What is set, or added; empty when it is removed.
+        value: What is set, or added; empty if it is removed.
         mode: `set`, `append`, `prepend` or `unset`.
     """
 
@@ -324,7 +324,7 @@ class FileUse(Record, eq=False):
 
     Attributes:
         text: The path; see `share_path`.
-        certain: Whether it is used in every launch, as far as is known.
+        certain: Whether it is used in every launch, as far as known.
     """
 
     text: Located[str]

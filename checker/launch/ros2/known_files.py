@@ -66,7 +66,7 @@ def _files() -> Mapping[str, KnownFile]:
 
 
 def known_file(target: str) -> KnownFile | None:
-    """Return what is known of the launch file at a path; None where nothing is."""
+    """Return what is known of the launch file at a path; None if nothing is."""
     path = share_path(target)
     return _files().get(f"{path.package}/{path.path}") if path is not None else None
 

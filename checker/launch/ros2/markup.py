@@ -146,7 +146,7 @@ class Markup:
                 yield self._action(child)
 
     def text(self, entity: Entity, name: str) -> Value:
-        """Return an attribute with its substitutions; None when it is absent."""
+        """Return an attribute with its substitutions; None if it is absent."""
         written = entity.get(name)
         if written is None:
             return None

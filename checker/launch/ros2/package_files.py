@@ -28,7 +28,7 @@ def own_names(package: Package) -> tuple[str, ...]:
 
 
 def local_file(package: Package, path: str) -> str | None:
-    """Return a path below a share folder as the package lists it; None when it is not available."""
+    """Return a path below a share folder as the package lists it; None if it is not available."""
     target = share_path(path)
     if target is None:
         return None
@@ -53,7 +53,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
 
 
 def exists(package: Package, path: str) -> bool | None:
-    """Return whether there is a file or folder at a path; None when unknown."""
+    """Return whether there is a file or folder at a path; None if unknown."""
     target = share_path(path)
     if target is None or not is_known(path) or holder_of(package, target.package) is None:
         return None

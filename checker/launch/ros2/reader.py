@@ -190,7 +190,7 @@ class LaunchReader:
         return package_files.read_file(self._package, path)
 
     def exists(self, path: str) -> bool | None:
-        """Return whether there is a file or folder; None when unknown."""
+        """Return whether there is a file or folder; None if unknown."""
         return package_files.exists(self._package, path)
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:
@@ -212,7 +212,7 @@ class LaunchReader:
         return perform(value, self._context, span)
 
     def configuration(self, name: str) -> Value:
-        """Return the value of an argument; None when there is none."""
+        """Return the value of an argument; None if there is none."""
         if self._context is None:
             return None
         self._context.used.add(name)

@@ -49,7 +49,7 @@ class WorkspaceFiles(Record):
         return self.package.exists(self._local(path))
 
     def package_folder(self, name: str) -> str | None:
-        """Return the folder of a package, None when it is not available."""
+        """Return the folder of a package, None if it is not available."""
         package = self.package.workspace.package(name)
         return package.root.name if package is not None else None
 

@@ -38,7 +38,7 @@ class SpawnerFiles(Protocol):
         ...
 
     def package_folder(self, name: str) -> str | None:
-        """Return the folder of a package, or None when the package is not available."""
+        """Return the folder of a package, or None if the package is not available."""
         ...
 
 

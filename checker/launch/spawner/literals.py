@@ -145,7 +145,7 @@ def heredoc_parts(opening: RubyNode) -> list[list[Range] | RubyNode] | None:
         opening: The opening, such as `<<~XML`.
 
     Returns:
-        None when its end was not found.
+        None if its end was not found.
     """
     body = opening.heredoc
     if body is None or not body.children or body.broken:

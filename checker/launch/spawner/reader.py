@@ -68,7 +68,7 @@ class Spawner(Record, eq=False):
         spawn: What `spawner` emits for `SPAWNER_ARGUMENTS` without ground truth.
         executables: What `rosExecutables` emits for `EXECUTABLES_ARGUMENTS`.
         sources: All files read for it, the entry first.
-        unread: What could not be read; empty when everything was.
+        unread: What could not be read; empty if everything was.
         syntax_faults: Syntax errors that are certain.
         not_understood: The place where a file first exceeds the grammar, if it has no such
             error.

@@ -51,7 +51,7 @@ class Function(Record, eq=False):
 
     @property
     def most(self) -> int | None:
-        """Largest number of positional arguments; None when there is no limit."""
+        """Largest number of positional arguments; None if there is no limit."""
         kinds = [parameter.kind for parameter in self.parameters]
         return None if "rest" in kinds else sum(kind in _POSITIONAL for kind in kinds)
 

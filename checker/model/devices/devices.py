@@ -104,7 +104,7 @@ class SensorDevices(Record, eq=False, dict=True):
         return {device.sensor: device for device in self.known}
 
     def device_of(self, sensor: Sensor) -> SensorDevice | None:
-        """Return the device that a sensor represents; None when unknown."""
+        """Return the device that a sensor represents; None if unknown."""
         return self._by_sensor.get(sensor)
 
     def are_diverted(self, device: Device, figure: str) -> bool:

@@ -106,7 +106,7 @@ _BODY: Mapping[str, _Form] = {
 
 
 def problem_of_device(entry: object) -> str:
-    """Return what is wrong with a description of a device; empty when nothing is."""
+    """Return what is wrong with a description of a device; empty if nothing is."""
     if not isinstance(entry, dict):
         return "is not a table"
     keys = _problem_of_keys(entry)
@@ -158,7 +158,7 @@ def _problem_of_table(name: str, table: Any, forms: Mapping[str, _Form]) -> str:
 
 
 def problem_of_match(match: str) -> str:
-    """Return the reason why a user's expression is not taken; empty when it is.
+    """Return the reason why a user's expression is not taken; empty if it is.
 
     Settings are in the folder of a package, so they may be anybody's. An expression without
     repetition and with few choices takes no longer than its length allows.

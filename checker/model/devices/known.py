@@ -31,7 +31,7 @@ class KnownDevices(Record, eq=False):
     devices: tuple[Device, ...]
 
     def find_in_text(self, text: str, types: Iterable[str] | None = None) -> Device | None:
-        """Return the device that running text names; None when it names none, or several.
+        """Return the device that running text names; None if it names none, or several.
 
         Args:
             text: Its first 500 characters count.

@@ -28,7 +28,7 @@ _KINDS = {
 
 
 def class_of_device(device: Device) -> LidarClass | None:
-    """Return how a device scans; None when it is no lidar."""
+    """Return how a device scans; None if it is no lidar."""
     return next((kind for kind in LidarClass if kind.value == device.kind), None)
 
 

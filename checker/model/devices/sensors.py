@@ -70,7 +70,7 @@ def find_sensor_devices(
     Args:
         robot: Its sensors beyond the first 500 are left out.
         known: Devices to choose from.
-        sheet: None when it is not available: then the model's own words are all there is.
+        sheet: None if it is not available: then the model's own words are all there is.
         configurations: Numbers of sensor configurations that the sheet may name.
     """
     sensors = [_read_sensor(sensor, known) for sensor in robot.sensors[:SENSORS_LIMIT]]

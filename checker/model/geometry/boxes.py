@@ -42,7 +42,7 @@ class Box(Record):
         return Box((a - length, b - length, c - length), (x + length, y + length, z + length))
 
     def gap(self, other: Box) -> float:
-        """Return the distance to another box, metres; 0 where they touch."""
+        """Return the distance to another box, metres; 0 if they touch."""
         along_x, along_y, along_z = (
             max(self.low[i] - other.high[i], other.low[i] - self.high[i], 0.0) for i in range(3)
         )

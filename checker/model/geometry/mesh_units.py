@@ -119,7 +119,7 @@ class ScaledMeshes(Record, eq=False, dict=True):
 
 
 class _Extent(Record):
-    """Diagonals of the boxes around a link's shapes, metres; 0 where one is not known.
+    """Diagonals of the boxes around a link's shapes, metres; 0 if one is not known.
 
     Attributes:
         simple: Around all shapes that are not meshes.
@@ -139,7 +139,7 @@ class _Extent(Record):
 
 
 def _unit(large: float, small: float, near: float, units: Mapping[str, float] = UNITS) -> str:
-    """Return the unit whose factor is between two lengths; empty when none does."""
+    """Return the unit whose factor is between two lengths; empty if none does."""
     if not 0.0 < small < large < math.inf:
         return ""
     off = {unit: abs(math.log(large / small / factor)) for unit, factor in units.items()}
@@ -186,7 +186,7 @@ def _boxes(robot: Robot, link: Link, shapes: Shapes) -> Iterator[Box | None]:
 
 
 def _size(robot: Robot, link: Link, shapes: Shapes) -> float:
-    """Return the diagonal of the box around shapes of a link, metres; 0 where it is not known."""
+    """Return the diagonal of the box around shapes of a link, metres; 0 if it is not known."""
     boxes = list(_boxes(robot, link, shapes))
     known = [box for box in boxes if box is not None]
     box = union(known) if len(known) == len(boxes) else None

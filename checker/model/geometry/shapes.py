@@ -16,7 +16,7 @@ class Geometry(Record, eq=False, dict=True):
     """The shape of a collision or visual.
 
     Attributes:
-        shape: Tag of the shape (`box`, `cylinder`, `mesh`, …); empty when there is none.
+        shape: Tag of the shape (`box`, `cylinder`, `mesh`, …); empty if there is none.
         sizes: The shape's lengths in metres by name: `size` (3 numbers), `radius`, `length`,
             `radii`, `normal`, `scale`.
         uri: Mesh, heightmap or image file as written.

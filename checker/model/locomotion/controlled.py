@@ -107,12 +107,12 @@ class _Named:
         return Side.RIGHT if pose is not None and pose.translation[1] < 0.0 else Side.LEFT
 
     def first(self, *parameters: str) -> str:
-        """Return the first of these parameters that is a number; empty when none is."""
+        """Return the first of these parameters that is a number; empty if none is."""
         stated = (name for name in parameters if self.controller.number(name) is not None)
         return next(stated, "")
 
     def number(self, parameter: str) -> Located[float]:
-        """Return a number; 0 where it is not stated."""
+        """Return a number; 0 if it is not stated."""
         found = self.controller.number(parameter)
         return found or Located(0.0, self.controller.span, stated=False)
 

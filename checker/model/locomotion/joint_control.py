@@ -40,8 +40,8 @@ class CommandedWheels(Record, eq=False):
     """Wheels that are turned one by one.
 
     Attributes:
-        drive: The drive that they form; None where that is not certain.
-        doubt: The reason why not, as the end of a sentence; empty where it is, and without such
+        drive: The drive that they form; None if that is not certain.
+        doubt: The reason why not, as the end of a sentence; empty if it is, and without such
             wheels.
     """
 
@@ -100,7 +100,7 @@ def _steering(robot: Robot) -> Iterator[tuple[Joint, Side]]:
 
 
 def _doubt(wheels: Sequence[Wheel]) -> str:
-    """Return the reason why it is not certain how wheels drive the robot; empty where it is."""
+    """Return the reason why it is not certain how wheels drive the robot; empty if it is."""
     if len(wheels) > _MOST:
         return f"it has more than {_MOST} wheels"
     if any(wheel.axis is None or wheel.axis[1] < _ALONG for wheel in wheels):

@@ -33,7 +33,7 @@ class Side(enum.StrEnum):
 
 
 class MotionLimits(Record, eq=False):
-    """Limits of one kind of motion of a plugin; None where it states none.
+    """Limits of one kind of motion of a plugin; None if it states none.
 
     Velocities in m/s or rad/s, accelerations in m/s² or rad/s². A multicopter's limits are the
     same both ways: its minima are the negated maxima.
@@ -71,7 +71,7 @@ class Wheel(Record, eq=False):
         side: What the plugin states.
         centre: Origin of the joint in the robot's frame, metres; None if unknown.
         axis: Direction of the joint's axis in the robot's frame, of length 1; None if unknown.
-        radius: Reach of its collisions across the axis, metres; None where no collision or no
+        radius: Reach of its collisions across the axis, metres; None if no collision or no
             axis is known.
         width: Extent of its collisions along the axis, metres; likewise.
         steering: The joint that steers it; None for a wheel that does not steer.
@@ -104,12 +104,12 @@ class WheelDrive(Record, eq=False):
         kingpin_width: Metres, of Ackermann steering.
         steering_limit: Radians, of Ackermann steering.
         steering: Left and right steering joints of Ackermann steering, as the plugin names them.
-        separation_tag: Parameter that holds the separation; empty where there is none to compare.
+        separation_tag: Parameter that holds the separation; empty if there is none to compare.
         diameter_tag: Parameter that holds twice the radius; empty for one that holds the radius.
         swaps: Whether the plugin takes the wheels that it names as left for those on the right.
         radius_tag: Parameter that holds the radius.
         base_tag: Parameter that holds the wheel base.
-        kingpin_tag: Parameter that holds the kingpin width; of all tags, empty where there is none.
+        kingpin_tag: Parameter that holds the kingpin width; of all tags, empty if there is none.
         slips: Whether its wheels may slip sideways in a turn, so that the separation is raised.
     """
 
@@ -138,7 +138,7 @@ class WheelDrive(Record, eq=False):
 
     @property
     def axis(self) -> Vector | None:
-        """Direction of the first wheel's axis that is known; None where none is."""
+        """Direction of the first wheel's axis that is known; None if none is."""
         return next((wheel.axis for wheel in self.wheels if wheel.axis is not None), None)
 
     def wheels_on(self, side: Side) -> tuple[Wheel, ...]:

@@ -46,7 +46,7 @@ def thrust_to_weight(rotors: Sequence[Rotor], mass: float) -> float | None:
         mass: The mass of the robot, kilograms.
 
     Returns:
-        None where it is not a number: without rotors, without mass.
+        None if it is not a number: without rotors, without mass.
     """
     thrust = sum(greatest_thrust(rotor) for rotor in rotors)
     weight = mass * GRAVITY
@@ -58,7 +58,7 @@ def thrust_to_weight(rotors: Sequence[Rotor], mass: float) -> float | None:
 def yaw_imbalance(rotors: Sequence[Rotor]) -> float | None:
     """Return the torque about the vertical at equal speed, as a share of all rotors' torques.
 
-    0 when the directions cancel, 1 when all rotors turn one way; None where one is not known.
+    0 if the directions cancel, 1 when all rotors turn one way; None if one is not known.
     """
     torques = []
     for rotor in rotors:
@@ -73,7 +73,7 @@ def yaw_imbalance(rotors: Sequence[Rotor]) -> float | None:
 def controlled_motions(rotors: Sequence[Rotor]) -> int | None:
     """Return how many of climb, roll, pitch and yaw the rotors command independently, 0 to 4.
 
-    It is the rank of the matrix that yields lift and torques from the rotors' thrusts. None where a
+    It is the rank of the matrix that yields lift and torques from the rotors' thrusts. None if a
     place or direction is not known.
     """
     places = [rotor.centre for rotor in rotors if rotor.centre is not None]

@@ -16,7 +16,7 @@ class SlippingWheel(Record, eq=False):
 
     Attributes:
         plugin: The WheelSlip.
-        link: Scoped name of the link that it means; empty when it names none.
+        link: Scoped name of the link that it means; empty if it names none.
         lateral: Slip compliance across the wheel; None if not stated.
         normal_force: Newtons; None if not stated.
         radius: Metres; None if not stated.

@@ -33,14 +33,14 @@ def wheel_shapes(robot: Robot, wheel: Wheel) -> list[Placed]:
 
 
 def tread(robot: Robot, wheel: Wheel) -> Placed | None:
-    """Return the collision that a wheel rolls on: the largest; None when none is known."""
+    """Return the collision that a wheel rolls on: the largest; None if none is known."""
     return max(wheel_shapes(robot, wheel), key=lambda piece: piece.box.diagonal, default=None)
 
 
 def misalignment(robot: Robot, wheel: Wheel) -> float | None:
     """Return the angle between the axis of a wheel's tread and that of its joint, 0…π/2 rad.
 
-    None when one of them has no axis: a sphere or box, a joint whose axis is not known.
+    None if one of them has no axis: a sphere or box, a joint whose axis is not known.
     """
     rolls = tread(robot, wheel)
     if rolls is None or wheel.axis is None or rolls.shape.geometry.shape not in _ROUND:
@@ -82,7 +82,7 @@ class WheelReader:
         side: Side,
         knuckles: Mapping[str, Joint],
     ) -> Wheel | None:
-        """Return the wheel below a joint; None when there is no such joint or no link below.
+        """Return the wheel below a joint; None if there is no such joint or no link below.
 
         Args:
             plugin: What names the joint: one of the model that the plugin stands in.
@@ -104,7 +104,7 @@ class WheelReader:
         knuckles: Mapping[str, Joint],
         name: Located[str] | None = None,
     ) -> Wheel | None:
-        """Return the wheel below a joint that no plugin names; None when no link is below.
+        """Return the wheel below a joint that no plugin names; None if no link is below.
 
         Args:
             joint: The joint of the robot.

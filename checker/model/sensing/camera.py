@@ -71,8 +71,8 @@ class Camera(Record, eq=False):
         horizontal_fov: Radians.
         format: The format of the pixels, such as `R8G8B8`.
         clip: The clip distances of the picture.
-        depth_clip: The clip distances of the depth image; None where the file states none.
-        intrinsics: None where the file states none.
+        depth_clip: The clip distances of the depth image; None if the file states none.
+        intrinsics: None if the file states none.
         distortion: Coefficients k1, k2, k3, p1, p2 that the file states.
         noise: The noise of the pixels, as a share of white.
         element: The `<camera>`.
@@ -103,7 +103,7 @@ class Camera(Record, eq=False):
     def pinhole(self) -> Pinhole | None:
         """Projection of the rendered image, from its size and `horizontal_fov`.
 
-        None where no pinhole sees that far around, and for a picture without pixels.
+        None if no pinhole sees that far around, and for a picture without pixels.
         """
         width, height, angle = self.width.value, self.height.value, self.horizontal_fov.value
         if not (0.0 < width < math.inf and 0.0 < height < math.inf and 0.0 < angle < math.pi):
@@ -129,7 +129,7 @@ _LEAST_TANGENT = 1e-9
 
 
 def read_camera(sensor: Element) -> Camera | None:
-    """Read the `<camera>` of a sensor; None when it has none. Defaults are SDFormat's."""
+    """Read the `<camera>` of a sensor; None if it has none. Defaults are SDFormat's."""
     element = sensor.child("camera")
     if element is None:
         return None

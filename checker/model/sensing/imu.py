@@ -33,7 +33,7 @@ class Imu(Record, eq=False):
 
 
 def read_imu(sensor: Element) -> Imu | None:
-    """Read the `<imu>` of a sensor; None when it has none."""
+    """Read the `<imu>` of a sensor; None if it has none."""
     element = sensor.child("imu")
     if element is None:
         return None

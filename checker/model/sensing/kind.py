@@ -20,7 +20,7 @@ class SensorTypes(Record):
 
     Attributes:
         known: The types that SDFormat reads.
-        lost: The types that it reads and nothing simulates; empty where no release is aimed at.
+        lost: The types that it reads and nothing simulates; empty if no release is aimed at.
     """
 
     known: frozenset[str]

@@ -45,7 +45,7 @@ class Lidar(Record, eq=False):
         vertical: Rows; one where the file states nothing.
         range_min: Metres; what a plugin of Gazebo Classic leaves out does not count.
         range_max: Metres; the same.
-        range_resolution: Metres; 0 where the file states none.
+        range_resolution: Metres; 0 if the file states none.
         noise: The noise of the ranges, metres.
         element: The `<lidar>` or `<ray>`.
     """
@@ -75,7 +75,7 @@ class Lidar(Record, eq=False):
 
 
 def read_lidar(sensor: Element) -> Lidar | None:
-    """Read the `<lidar>` or `<ray>` of a sensor; None when it has none."""
+    """Read the `<lidar>` or `<ray>` of a sensor; None if it has none."""
     element = sensor.child("lidar") or sensor.child("ray")
     if element is None:
         return None

@@ -152,7 +152,7 @@ def _words(text: str) -> list[str]:
 
 
 def _bisector(a: Vector, b: Vector) -> Vector | None:
-    """Return the direction half way between two; None where they are opposite."""
+    """Return the direction half way between two; None if they are opposite."""
     x, y, z = (p + q for p, q in zip(a, b, strict=True))
     length = math.hypot(x, y, z)
     return (x / length, y / length, z / length) if length > 0.0 else None

@@ -55,7 +55,7 @@ class Noise(Record, eq=False):
 
 
 def read_noise(holder: Element | None) -> Noise | None:
-    """Read the `<noise>` of an element; None when there is none."""
+    """Read the `<noise>` of an element; None if there is none."""
     element = holder.child("noise") if holder is not None else None
     if element is None:
         return None

@@ -34,7 +34,7 @@ class View(Record, eq=False):
     Attributes:
         filled: Rays that end at visuals, or at collisions.
         cut: Share of these that are nearer than the near clip, so that they are cut open.
-        by: The shape that takes most, and its link; None where there is none in view.
+        by: The shape that takes most, and its link; None if there is none in view.
     """
 
     mounted: Mounted

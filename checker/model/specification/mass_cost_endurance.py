@@ -82,7 +82,7 @@ def _duration(sentence: Sentence, match: re.Match[str], before: str) -> Quantity
 
 
 def endurance(stated: Sequence[Quantity]) -> Quantity | None:
-    """Return how long the model is said to run, in s, or None when the sheet is not clear.
+    """Return how long the model is said to run, in s, or None if the sheet is not clear.
 
     What the model is limited to counts more than what the robot reaches.
     """
@@ -212,7 +212,7 @@ def _clause(before: str) -> str:
 
 
 def total_mass(stated: Sequence[Quantity]) -> Quantity | None:
-    """Return the robot's mass, or None when the sheet gives none or several.
+    """Return the robot's mass, or None if the sheet gives none or several.
 
     Of an exact and an approximate statement the exact one counts, and a rounded one (3.6 kg) gives
     way to one with more digits (3557 g). Statements about named configurations do not count.

@@ -42,8 +42,8 @@ class Limit(Record, eq=False):
 
     Attributes:
         quantity: What is bounded.
-        axes: Letters among `xyz`; empty when the sheet names none.
-        minimum: The minimum in SI units; None when the sheet gives only the greatest amount.
+        axes: Letters among `xyz`; empty if the sheet names none.
+        minimum: The minimum in SI units; None if the sheet gives only the greatest amount.
         maximum: The maximum in SI units.
         modeled: Whether the sheet states that the model has this limit, other than the robot.
         approximate: Whether the text states `about`, `~` or the like.
@@ -169,7 +169,7 @@ def _axes(clause: str) -> str:
 
 
 def limit_of(stated: Sequence[Limit], quantity: MotionQuantity, axis: str) -> Limit | None:
-    """Return the limit that the sheet gives for an axis; None when it gives none or several.
+    """Return the limit that the sheet gives for an axis; None if it gives none or several.
 
     What the model is said to have counts more than what the robot reaches. A limit without an axis
     is meant for every axis.

@@ -35,10 +35,10 @@ class ListedSensor(Record, eq=False):
 
     Attributes:
         kind: What it is.
-        count: The number; None when the item does not state it clearly.
+        count: The number; None if the item does not state it clearly.
         modeled: Whether the item states which plugin or sensor of the model represents it.
         configurations: Sensor configurations that the item or the words above its list name;
-            empty when it is meant for all that the sheet describes.
+            empty if it is meant for all that the sheet describes.
         text: The item.
         span: The item.
     """

@@ -61,7 +61,7 @@ class Section(Record, eq=False):
 
     @property
     def is_empty(self) -> bool:
-        """True if nothing but headings is below it."""
+        """True if only headings is below it."""
         return all(passage.kind is PassageKind.HEADING for passage in self.passages)
 
 
@@ -83,7 +83,7 @@ class Specification(Record, eq=False, dict=True):
 
     @property
     def title(self) -> str:
-        """The first heading; empty when there is none."""
+        """The first heading; empty if there is none."""
         return self.sections[0].title if self.sections else ""
 
     def section(self, words: str) -> Section | None:
@@ -117,7 +117,7 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def total_mass(self) -> Quantity | None:
-        """Mass of the robot in kg; None when the sheet gives none or several."""
+        """Mass of the robot in kg; None if the sheet gives none or several."""
         return total_mass(self.masses)
 
     @cached_property
@@ -136,7 +136,7 @@ class Specification(Record, eq=False, dict=True):
         return tuple(limits(self._passages_of("motion")))
 
     def limit(self, quantity: MotionQuantity, axis: str) -> Limit | None:
-        """Return the limit for an axis (`x`, `y`, `z`); None when there is none or several."""
+        """Return the limit for an axis (`x`, `y`, `z`); None if there is none or several."""
         return limit_of(self.limits, quantity, axis)
 
     @cached_property

@@ -98,7 +98,7 @@ def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
 
 
 def unknown_mesh(robot: Robot, link: Link) -> str:
-    """Return why a mesh of a link is not known, as the end of a sentence; empty when all are."""
+    """Return why a mesh of a link is not known, as the end of a sentence; empty if all are."""
     return next((reason for reason, _ in _unknown_meshes(robot, link)), "")
 
 
@@ -127,7 +127,7 @@ def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
 def displacement(robot: Robot, link: Link, centre: Vector) -> float:
     """Return how far a centre of mass is outside the box around a link's shapes.
 
-    As a multiple of the box's diagonal; 0 where the box is not known.
+    As a multiple of the box's diagonal; 0 if the box is not known.
     """
     box = known_box(robot, link)
     return box.gap(Box(centre, centre)) / box.diagonal if box and box.diagonal else 0.0

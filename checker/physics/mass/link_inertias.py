@@ -109,7 +109,7 @@ def pseudo_eigenvalue(mass: float, rows: Rows) -> float:
 
 
 def _turned(rows: Rows, pose: Transform) -> Rows:
-    """Return moments in the robot's axes; none where one is not finite."""
+    """Return moments in the robot's axes; none if one is not finite."""
     if not _is_finite(rows):
         return ((0.0, 0.0, 0.0),) * 3
     turn = pose.rotation

@@ -22,7 +22,7 @@ class LinkInertia(Record, eq=False):
 
     Attributes:
         mass: Kilograms.
-        centre: Centre of mass in the robot's frame, metres; None where its pose is unknown.
+        centre: Centre of mass in the robot's frame, metres; None if its pose is unknown.
         principal: Principal moments about the centre of mass, ascending, kg·m²; NaN if a number
             is not finite.
         pseudo_eigenvalue: The smallest eigenvalue of the 4×4 pseudo-inertia about the centre of
@@ -59,7 +59,7 @@ class MassProperties(Record, eq=False):
     Attributes:
         robot: The weighed robot.
         mass: Kilograms.
-        centre: Centre of mass in the robot's frame, metres; None where nothing is known of it.
+        centre: Centre of mass in the robot's frame, metres; None if nothing is known of it.
         inertia: Rows of the 3×3 inertia about the centre of mass, robot's axes, kg·m²; likewise.
         links: The links by scoped name.
         support: Corners (x, y) of the convex polygon that it stands on, metres, counter-clockwise.

@@ -55,7 +55,7 @@ class Motion(Record):
 
 
 def motions_of(robot: Robot, joint: Joint) -> tuple[Motion, ...]:
-    """Return how a joint moves, from parent to child; nothing where it is held fixed.
+    """Return how a joint moves, from parent to child; nothing if it is held fixed.
 
     Types that are not known, axes without direction and limits that leave no range hold it.
     """

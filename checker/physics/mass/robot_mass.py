@@ -106,7 +106,7 @@ def _sum(a: _Load, b: _Load) -> _Load:
 
 
 def _holding_effort(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | None:
-    """Return what an axis holds; None where that is not a number."""
+    """Return what an axis holds; None if that is not a number."""
     mass, (x, y, _) = load
     a, b, c = motion.axis
     if motion.freedom is Freedom.SLIDE:

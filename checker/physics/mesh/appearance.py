@@ -47,7 +47,7 @@ are pixels that are not visible."""
 def picture(data: bytes) -> Array | None:
     """Return a PNG or JPEG file as red, green, blue, alpha (h × w × 4, uint8).
 
-    It is opaque. None where it cannot be read, or is too large to be.
+    It is opaque. None if it cannot be read, or is too large to be.
     """
     import numpy as np
     from PIL import Image
@@ -87,7 +87,7 @@ def sampled(pixels: Array, places: Array) -> Array:
 
 
 Pictures = Mapping[str, "Array | None"]
-"""Pixels (h × w × 4, uint8) by path; None where there are none."""
+"""Pixels (h × w × 4, uint8) by path; None if there are none."""
 _SHARED = 64
 """Pictures that are kept, a megabyte each at most."""
 _HEIGHT = 4

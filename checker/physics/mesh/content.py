@@ -37,8 +37,8 @@ class Piece(Record, eq=False):
         corners: n triangles × 3 corners × (x, y, z), metres.
         material: What they look like.
         places: The place of each corner in the picture (n × 3 × 2; u to the right, v upwards, 0 to
-            1 once across); None where the file does not state it.
-        part: Name of the part of the file that they belong to; empty where that is not known.
+            1 once across); None if the file does not state it.
+        part: Name of the part of the file that they belong to; empty if that is not known.
     """
 
     corners: Array

@@ -128,7 +128,7 @@ def _names(line: re.Pattern[bytes], data: bytes) -> tuple[str, ...]:
 
 
 def _picked(rows: Array, numbers: list[int]) -> Array | None:
-    """Return the rows that triangles name (n × 3 × …); None where one of them does not exist."""
+    """Return the rows that triangles name (n × 3 × …); None if one of them does not exist."""
     import numpy as np
 
     chosen = np.array(numbers, np.int64).reshape(-1, 3)
@@ -164,7 +164,7 @@ def _materials_in(content: bytes) -> Iterator[tuple[str, Material]]:
 
 
 def _numbers(words: list[bytes]) -> list[float]:
-    """Return numbers between 0 and 1; nothing when a word is none."""
+    """Return numbers between 0 and 1; nothing if a word is none."""
     try:
         numbers = [float(word) for word in words]
     except ValueError:

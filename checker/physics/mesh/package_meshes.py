@@ -83,7 +83,7 @@ class PackageMeshes(Record, eq=False, dict=True):
         return key if isinstance(key, MeshFault) else (place, key)
 
     def load_known(self, uri: Located[str]) -> Mesh | MeshFault | None:
-        """Return what is known of a file without reading it; None where nothing is."""
+        """Return what is known of a file without reading it; None if nothing is."""
         if "_by_address" in self.__dict__:
             return self._by_address.get(_address(uri), _UNKNOWN)
         content = self.content(uri)

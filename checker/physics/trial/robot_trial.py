@@ -74,7 +74,7 @@ class RobotTrial(Record, eq=False, dict=True):
         return self.robot.unplaced_part or next(iter(masses), "") or self.robot.bare_wheel
 
     def leg(self, name: str) -> Leg | None:
-        """Return a stretch of the course by its name; None when it was not driven."""
+        """Return a stretch of the course by its name; None if it was not driven."""
         return next((leg for leg in self.trial.legs if leg.name == name), None)
 
     @property

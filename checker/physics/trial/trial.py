@@ -139,7 +139,7 @@ class Trial(Record):
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m, the mean of the 0.1 s before), `joint:<joint>` (rad or m).
-        replay: Its motion; None where nothing moved, and of robots of too many moving parts.
+        replay: Its motion; None if nothing moved, and of robots of too many moving parts.
     """
 
     drive: str
@@ -156,7 +156,7 @@ class Trial(Record):
     replay: Replay | None = None
 
     def value(self, name: str, part: str = "") -> float | None:
-        """Return a figure; None when it was not measured."""
+        """Return a figure; None if it was not measured."""
         for measurement in self.measurements:
             if measurement.name == name and measurement.part == part:
                 return measurement.value

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     Whole = NDArray[int64]
     Range = tuple[Whole, Whole]
     Between = tuple[Array, Array]
-    """Metres along each ray (shapes × rays) at which it enters and leaves; NaN where it misses."""
+    """Metres along each ray (shapes × rays) at which it enters and leaves; NaN if it misses."""
 
 
 # Where rays meet the outer sides of triangles.

@@ -40,7 +40,7 @@ class Change(Record):
 
 
 def frame_of(place: Place) -> Frame | None:
-    """Return the line of a place; None where it is blank or not known."""
+    """Return the line of a place; None if it is blank or not known."""
     text = plain(place.snippet.expandtabs(1))
     if not text.strip() or place.column > len(text):
         return None

@@ -57,7 +57,7 @@ class ShownLaunch(Record):
 
     Attributes:
         nodes: The number of known nodes that it starts.
-        others: Topics that are only read or only published, as far as is known.
+        others: Topics that are only read or only published, as far as known.
         hidden: Frames that are not drawn.
     """
 

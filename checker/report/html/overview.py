@@ -78,7 +78,7 @@ def trial_sentences(
     Args:
         trial: The trial, as in `PackageReport.trial`.
         name: What the robot is called.
-        unseen: The reasons why rules on trials were not checked; empty where all were.
+        unseen: The reasons why rules on trials were not checked; empty if all were.
     """
     if trial["refused"]:
         return [f"MuJoCo refuses the model: {plain(shortened(trial['refused'], _TEXT_LIMIT))}."]

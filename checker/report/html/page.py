@@ -91,7 +91,7 @@ def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
 
 
 def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
-    """Return why the rules on the trial did not look; empty where they state nothing."""
+    """Return why the rules on the trial did not look; empty if they state nothing."""
     reasons = (skipped.reason for skipped in not_checked if skipped.rule.startswith("TRI"))
     return plain(shortened(next(reasons, ""), _TEXT_LIMIT))
 
@@ -208,7 +208,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
 
     Args:
         report: The report of all packages.
-        links: Address of each package's own page, relative to this one; none where it is empty.
+        links: Address of each package's own page, relative to this one; none if it is empty.
     """
     script = _script(("index.js",), with_viewer=False)
     sentences = map(sentence, report.packages)

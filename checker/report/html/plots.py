@@ -59,7 +59,7 @@ class TrialPlots(Record):
 
 
 def plots_of(trial: Mapping[str, Any], mass: float | None = None) -> TrialPlots | None:
-    """Return the plots of a trial; None where there are no samples.
+    """Return the plots of a trial; None if there are no samples.
 
     Args:
         trial: The trial, as in `PackageReport.trial`.

@@ -23,10 +23,10 @@ class ShownRobot(Record):
     Attributes:
         anchor: The anchor that links to its trial.
         in_view: Whether it is the one in 3D.
-        badge: `ok` or a severity: the result of the trial; empty where it was not judged.
+        badge: `ok` or a severity: the result of the trial; empty if it was not judged.
         verdict: The same in words, and why it was not driven.
         facts: Names and values.
-        trial: The trial, as in `PackageReport.trial`; None where nothing was driven.
+        trial: The trial, as in `PackageReport.trial`; None if nothing was driven.
     """
 
     anchor: str

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from checker.base.record import Record
 
 Values = Sequence[float | None]
-"""The values of a curve; None where there is none."""
+"""The values of a curve; None if there is none."""
 Named = tuple[str, Values]
 """A curve with its name."""
 
@@ -18,7 +18,7 @@ class Scale(Record):
     Attributes:
         low: The start of the scale.
         high: The end of the scale.
-        peak: The value farthest beyond it; 0 where it holds all.
+        peak: The value farthest beyond it; 0 if it holds all.
     """
 
     low: float

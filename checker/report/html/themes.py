@@ -43,7 +43,7 @@ class Course(Record):
     mass: float | None
 
     def series(self, name: str) -> Values:
-        """Return samples by name; none where there are none."""
+        """Return samples by name; none if there are none."""
         values: Values = self.trial["series"].get(name, ())
         return values
 

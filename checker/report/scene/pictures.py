@@ -73,7 +73,7 @@ def shots_of(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
 def shot_of(
     scene: DisplayScene, layer: Layer, direction: tuple[float, float], aspect: float, caption: str
 ) -> Shot | None:
-    """Return a shot of a robot at rest; None where nothing of a layer can be shown.
+    """Return a shot of a robot at rest; None if nothing of a layer can be shown.
 
     Args:
         scene: The scene of the robot.
@@ -241,7 +241,7 @@ class Drawing:
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
-        """The files of JPEG as pictures; none where nothing can draw without a window."""
+        """The files of JPEG as pictures; none if nothing can draw without a window."""
         files = self.files
         if isinstance(files, WorkerFailed):
             return ()

@@ -56,7 +56,7 @@ class LinkNode(Record, eq=False):
         element: Path of its element, as `Place.element` has it.
         pose: The pose in the robot's frame while all joints stand at 0.
         items: What is to see.
-        carrier: Name of the link with a track that this one is fixed to; empty where it has a track
+        carrier: Name of the link with a track that this one is fixed to; empty if it has a track
             of its own, and for what stays where it is.
     """
 

@@ -21,7 +21,7 @@ class Gain(Record, eq=False):
     """A gain of a PID loop.
 
     Attributes:
-        value: The value as a number; None where it is not a number, NaN where it is known at launch
+        value: The value as a number; None if it is not a number, NaN if it is known at launch
             only.
         text: The text as written.
     """
@@ -37,11 +37,11 @@ class Controller(Record, eq=False):
     Attributes:
         name: Path below the namespace, such as `arm_controller`.
         namespace: Absolute namespace it is loaded under, such as `/gurdy`.
-        type: The type, such as `effort_controllers/JointPositionController`; None when not stated.
+        type: The type, such as `effort_controllers/JointPositionController`; None if not stated.
         joints: Names under `joint`, `joints` or the wheels of a drive.
         gains: The gains by joint, then `p`, `i`, `d`; a joint whose loop is not configured is
             absent.
-        loaded_by: The `<rosparam>` that loads it; None when no launch file does.
+        loaded_by: The `<rosparam>` that loads it; None if no launch file does.
         span: Its key.
     """
 
@@ -60,12 +60,12 @@ class Controller(Record, eq=False):
 
     @property
     def family(self) -> str:
-        """Package of its type: `effort_controllers`; empty when not stated."""
+        """Package of its type: `effort_controllers`; empty if not stated."""
         return self.type.value.partition("/")[0] if self.type else ""
 
     @property
     def kind(self) -> str:
-        """Class of its type: `JointPositionController`; empty when not stated."""
+        """Class of its type: `JointPositionController`; empty if not stated."""
         return self.type.value.partition("/")[2] if self.type else ""
 
 
@@ -73,7 +73,7 @@ class ControlPlugin(Record, eq=False):
     """The plugin `gazebo_ros_control`.
 
     Attributes:
-        namespace: What `<robotNamespace>` states, absolute; None when it states nothing.
+        namespace: What `<robotNamespace>` states, absolute; None if it states nothing.
         parameter: What `<robotParam>` states, else `robot_description`.
     """
 
@@ -136,7 +136,7 @@ class ControlSystem(Record, eq=False, dict=True):
 
     Attributes:
         robots: Names of the robots.
-        joints: The joints by name, of all robots; None when the robots are not known.
+        joints: The joints by name, of all robots; None if the robots are not known.
         transmissions: The transmissions of all robots.
         plugins: Each use of `gazebo_ros_control`.
         publishes_states: Whether a Gazebo plugin publishes the joint states itself.

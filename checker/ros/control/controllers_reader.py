@@ -40,7 +40,7 @@ def read_controllers(
     Args:
         root: The root node of the text.
         namespace: Absolute namespace under which its keys are set.
-        loaded_by: The `<rosparam>` that loads it; None when no launch file does.
+        loaded_by: The `<rosparam>` that loads it; None if no launch file does.
     """
     inside = namespace if _is_controller(root) and namespace != "/" else ""
     if inside:

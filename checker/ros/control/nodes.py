@@ -87,7 +87,7 @@ class SpawnedModel(Record, eq=False):
 
     @property
     def model(self) -> str:
-        """Name that the model gets; empty when none is stated."""
+        """Name that the model gets; empty if none is stated."""
         return self._word("-model")
 
     @property
@@ -97,7 +97,7 @@ class SpawnedModel(Record, eq=False):
 
     @property
     def parameter(self) -> str:
-        """Absolute name of the parameter that contains the description; empty when none does."""
+        """Absolute name of the parameter that contains the description; empty if none does."""
         word = self._word("-param")
         return resolve_name(word, self.node.namespace, self.node.name) if word else ""
 

@@ -83,7 +83,7 @@ class KnownParameter(Record, rename={"distros": "in"}):
     Attributes:
         type: `double`, `string_array`, …
         distros: The distributions that know it; all of its controller when empty.
-        default: Its default; None when it has none.
+        default: Its default; None if it has none.
         validation: Names of its validators.
     """
 
@@ -103,7 +103,7 @@ class ControllerType(Record):
         sensor_params: Parameters that name a sensor or gpio of `<ros2_control>`.
         required: Parameters without which it cannot be configured, and where.
         params: All its parameters by name; `<joints>` in a name represents each of that list.
-        interface: Command interface of its joints; empty where the parameters state it.
+        interface: Command interface of its joints; empty if the parameters state it.
     """
 
     package: str

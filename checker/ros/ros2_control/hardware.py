@@ -45,7 +45,7 @@ class HardwareJoint(Record, eq=False):
 
     Attributes:
         name: The name of the joint in the URDF, or of the sensor or gpio.
-        mimic: Its attribute `mimic`; None when it has none.
+        mimic: Its attribute `mimic`; None if it has none.
         commands: Its command interfaces.
         states: Its state interfaces.
         params: Its own `<param>`s.
@@ -70,8 +70,8 @@ class Hardware(Record, eq=False, dict=True):
 
     Attributes:
         name: Empty when not stated.
-        type: `system`, `actuator` or `sensor`; empty when not stated.
-        plugin: Class of the hardware component; empty when not stated.
+        type: `system`, `actuator` or `sensor`; empty if not stated.
+        plugin: Class of the hardware component; empty if not stated.
         joints: The joints in order.
         sensors: The sensors in order.
         gpios: The GPIOs in order.

@@ -142,7 +142,7 @@ class LaunchedControl(Record, eq=False, dict=True):
 
     @cached_property
     def listed_controllers(self) -> frozenset[str] | None:
-        """Controllers whose type the managers know; None where a file of theirs is not known."""
+        """Controllers whose type the managers know; None if their file is not known."""
         if self._files is None:
             return None
         inline = (

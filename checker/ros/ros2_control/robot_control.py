@@ -42,8 +42,8 @@ class ParametersFile(Record, eq=False):
 
     Attributes:
         text: What the plugin states.
-        package: Name of the package that it is in; empty where that is not known.
-        path: The path as the checked package lists it; None where no such package is available.
+        package: Name of the package that it is in; empty if that is not known.
+        path: The path as the checked package lists it; None if no such package is available.
         exists: Whether the file is there.
     """
 
@@ -154,7 +154,7 @@ class ControlReader:
         self._values = 0
 
     def control(self, description: UrdfDescription) -> RobotControl | None:
-        """Return ros2_control of a robot; None when it has none."""
+        """Return ros2_control of a robot; None if it has none."""
         robot = description.robot
         hardware = read_hardware(description.document.root)
         managers = tuple(map(self._manager, filter(_runs_manager, robot.plugins)))
@@ -220,7 +220,7 @@ class ControlReader:
                 yield file
 
     def file(self, path: str) -> ControllerFile | None:
-        """Return the file at a path as xacro and launch see it; None when it cannot be had."""
+        """Return the file at a path as xacro and launch see it; None if it cannot be had."""
         local = local_file(self.package, path)
         root = self._yaml(local)[0] if local is not None else None
         if local is None or root is None:

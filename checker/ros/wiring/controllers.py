@@ -58,7 +58,7 @@ class RunController(Record, eq=False, dict=True):
 
     @cached_property
     def endpoints(self) -> tuple[Endpoint, ...]:
-        """The topics that it may have; none where its type is not known."""
+        """The topics that it may have; none if its type is not known."""
         controller = self.controller
         known = _controller_topics().get(controller.type.value, _Topics())
         return tuple(

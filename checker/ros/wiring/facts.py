@@ -19,7 +19,7 @@ class NodeFacts(Record):
     """The interface of a program.
 
     Attributes:
-        name: The name of its node where the launch file sets none; empty when none is fixed.
+        name: The name of its node where the launch file sets none; empty if none is fixed.
         publishes: Topics that it may publish, each with its types.
         publishes_more: Types of topics that are only known when it runs; `*` for any.
         subscribes: Topics that it may read, each with its types.

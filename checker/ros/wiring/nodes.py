@@ -38,14 +38,14 @@ class WiredNode(Record, eq=False, dict=True):
 
     @property
     def name(self) -> str:
-        """Its name without the namespace; empty when it is not known."""
+        """Its name without the namespace; empty if it is not known."""
         if self.node.name is not None and self.node.name.value:
             return self.node.name.value if is_known(self.node.name.value) else ""
         return self.facts.name if self.facts is not None else ""
 
     @property
     def full_name(self) -> str:
-        """Its namespace and name; empty when they are not known."""
+        """Its namespace and name; empty if they are not known."""
         known = self.name and is_known(self.node.namespace) and not self._rules
         return resolve_name(self.name, self.node.namespace) if known else ""
 
@@ -84,7 +84,7 @@ class WiredNode(Record, eq=False, dict=True):
         return settings_of(self.node, self.files, self.name, self.node.namespace)
 
     def fill_in(self, text: str) -> str | None:
-        """Return a text of the table with the values of parameters; None when one is not known."""
+        """Return a text of the table with the values of parameters; None if one is not known."""
         defaults = self.facts.defaults if self.facts is not None else {}
         for _ in range(_DEEPEST):
             for name in _REFERENCE.findall(text):

@@ -25,7 +25,7 @@ class Setting(Record, eq=False):
 
     @property
     def text(self) -> str | None:
-        """The value as text, truth values in small letters; None when it is not known."""
+        """The value as text, truth values in small letters; None if it is not known."""
         text = str(self.value)
         if isinstance(self.value, bool):
             return text.lower()
@@ -37,8 +37,8 @@ class LoadedFile(Record, eq=False):
 
     Attributes:
         given: The place where the launch file names it.
-        path: The path as the package lists it; empty when it is not available.
-        blocks: What it gives to which nodes; none when it cannot be read.
+        path: The path as the package lists it; empty if it is not available.
+        blocks: What it gives to which nodes; none if it cannot be read.
         is_read: Whether it could be read.
         refused: The key for whose value rcl refuses the file, if there is one.
     """

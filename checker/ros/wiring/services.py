@@ -20,7 +20,7 @@ class Wanted(Record, eq=False):
 
     Attributes:
         name: Absolute.
-        item: The item of a list that makes it wait; empty where its program always does.
+        item: The item of a list that makes it wait; empty if its program always does.
         span: What states it, else the start of the node.
     """
 

@@ -52,7 +52,7 @@ class _Choice(Record):
     false: _Side | None = None
 
     def side(self, value_of: Callable[[str], str | None]) -> _Side | None:
-        """Return topic and type for the values of parameters; None when they are not known."""
+        """Return topic and type for the values of parameters; None if they are not known."""
         if not self.param:
             return _Side(self.topic, self.type)
         value = value_of(self.param)

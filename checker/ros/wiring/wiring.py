@@ -32,7 +32,7 @@ class Wiring(Record, eq=False, dict=True):
     Attributes:
         graph: The graph of the launch file.
         every_node: Its nodes, those that conditions leave out among them.
-        simulation: What it simulates and bridges; None when it has nothing to do with Gazebo.
+        simulation: What it simulates and bridges; None if it has nothing to do with Gazebo.
         described: The nodes that publish the joints of a robot, each with the robot.
         in_classic: Robots that it puts into Gazebo Classic.
     """
@@ -140,7 +140,7 @@ def wirings(
 
     Args:
         launch: The launch files of a package.
-        simulations: What they simulate; None when that is nothing.
+        simulations: What they simulate; None if that is nothing.
         reader: The reader of the parameter files of the package.
         robots: The robots that launch files are given.
     """

@@ -38,9 +38,9 @@ class Comment(Record):
 
     Attributes:
         place: The place.
-        names: Ids or names of rules; none where the comment has another form.
-        fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
-        reason: The reason; empty when it does not state it.
+        names: Ids or names of rules; none if the comment has another form.
+        fault: What is wrong with its form, as a part of a sentence; empty if nothing is.
+        reason: The reason; empty if it does not state it.
         lines: The lines of the file, counted from 1: findings there are set aside.
     """
 
@@ -101,7 +101,7 @@ def _lines_below(source: SourceText, stretches: list[tuple[int, int]]) -> dict[i
 
 
 def _is_alone(text: str, start: int, end: int) -> bool:
-    """Return whether the lines of a comment hold nothing but comments."""
+    """Return whether the lines of a comment hold only comments."""
     first = text.rfind("\n", max(0, start - _LENGTH_LIMIT), start) + 1
     last = text.find("\n", end, end + _LENGTH_LIMIT)
     last = len(text) if last < 0 else last
@@ -117,7 +117,7 @@ def _is_alone(text: str, start: int, end: int) -> bool:
 def _parsed(
     source: SourceText, mark: re.Match[str], end: int, below: dict[int, int]
 ) -> Comment | None:
-    """Return what a comment states; None when it is about something else."""
+    """Return what a comment states; None if it is about something else."""
     content = _CONTENT.match(source.text[mark.end() : end].removesuffix("-->"))
     if content is None:
         return None

@@ -23,7 +23,7 @@ class Spot(Record):
     Attributes:
         rule: Id of the rule.
         place: File and element, as `place_name` gives them.
-        key: What the finding's places have in common; empty where that is the message.
+        key: What the finding's places have in common; empty if that is the message.
     """
 
     rule: str
@@ -70,6 +70,6 @@ def by_words(rule: str, place: str, key: str, message: str) -> Hashable:
 def by_element(rule: str, place: str, key: str, _message: str) -> Hashable:
     """Return what a fault of the same element has in common: a value may change, and the words.
 
-    None where there is no element.
+    None if there is no element.
     """
     return (rule, place, key) if ELEMENT_MARK in place else None

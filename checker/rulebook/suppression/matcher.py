@@ -159,7 +159,7 @@ class SuppressionMatcher:
         return any((file, line, rule) in self._used_lines for line in comment.lines)
 
     def _id(self, name: str) -> str:
-        """Return the id of a rule by its id or name; empty when there is no such rule."""
+        """Return the id of a rule by its id or name; empty if there is no such rule."""
         return self._ids.get(name.upper()) or self._ids.get(name.lower()) or ""
 
     def _ids_of(self, comment: Comment) -> Iterator[str]:

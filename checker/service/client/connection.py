@@ -72,7 +72,7 @@ class Answer(Record):
 
     @property
     def retry_after(self) -> float:
-        """Seconds that the service requests to wait; 0 where it does not state it."""
+        """Seconds that the service requests to wait; 0 if it does not state it."""
         text = self.headers.get("retry-after", "")
         return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
 

@@ -128,7 +128,7 @@ class PythonNames:
                 self.names.append(WrittenName(kinds, found.name, start, end, Role.MAY_NAME))
 
     def _text_start(self, node: ast.Constant, text: str) -> int | None:
-        """Return where the text of a string begins; None where it is written otherwise."""
+        """Return where the text of a string begins; None if it is written otherwise."""
         span = span_of_node(self._source, node)
         start, end = span.start, span.end
         quotes = _QUOTES.match(self._text, start)

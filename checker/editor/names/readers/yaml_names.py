@@ -42,7 +42,7 @@ def yaml_names(root: YamlNode) -> Iterator[WrittenName]:
 
 
 def text_of(node: YamlNode) -> Span | None:
-    """Return the place of a scalar's text without its quotes; None where it is escaped."""
+    """Return the place of a scalar's text without its quotes; None if it is escaped."""
     span = node.span
     text = span.text
     if text[:1] in ("'", '"') and len(text) > 1 and text[-1:] == text[:1]:

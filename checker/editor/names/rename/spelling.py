@@ -46,7 +46,7 @@ _XACRO_TAGS = frozenset(
 
 
 def invalid(kind: NameKind, old: str, new: str) -> str:
-    """Return why a thing cannot have a name; empty when it can.
+    """Return why a thing cannot have a name; empty if it can.
 
     Args:
         kind: The kind of the thing.

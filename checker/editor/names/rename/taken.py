@@ -12,7 +12,7 @@ _PARTS = frozenset({NameKind.LINK, NameKind.JOINT, NameKind.FRAME, NameKind.MODE
 
 
 def name_conflict(rename: Rename) -> str:
-    """Return why the new name is not free; empty when it is.
+    """Return why the new name is not free; empty if it is.
 
     A text that may name a part once there is one of its name counts too: the thing would have
     a mention that it never had.

@@ -40,7 +40,7 @@ _MEANINGS = ((1, 5), (1, 7))
 
 
 def obstacle(robot: Robot) -> str:
-    """Return the reason, as the end of a sentence; empty when it can be flattened."""
+    """Return the reason, as the end of a sentence; empty if it can be flattened."""
     return next(_obstacles(robot), "")
 
 

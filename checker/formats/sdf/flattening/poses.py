@@ -65,7 +65,7 @@ def pose_text(pose: Transform) -> str:
 
 
 def _numbers(element: Element, count: int) -> tuple[Located[float], ...] | None:
-    """Return the numbers in an element; None where there are not as many as there should be."""
+    """Return the numbers in an element; None if there are not as many as there should be."""
     reader = ValueReader()
     read = reader.numbers_in(element.text)
     return read if len(read) == count and not reader.faults else None

@@ -85,8 +85,8 @@ class BridgeEntry(Record, eq=False):
 
     Attributes:
         passed: The name as it is written.
-        gz_topic: Absolute, on Gazebo's side; empty when it is not known before the launch.
-        ros_topic: Absolute, on ROS's side, after remaps; empty when it is not known.
+        gz_topic: Absolute, on Gazebo's side; empty if it is not known before the launch.
+        ros_topic: Absolute, on ROS's side, after remaps; empty if it is not known.
         remapped: Whether a remap gives it another name in ROS.
         node: The node that bridges it; None for a file that no available launch file names.
     """

@@ -43,7 +43,7 @@ class World(Protocol):
         """Return the text of a file below a share folder, or why it cannot be had."""
 
     def exists(self, path: str) -> bool | None:
-        """Return whether there is a file or folder; None when its package is not available."""
+        """Return whether there is a file or folder; None if its package is not available."""
 
     def module(self, path: str, run: Interpreter, node: ast.AST) -> Scope | None:
         """Return the names of a Python module of a available package."""
@@ -52,7 +52,7 @@ class World(Protocol):
         """Return the text that substitutions represent."""
 
     def configuration(self, name: str) -> Value:
-        """Return the value of an argument; None when there is none."""
+        """Return the value of an argument; None if there is none."""
 
     def directory(self, source: SourceText) -> str:
         """Return the path of a launch file as it is installed."""
@@ -115,7 +115,7 @@ class Interpreter:
     # Tests and names.
 
     def truth(self, value: Value) -> bool | None:
-        """Return whether a value counts as true; None when that is not known."""
+        """Return whether a value counts as true; None if that is not known."""
         value = chosen_value(value)
         if isinstance(value, Unknown):
             return None

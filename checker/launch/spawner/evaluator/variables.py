@@ -22,7 +22,7 @@ _NUMBERS = {"Math::PI": math.pi, "Float::INFINITY": math.inf}
 
 
 def variable(run: Interpreter, node: RubyNode) -> Value | None:
-    """Return a local variable, `__FILE__` or `__dir__`; None when there is none of this name."""
+    """Return a local variable, `__FILE__` or `__dir__`; None if there is none of this name."""
     value = run.scope.find(node.text)
     if value is not None:
         return _read(run, value)

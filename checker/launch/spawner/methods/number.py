@@ -70,7 +70,7 @@ _OPERATIONS: Mapping[str, Callable[[Number, Number], Number]] = {
 
 
 def calculate(sign: str, left: Number, right: Number) -> Number | None:
-    """Return the result of an arithmetic operator, or None when it is none.
+    """Return the result of an arithmetic operator, or None if it is none.
 
     Raises:
         ZeroDivisionError: Division of an integer by the integer 0, or a remainder by any 0.

@@ -126,7 +126,7 @@ def averaged(forces: Array, timestep: float) -> Array:
 
 
 def replay_of(run: Run) -> Replay | None:
-    """Return the motion up to the first number that is not finite; None where nothing is kept."""
+    """Return the motion up to the first number that is not finite; None if nothing is kept."""
     import numpy as np
 
     rig, samples = run.rig, run.samples

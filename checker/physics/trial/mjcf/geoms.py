@@ -113,7 +113,7 @@ class GeomReader:
     assets: dict[Points, str] = field(default_factory=dict)
 
     def geom_of(self, link: Link, collision: Collision) -> Geom | None:
-        """Return a shape as MuJoCo can collide it; None where it is left out."""
+        """Return a shape as MuJoCo can collide it; None if it is left out."""
         at, frame = self._pose_in_link(link, collision), self.poses[link.scoped_name]
         if at is None:
             self._leave_out(link, collision, "has an unknown place")

@@ -56,7 +56,7 @@ class Degree(Record):
 
 
 def degrees_of(robot: Robot, joint: Joint, ledger: Ledger) -> tuple[Degree, ...]:
-    """Return the degrees of freedom of a joint; none where it is held fixed."""
+    """Return the degrees of freedom of a joint; none if it is held fixed."""
     motions = motions_of(robot, joint)
     type = joint.type.value
     if type not in AXES and type != "fixed":

@@ -51,7 +51,7 @@ class Forest(Record, eq=False, dict=True):
         return self.spanning_tree.by.get(name)
 
     def base(self, name: str) -> str | None:
-        """Return the link that a link is connected to; None where that is the world or nothing."""
+        """Return the link that a link is connected to; None if that is the world or nothing."""
         tie = self.tie(name)
         return tie.parent if tie is not None and tie.parent != WORLD else None
 

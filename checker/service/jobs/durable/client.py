@@ -148,7 +148,7 @@ class DurableJobs(Record):
         return {name: seconds for name, seconds in taken.items() if seconds}
 
     def _seconds(self, stage: Stage) -> float:
-        """Return the median of what a stage took lately, seconds; 0 when that is not known."""
+        """Return the median of what a stage took lately, seconds; 0 if that is not known."""
         rows = self.checks.client.list_workflows(
             name=stage.value,
             status="SUCCESS",

@@ -67,7 +67,7 @@ class Stages(Record):
             given: The task, as JSON has it.
 
         Returns:
-            The end of its check (`tasks.End`), as JSON has it; empty where a further task follows.
+            The end of its check (`tasks.End`), as JSON has it; empty if a further task follows.
         """
         task, begun = msgspec.convert(given, Task), time.monotonic()
         try:

@@ -115,7 +115,7 @@ class Space:
             raise _too_much(held)
 
     def _room(self) -> int | None:
-        """Return the bytes that uploads may still take; None where only writing shows it."""
+        """Return the bytes that uploads may still take; None if only writing shows it."""
         try:
             return self._free() - self._kept_free
         except OSError:
