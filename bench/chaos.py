@@ -55,7 +55,7 @@ _AT_ONCE = 50
 _SOON = 3.0
 """Seconds until checks are under way."""
 _BEAT_FILES_SECONDS = 90.0
-"""Within which nothing that the dead have left may be in `incoming`."""
+"""Time after which no files of ended processes may be in `incoming`."""
 
 
 def robot(number: int) -> bytes:
@@ -117,7 +117,7 @@ def _asked(groups: Sequence[Group], path: str) -> httpx.Response:
 
 
 def ended(groups: Sequence[Group], id: str, patience: float) -> Mapping[str, Any]:
-    """Wait until a check is over, at most so many seconds, and return how it stands."""
+    """Wait until a check is over, at most so many seconds, and return its state."""
     ends = monotonic() + patience
     while monotonic() < ends:
         state: Mapping[str, Any] = _asked(groups, f"/api/checks/{id}").json()
@@ -151,7 +151,7 @@ def faults(groups: Sequence[Group], number: int, id: str) -> Iterator[str]:
 
 
 def left_over(data: Path) -> list[str]:
-    """Wait a while for the service to clean up, and return the files that are left at work."""
+    """Wait a while for the service to clean up, and return the working files that are left."""
     ends = monotonic() + _BEAT_FILES_SECONDS
     while (left := _at_work(data)) and monotonic() < ends:
         sleep(1.0)
@@ -300,7 +300,7 @@ def services(
     """Start one service on SQLite, or two on a PostgreSQL server, with three workers in all.
 
     Args:
-        folder: Holds data and logs.
+        folder: Contains data and logs.
         server: Address of PostgreSQL; empty for SQLite.
         size: Bytes of the disk of the data; 0 for that of the folder.
         bucket: Variables that lead to one of S3, in place of a folder that services share.

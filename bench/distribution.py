@@ -76,7 +76,7 @@ class Distribution:
             below[column] += 1
 
     def lines(self) -> list[tuple[float, str]]:
-        """Return where the numbers stand, and what they are called."""
+        """Return the positions and names of the numbers."""
         return [(self._place(at), f"{name} = {at:g}") for name, at in self.numbers.items()]
 
 

@@ -98,7 +98,7 @@ class Editor:
 
 
 def _resident(pid: int) -> float:
-    """Return the megabytes of a process, its share of what several hold."""
+    """Return the megabytes of a process, its share of memory that several processes use."""
     try:
         lines = Path(f"/proc/{pid}/smaps_rollup").read_text("ascii").splitlines()
     except OSError:

@@ -2,7 +2,7 @@
 
 Run with `python -m bench.install`. Builds the wheel and installs it into new virtual environments,
 first without extras, then with physics. What pip fetches counts: run it twice, so that its cache
-holds all.
+contains all.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ class Group:
 
     Attributes:
         number: The number of the port, also in the name of its log.
-        folder: Holds the data, and the log.
+        folder: Contains the data, and the log.
         bucket: Variables that lead to one of S3, so that it has its own data; empty: in a folder
             with other services.
         database: Its address; empty for SQLite with the data.
@@ -127,7 +127,7 @@ def of_group(group: Group, kind: str) -> list[int]:
 
 
 def of_launchers(pids: Sequence[int]) -> list[int]:
-    """Return the processes below others that read a stranger's files, with their launchers."""
+    """Return the processes below others that read untrusted files, with their launchers."""
     found = [inner for pid in pids for inner in descendant_ids(pid)]
     return [pid for pid in found if b"launcher_process" in command_of(pid)]
 

@@ -45,7 +45,7 @@ class Upload:
 
 @dataclass(frozen=True)
 class Client:
-    """Speaks with a service as any program does: a connection for each request.
+    """Client of a service, as any program: a connection for each request.
 
     Attributes:
         address: The address, such as `http://127.0.0.1:8000`.
@@ -65,7 +65,7 @@ class Client:
         return Upload(status, json.loads(said).get("id", ""), perf_counter() - begun)
 
     def state(self, id: str) -> Mapping[str, Any]:
-        """Return where a check stands."""
+        """Return the state of a check."""
         return self._json(f"/api/checks/{id}")
 
     def report(self, id: str) -> Mapping[str, Any]:
@@ -81,7 +81,7 @@ class Client:
                     yield json.loads(line.removeprefix(b"data: "))
 
     def ends(self, ids: Iterable[str]) -> dict[str, Mapping[str, Any]]:
-        """Wait until all checks are over, and return how they stand."""
+        """Wait until all checks are over, and return their states."""
         over: dict[str, Mapping[str, Any]] = {}
         for id in ids:
             while not (state := self.state(id))["final"]:
@@ -213,7 +213,7 @@ def _read(pid: int, name: str) -> bytes:
 
 
 def say(words: str) -> None:
-    """Tell how far the bench is."""
+    """Print the progress of the bench."""
     print(words, file=sys.stderr, flush=True)
 
 

@@ -1,7 +1,7 @@
 """Speed and memory of the static rules: medians, on real packages and on generated robots.
 
 What meshes contain, sensors see and xacro files expand to is in the cache; the rules run each time.
-Run with `make bench`; SUBT_CHECK_CORPUS names the folder of real packages, the samples stand in
+Run with `make bench`; SUBT_CHECK_CORPUS names the folder of real packages, the samples are used
 where there is none. Machines differ and are shared: compare ratios, not milliseconds.
 """
 

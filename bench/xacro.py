@@ -1,7 +1,7 @@
 """Seconds to expand all real xacro files: expressions evaluated here, and by xacro's own `eval`.
 
 Run with `python -m bench.xacro` from the top folder; SUBT_CHECK_CORPUS, SUBT_CHECK_REVIEWS and
-SUBT_CHECK_MODERN name folders of real packages, the samples stand in where there is none. Machines
+SUBT_CHECK_MODERN name folders of real packages, the samples are used without it. Machines
 differ and are shared: compare the ratio, not seconds.
 """
 

@@ -45,7 +45,7 @@ class Severity(enum.StrEnum):
 
     `ERROR`: the robot or its interface does not load, move, collide, weigh, sense or publish as
     written, or a required part of a submission is missing. `WARNING`: probably not what the author
-    wants, or off the checklist, and it works. `INFO`: worth knowing.
+    intends, or off the checklist, and it works. `INFO`: worth knowing.
     """
 
     ERROR = "error"

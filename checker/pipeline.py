@@ -76,7 +76,7 @@ def check_paths(
 Checked = tuple[PackageReport | NotOpened, ...]
 """The result of one task."""
 _PATCHED = 2000
-"""Findings whose fixes a report's patch holds; `--fix` makes all."""
+"""Findings whose fixes a report's patch contains; `--fix` makes all."""
 _PROBLEM_LIMIT = 600
 """Characters of what is wrong with settings."""
 

@@ -12,15 +12,15 @@ with `@` mean:
 - `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
   text takes the place of the arm's transmission and plugin; True leaves these as they are.
 - `@ros2`: a ROS 2 package instead: an arm in xacro, a YAML file, and `launch/arm.launch.py`, whose
-  launch description holds the text; True starts the arm alone.
+  launch description contains the text; True starts the arm alone.
 - `@bridge`: a ROS 2 package instead: a rover with a lidar, the launch file that starts Gazebo,
   spawns it and bridges its topics, and `config/bridge.yaml`, whose place the text takes.
 - `@launch`: a mapping of texts in the launch file of that package to what takes their place.
 - `@with`: ids of rules that run along.
 - `@profile`: the profile that judges it instead of the first one that has the rule.
-- `@reported`: what must be reported where no marker can stand.
+- `@reported`: what must be reported where no marker is possible.
 
-The marker `^ SEN005` stands on the line that must be reported. Rules of other distributions are
+The marker `^ SEN005` is on the line that must be reported. Rules of other distributions are
 tested by the same two functions of `subt_check.rule_testing`::
 
     @pytest.mark.parametrize(("rule", "kind", "example"), examples_of(rules_in("acme_rules")))

@@ -165,7 +165,7 @@ def _left_of_process() -> float:
 
 
 def _resident() -> int:
-    """Return the bytes of memory that this process holds; where unknown, the most so far."""
+    """Return the bytes of memory that this process uses; if unknown, the most so far."""
     try:
         pages = int(Path("/proc/self/statm").read_text("ascii").split()[1])
     except OSError:

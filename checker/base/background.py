@@ -54,7 +54,7 @@ class Work(Record, Generic[T], eq=False):
             none: the answering process may be compromised.
         common: What all items need.
         files: Returns paths of files that go with items, and how many bytes each may have.
-        lasts: Whether a result holds next time too.
+        lasts: Whether a result is valid next time too.
         here: Computes one item in this process, where that takes less than to start another.
     """
 

@@ -1,7 +1,7 @@
 """Work on hostile or heavy input in a sandboxed process with limits; the caller survives its death.
 
 The process runs one function of one module: `answer(request, files)`. Messages in both directions
-are bytes (JSON, say), never pickles: a compromised process must not compromise its caller. It is
+are bytes (such as JSON), never pickles: a compromised process must not compromise its caller. It is
 started in the sandbox (`checker.base.sandbox`), and given no path.
 """
 

@@ -46,7 +46,7 @@ class InvalidSettings(CheckerError):
 
     Attributes:
         path: The settings file; None if the command line states it.
-        problem: What is wrong, and what is known instead; it may repeat what a stranger wrote.
+        problem: What is wrong, and what is known instead; it may repeat untrusted text.
     """
 
     def __init__(self, path: Path | None, problem: str) -> None:

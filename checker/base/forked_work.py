@@ -61,7 +61,7 @@ def forks_time() -> float:
 def run_all_in_forks(
     works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
 ) -> list[bytes | WorkerFailed]:
-    """Return what each of several works returns in a fork; one that dies takes no other with it.
+    """Return what each of several works returns in a fork; a crash of one leaves the others.
 
     They share a fork, since a new one takes as long as a small file. Where it ends, the work at
     which it did is tried again, the first in its own fork. Those that take long are done

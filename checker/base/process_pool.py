@@ -92,7 +92,7 @@ class _Process:
         return value
 
     def finish(self) -> None:
-        """Let it end as it likes."""
+        """Let it end by itself."""
         # Not by closing the pipe: processes that were forked later hold it, too.
         self.connection.send(None)
         self._process.join()

@@ -10,7 +10,7 @@ from difflib import SequenceMatcher, get_close_matches
 
 
 EFFORT = 200_000
-"""Comparisons of words in all: some 0.3 s. A file may hold thousands of unknown names."""
+"""Comparisons of words in all: some 0.3 s. A file may contain thousands of unknown names."""
 
 
 SLIP = 2

@@ -51,7 +51,7 @@ def has_hook(text: str) -> bool:
 def with_hook(text: str) -> str | None:
     """Return a configuration with the hook behind the others.
 
-    None if it cannot be added as text with certainty: the result is read again, and must hold
+    None if it cannot be added as text with certainty: the result is read again, and must contain
     what was there before and the hook.
     """
     before = _loaded(text)
@@ -119,7 +119,7 @@ class Guess(Record):
 
     Attributes:
         profile: The guessed profile; empty if there is none or more than one.
-        reason: A part of a sentence; holds no text of a user.
+        reason: A part of a sentence; contains no text of a user.
     """
 
     profile: str

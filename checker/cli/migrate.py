@@ -31,7 +31,7 @@ def migrate_and_check(
     check_wishes: dict[str, Any],
     say: Say = say_nothing,
 ) -> tuple[str, Report]:
-    """Migrate, and check what came out.
+    """Migrate, and check the result.
 
     Args:
         source: The description.

@@ -108,7 +108,7 @@ class GazeboSettings:
 def gazebo_tags(
     robot: Robot, description: UrdfDescription, notes: Notes
 ) -> dict[str, GazeboSettings]:
-    """Sort what the tags of a description say, by the name they refer to; empty for the robot.
+    """Sort the content of a description's tags by the name they refer to; empty for the robot.
 
     A tag about a name that is neither link nor joint is noted and left out.
     """
@@ -157,7 +157,7 @@ def _of_joint(element: Element, settings: GazeboSettings, *, alone: bool) -> boo
 
 
 def value_of(element: Element) -> str:
-    """Return what a tag says: its attribute `value`, which Gazebo's parser takes first, or text."""
+    """Return a tag's value: its attribute `value`, which Gazebo's parser takes first, or text."""
     return element.get("value") or element.text.value
 
 

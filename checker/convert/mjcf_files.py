@@ -149,7 +149,7 @@ def _add_states(root: etree._Element, scene: Scene, plan: Plan, recording: Recor
 
 
 def _values_at(changes: Changes, step: int, count: int) -> tuple[float, ...]:
-    """Return what holds in a step; zeros before the first change."""
+    """Return the values of a step; zeros before the first change."""
     held = (0.0,) * count
     for begins, values in changes:
         if begins > step:
@@ -189,7 +189,7 @@ def _add_studio(root: etree._Element) -> None:
 
 
 def controls_of(mjcf: etree._Element, scene: Scene, plan: Plan, recording: Recording) -> str:
-    """Return the commands of the trial as CSV: each row holds from its time to that of the next.
+    """Return the commands of the trial as CSV: each row is valid from its time to that of the next.
 
     The columns are the actuators of the MJCF, and `belt:` with the name of a geom whose surface
     moves (m/s), for which MJCF has no actuator.

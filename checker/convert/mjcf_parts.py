@@ -96,7 +96,7 @@ class BodyParts:
         return self._meshes[key]
 
     def add_sensors(self, robot: Robot) -> None:
-        """Add sensors: cameras, an axis of each lidar, what an IMU feels, where joints stand."""
+        """Add sensors: cameras, an axis of each lidar, what an IMU feels, positions of joints."""
         sensors = etree.SubElement(self._root, "sensor")
         for link in robot.links:
             for sensor in link.sensors:

@@ -103,7 +103,7 @@ class ShapeWriter:
 
     Attributes:
         mesh_uri: Gives the URI to write for a mesh or texture.
-        settings: What `<gazebo>` tags say, by the name of the link as the source has it.
+        settings: Content of `<gazebo>` tags, by the name of the link as the source has it.
     """
 
     naming: Naming

@@ -68,7 +68,7 @@ Look = tuple[str, str]
 
 @dataclass
 class LinkWriter:
-    """Writes what links hold.
+    """Writes the content of links.
 
     Attributes:
         mesh_uri: Gives the URI to write for a mesh or texture.

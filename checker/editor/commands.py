@@ -68,7 +68,7 @@ async def measure(server: Server, uri: str, *, display: bool = False) -> Package
     Args:
         server: The server of the editor.
         uri: The URI of the file.
-        display: Whether the report is to hold the robot in 3D.
+        display: Whether the report contains the robot in 3D.
 
     Returns:
         The report; None if there is none, with a message to the user.

@@ -60,7 +60,7 @@ class Subject(Record, eq=False):
     _made: dict[str, tuple[object, ...] | NotAvailable] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Hold what parts are made of."""
+        """Store the inputs of parts."""
         given: dict[type, object] = {
             Package: self.package,
             Cache: self.cache,
@@ -76,7 +76,7 @@ class Subject(Record, eq=False):
             self._made.setdefault(type_name(kind), (part,))
 
     def part(self, kind: str) -> Sequence[object] | NotAvailable:
-        """Return the part whose type has this name; a file may hold several robots.
+        """Return the part whose type has this name; a file may contain several robots.
 
         Raises:
             LookupError: A rule requests something that is not a part of a package.

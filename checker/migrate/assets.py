@@ -42,7 +42,7 @@ class Assets:
     _missing: dict[str, str] = field(default_factory=dict)
     """Path where a file that is not available belongs, by its URI."""
     _folders: dict[str, str] = field(default_factory=dict)
-    """Folder of the source by the folder of the new package that holds its files."""
+    """Folder of the source by the folder of the new package with its files."""
 
     def uri(self, written: str) -> str:
         """Return the URI of a mesh or picture relative to the new model.sdf.

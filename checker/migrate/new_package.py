@@ -170,7 +170,7 @@ class Staging(Record):
 def stage_package(destination: Path, package: str) -> Iterator[Staging]:
     """Write a package next to its final place; it is moved there after success.
 
-    The destination may hold other packages: nothing that is there is changed.
+    The destination may contain other packages: nothing that is there is changed.
 
     A folder that an interrupted run left behind stays hidden and does not count as content.
 

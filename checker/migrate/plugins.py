@@ -110,7 +110,7 @@ class Judged:
 
 
 def judge_plugins(conversion: Conversion, base: str) -> Judged:
-    """Remove the plugins of Gazebo 9 that stand outside sensors; put sensors where they made some.
+    """Remove the plugins of Gazebo 9 that are outside sensors; put sensors where they made some.
 
     Plugins within sensors are left: the result of their sensor depends on them.
 
@@ -260,7 +260,7 @@ def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
 def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree._Element]:
     """Return the cameras that a device consists of.
 
-    They bear the plugin's prefix, are in its link, or are called by what they see.
+    They have the plugin's prefix, are in its link, or are called by what they see.
     """
     cameras = [sensor for sensor in tree.iter("sensor") if sensor.get("type") in _LENSES]
     prefix = _prefix(carried)

@@ -184,7 +184,7 @@ class Papers(Record):
 
 
 def papers_of(source: Source) -> Papers:
-    """Return what is known; what is not stands as TODO."""
+    """Return what is known; what is not known is TODO."""
     manifest = source.manifest
     people = (*manifest.maintainers, *manifest.authors) if manifest is not None else ()
     person = next(

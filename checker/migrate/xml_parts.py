@@ -57,7 +57,7 @@ Tree = Mapping[str, Content]
 
 
 def build(tag: str, content: Content) -> etree._Element:
-    """Return an element that holds what a mapping states."""
+    """Return an element with the content of a mapping."""
     element = etree.Element(tag)
     if not isinstance(content, Mapping):
         element.text = _text(content)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 BATTERY_CLASS = "LinearBatteryPlugin"
 RELEASE = "dome"
-"""The release for whose plugin `Battery.minutes` holds."""
+"""The release for whose plugin `Battery.minutes` is valid."""
 
 MOVING_CLASSES = frozenset(
     {
@@ -80,7 +80,7 @@ def _minutes(plugin: Plugin) -> float | None:
     """Return how long the charge lasts at the mean voltage, minutes.
 
     The formula is fitted to accepted endurances (`subt_standards.json`); robots whose plugin states
-    `fix_issue_225` drain as their figures say, and are left out.
+    `fix_issue_225` drain as their figures state, and are left out.
     """
     charge = plugin.number("initial_charge") or plugin.number("capacity")
     numbers = (

@@ -32,7 +32,7 @@ class FrameNode(Record, eq=False):
 class FrameGraph:
     """Frames by scoped name. The root is the robot's own frame, named `__model__`.
 
-    Each pose is computed once, without recursion: a chain may be as long as it likes.
+    Each pose is computed once, without recursion: a chain may be of any length.
     """
 
     nodes: dict[str, FrameNode] = field(default_factory=dict)

@@ -112,7 +112,7 @@ class Meshes(Protocol):
     """Gives the meshes of a robot; all files are read on the first request."""
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
-        """Return what the file behind a URI holds."""
+        """Return the content of the file behind a URI."""
         ...
 
 

@@ -62,7 +62,7 @@ class Robot(Part, dict=True):
         merges_unknown: Whether such a model would have given its parts to the one around it.
         unread_plugins: The reasons why plugins that the spawner adds are not among these; else
             empty.
-        meshes: What its mesh files hold.
+        meshes: The content of its mesh files.
         controllers: The controllers of ros2_control, that move its joints.
     """
 

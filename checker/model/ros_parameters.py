@@ -98,7 +98,7 @@ class NodeBlock(Record, eq=False):
 
     Attributes:
         name: Full name that nodes are matched with, with its wildcards: `/**/controller_manager`.
-        parameters: The parameters by name, the last one where a name stands twice.
+        parameters: The parameters by name, the last one if a name is there twice.
         span: The key above `ros__parameters`.
     """
 

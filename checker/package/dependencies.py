@@ -42,7 +42,7 @@ class AvailablePackages(Record):
 
     @property
     def unknown(self) -> list[str]:
-        """Names of the missing ones that may hold plugins; tools and messages of ROS hold none."""
+        """Names of missing ones that may contain plugins, unlike tools and messages of ROS."""
         return [name for name in self.missing if not _CARRIES_NO_PLUGIN.fullmatch(name)]
 
     def libraries(self) -> frozenset[str]:

@@ -145,7 +145,7 @@ def _describing(package: Package) -> Iterator[Reference]:
 
 
 Holding = Callable[["Package"], str | None]
-"""Returns the path at which a package itself holds a part."""
+"""Returns the path of a part in the package itself."""
 
 
 def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:

@@ -67,7 +67,7 @@ def open_input(
     Args:
         path: What the user gave.
         name: The file's name as the user knows it, when it is stored under another.
-        limits: What an archive may hold.
+        limits: Limits for the content of an archive.
 
     Raises:
         UnreadableInput: There is no package in it, or it cannot be read.
@@ -216,7 +216,7 @@ def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
 
     Args:
         package: The package as it was opened.
-        folders: Each holds packages, or is one.
+        folders: Each contains packages, or is one.
 
     Raises:
         UnreadableInput: One of them is no folder.
@@ -245,7 +245,7 @@ def _is_folder(place: Path) -> bool:
 
 
 def _subfolders(folder: Path) -> list[Path]:
-    """Return the plain subfolders that may hold packages, sorted."""
+    """Return the plain subfolders that may contain packages, sorted."""
     try:
         return sorted(
             place

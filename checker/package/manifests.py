@@ -36,7 +36,7 @@ class Dependency(Record, eq=False):
     Attributes:
         kind: Name of its tag: `exec_depend`.
         package: What is needed: a package, or a key of rosdep.
-        is_conditional: Whether it counts only where a condition holds, such as a ROS version.
+        is_conditional: Whether it counts only under a condition, such as a ROS version.
     """
 
     kind: str
@@ -182,7 +182,7 @@ def _format(root: Element) -> Located[int | None]:
 
 
 def _description(root: Element) -> Located[str]:
-    """Return the description with the text of its tags: it may hold XHTML."""
+    """Return the description with the text of its tags: it may contain XHTML."""
     child = root.child("description")
     if child is None:
         return Located("", root.span, stated=False)

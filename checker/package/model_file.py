@@ -16,7 +16,7 @@ _VERSION = re.compile(r"(\d{1,4})\.(\d{1,4})")
 
 
 def own_model(package: Package) -> str | None:
-    """Return the path of the model that a package itself holds, or None.
+    """Return the path of the model in a package itself, or None.
 
     The newest `<sdf>` that model.config names and that is there, else model.sdf, else the only
     file of a robot at the top of the package.

@@ -39,7 +39,7 @@ def package_renamed(package: Package, old: str, new: str) -> Fix | None:
     """Return the fix that names a package otherwise, wherever its files mention the name.
 
     None if a mention would be left over or lost: in the name of a file, in a longer name, in a
-    file that is not text, in a sibling package; where another package bears one of the names; and
+    file that is not text, in a sibling package; if another package has one of the names; and
     where a plain word such as `rover` represents something else too.
 
     Args:

@@ -53,7 +53,7 @@ class Units(Record):
 def units_below(folder: Path) -> Units:
     """Find packages, model folders and loose model files in a folder, however deep.
 
-    What is in a model folder or a submission is a part of it. A ROS package may hold models and
+    What is in a model folder or a submission is a part of it. A ROS package may contain models and
     worlds; these are separate units. Links are not followed.
 
     Args:

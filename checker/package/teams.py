@@ -80,7 +80,7 @@ def _name_pattern(name: str) -> re.Pattern[str]:
 def other_teams(text: str, package: str) -> Iterator[re.Match[str]]:
     """Yield where a text names a robot of another team than the package's.
 
-    A sentence that names the package's own team as well speaks of both on purpose, and words such
+    A sentence that names the package's own team as well names both on purpose, and words such
     as `based on` state where a robot comes from. Names of packages are no names of teams.
     """
     own = f"{package.casefold()}_"

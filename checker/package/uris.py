@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _SCHEME = re.compile(r"(?:model://|package:///?)([^/]+)/?(.*)", re.DOTALL)
 """Pinocchio reads `package:///` as `package://`; URD002 reports that others do not."""
 _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
-"""A path on the resource path of Gazebo, which may hold the folder of the model."""
+"""A path on the resource path of Gazebo, which may contain the folder of the model."""
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 

@@ -35,7 +35,7 @@ def to_junit(report: Report) -> str:
 
 
 def _xml(text: str) -> str:
-    """Replace what XML cannot hold, even escaped."""
+    """Replace characters that XML cannot contain, even escaped."""
     return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", plain(text))
 
 

@@ -46,7 +46,7 @@ def finding_text(
 
 
 def path_of(place: Place, package: PackageReport) -> str:
-    """Return the path of a place's file, from where the user stands."""
+    """Return the path of a place's file, relative to the working folder."""
     return posixpath.normpath(posixpath.join(package.path, place.file or "."))
 
 

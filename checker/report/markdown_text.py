@@ -45,7 +45,7 @@ def with_code(text: str) -> str:
 def code(text: str) -> str:
     """Return text to be shown as code, in which GitHub looks for no mentions.
 
-    Tags do it, as no fence of backticks holds in a table.
+    Tags do it, as no fence of backticks is possible in a table.
     """
     return f"<code>{_numbered(plain(text))}</code>"
 

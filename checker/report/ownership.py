@@ -59,7 +59,7 @@ class Share(Record):
 
 
 def share_of(package: PackageReport, owner_of: Mapping[Identity, str]) -> Share:
-    """Set apart the findings in another package's files that its own report holds too.
+    """Set apart the findings in another package's files that its own report contains too.
 
     Args:
         package: The package whose findings to separate.

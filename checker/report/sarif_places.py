@@ -90,7 +90,7 @@ def _context(place: Place) -> Json:
 
 
 def _is_whole(place: Place) -> bool:
-    """Return whether the snippet, which may be cut, holds the whole stretch."""
+    """Return whether the snippet, which may be cut, contains the whole stretch."""
     inside = place.column < place.end_column <= len(place.snippet) + 1
     return place.line == place.end_line and inside
 
@@ -105,7 +105,7 @@ def _stretch(place: Place) -> Json:
 
 
 def fixes(fix: Fix | None, how: str, package: PackageReport, folder: str) -> list[Json]:
-    """Return a fix as a list of one; of none if there is none, or none that SARIF can hold."""
+    """Return a fix as a list of one; of none if there is none, or none that SARIF can contain."""
     if fix is None or len(fix.edits) > EDITS_LIMIT or not all(map(_is_text, fix.edits)):
         return []
     by_file: dict[str, list[Json]] = {}

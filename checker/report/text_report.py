@@ -113,7 +113,7 @@ def suppressed_text(suppressed: Sequence[Suppressed]) -> Iterator[str]:
 
 
 def _words(suppressed: Suppressed) -> str:
-    """Return by what and why a finding does not count; what the baseline holds is one heap."""
+    """Return by what and why a finding does not count; the baseline counts as one reason."""
     if suppressed.reason == IN_BASELINE:
         return f"by {_WHO[suppressed.by]}"
     reason = plain(shortened(suppressed.reason, _REASON_LIMIT))

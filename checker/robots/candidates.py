@@ -152,7 +152,7 @@ _PARTS = ("link", "joint", "xacro:macro")
 
 
 def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
-    """Yield why files that hold links, joints or macros are not read, each the end of a sentence.
+    """Yield why files with links, joints or macros are not read, each the end of a sentence.
 
     Args:
         package: The package to look into.
@@ -166,7 +166,7 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
 
 
 def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:
-    """Yield the files that hold links, joints or macros and are part of no robot.
+    """Yield the files that contain links, joints or macros and are part of no robot.
 
     Args:
         package: The package to look into.

@@ -59,7 +59,7 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
 def _of_other_choices(
     package: Package, graph: LaunchGraph, started: StartedLoad
 ) -> Iterator[StartedLoad]:
-    """Yield what is loaded where a path holds the default of an argument that has choices."""
+    """Yield what is loaded if a path contains the default of an argument that has choices."""
     path = local_path(package, started.load.path) or ""
     for argument in graph.arguments:
         default = argument.default.value if argument.default is not None else ""

@@ -1,6 +1,6 @@
 """Topics in Gazebo of a robot's sensors and systems, with the messages that they carry.
 
-The table `simulated_topics` holds the facts, for Gazebo Fortress and later.
+The table `simulated_topics` has the facts, for Gazebo Fortress and later.
 """
 
 from __future__ import annotations

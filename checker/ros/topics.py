@@ -1,6 +1,6 @@
 """Topics of a robot in Gazebo, and the bridges to ROS that they need.
 
-The table `gazebo_topics` holds the facts; a `Channel` is one topic of one sensor or plugin.
+The table `gazebo_topics` has the facts; a `Channel` is one topic of one sensor or plugin.
 """
 
 from __future__ import annotations

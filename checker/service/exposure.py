@@ -18,7 +18,7 @@ from checker.base.words import plain, shortened
 from checker.service.web.config import config_from
 
 _ENDING_SECONDS, _PAUSE_SECONDS = 3.0, 0.1
-"""A killed service holds its address until its processes end; the next one starts at once."""
+"""A killed service keeps its address until its processes end; the next one starts at once."""
 
 # Whether a host is the machine itself: no third party is on the way to it.
 

@@ -165,7 +165,7 @@ class OwnLauncher(Launcher):
 
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
-        """Layers that are in force; the first call waits for them. None if its process has died."""
+        """Active layers; the first call waits for them. None if its process has ended."""
         data = b""
         self._control.settimeout(_HELLO_SECONDS)
         try:

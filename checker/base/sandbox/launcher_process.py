@@ -99,7 +99,7 @@ class LauncherProcess:
     """Starts processes until the socket closes."""
 
     def __init__(self, control: socket.socket, sandbox: Sandbox) -> None:
-        """Enter the sandbox, and state which layers hold."""
+        """Enter the sandbox, and return the active layers."""
         # A process in the sandbox requests others by a socket of its own.
         self._inner_client, inner = socket.socketpair()
         self._controls = {control.fileno(): control, inner.fileno(): inner}
@@ -182,7 +182,7 @@ class LauncherProcess:
         return run(order, self._sandbox, (input, request, answer, inner, done))
 
     def _reap(self) -> None:
-        """Tell how processes ended."""
+        """Report how processes ended."""
         with suppress(BlockingIOError):
             os.read(self._woken, MESSAGE_LIMIT)
         for process in [*self._processes.values()]:

@@ -1,4 +1,4 @@
-"""The sandbox of a process: its layers, and which of them hold on this machine.
+"""The sandbox of a process: its layers, and those that are active on this machine.
 
 Each is independent of the others; docs/security.md describes what each protects.
 """
@@ -22,7 +22,7 @@ class Layer(Record):
     Attributes:
         name: One of `ALL`.
         held: Whether it is active.
-        words: How it holds, or why not; the end of a sentence.
+        words: How it is active, or why not; the end of a sentence.
         hides: Whether it keeps files of others out of reach.
     """
 

@@ -1,4 +1,4 @@
-"""Makes processes stand back behind others, as `nice` counts it (sched(7))."""
+"""Lowers the priority of processes, as `nice` counts it (sched(7))."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ Step = tuple[int, int, int, int]
 
 
 class NotHeld(OSError):
-    """The kernel does not hold a layer; the text states why."""
+    """The kernel does not apply a layer; the text states why."""
 
 
 class _Program(ctypes.Structure):

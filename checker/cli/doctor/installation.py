@@ -77,7 +77,7 @@ _ADVICE = {
 
 
 def sandbox() -> Iterator[Result]:
-    """Yield each layer, whether it holds on this machine, and how to get it."""
+    """Yield each layer, whether it is active on this machine, and how to get it."""
     with closing(OwnLauncher()) as starter:
         layers = starter.layers
     if not layers:

@@ -32,8 +32,8 @@ def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
     """Import libraries in a child process.
 
     Returns:
-        Why a library cannot be imported, by its name; where the child dies, `libraries` stands
-        for the one that it died of.
+        Why a library cannot be imported, by its name; if the child crashes, `libraries` is
+        the one at fault.
     """
     reply = ask(__name__, json.dumps(list(distributions)).encode(), _LIMITS)
     if isinstance(reply, WorkerFailed):

@@ -55,7 +55,7 @@ def _present(request: Request) -> set[str]:
 
 
 def _of_gazebo(request: Request) -> Iterator[Completion]:
-    """Yield what a `<gazebo>` tag of URDF may hold: SDF, and short names for what is deep in it."""
+    """Yield what a `<gazebo>` tag of URDF may contain: SDF, and short names for inner elements."""
     around = ("sdf", "model", "link") if request.refers else ("sdf", "model")
     yield from _of_sdf(request, around)
     shorts = {**short_tags("joint"), **short_tags("link"), "material": ()} if request.refers else {}

@@ -151,7 +151,7 @@ def attributes(request: Request) -> Iterator[Completion]:
 
 
 def values(request: Request) -> Iterator[Completion]:
-    """Yield what an attribute of xacro's own may say: names of blocks, of macros."""
+    """Yield what an attribute of xacro's own may contain: names of blocks, of macros."""
     here = (request.xml.tag, request.xml.attribute)
     if here == (f"{PREFIX}insert_block", "name"):
         for it in _macro_parameters(request):

@@ -67,7 +67,7 @@ class ElementType(Record, dict=True):
 
     @cached_property
     def children(self) -> dict[str, ElementType]:
-        """Elements that may stand directly inside, by tag."""
+        """Elements that may be directly inside, by tag."""
         children = {child.name: child for child in self._children()}
         if not self.enclosing and (world := children.get("world")) is not None:
             # No description says so, but libsdformat takes a model that is included at the top.
@@ -127,7 +127,7 @@ def all_tags(version: str) -> frozenset[str]:
 
 @cache
 def parents_of(version: str) -> Mapping[str, tuple[str, ...]]:
-    """Return, for each tag, the tags that it may stand directly below, sorted."""
+    """Return, for each tag, the tags directly below which it may be, sorted."""
     parents: dict[str, set[str]] = {}
     for _, parent, tag in _triples(version):
         parents.setdefault(tag, set()).add(parent)
@@ -136,13 +136,13 @@ def parents_of(version: str) -> Mapping[str, tuple[str, ...]]:
 
 @cache
 def holders_of(version: str, parent: str, tag: str) -> tuple[str, ...]:
-    """Return the tags below which a `parent` may hold a `tag`, sorted: `kp` in `contact/ode`."""
+    """Return the tags below which a `parent` may contain a `tag`, sorted: `kp` in `contact/ode`."""
     return tuple(sorted({top for top, *rest in _triples(version) if rest == [parent, tag] and top}))
 
 
 @cache
 def _triples(version: str) -> frozenset[tuple[str, str, str]]:
-    """Return what may hold what that may hold what; the first is empty if any may."""
+    """Return grandparent, parent and child tags; the first is empty for any."""
     types = _types(version)
     triples: set[tuple[str, str, str]] = set()
     stack: list[tuple[str, Any]] = [("", entry) for entry in types.values()]

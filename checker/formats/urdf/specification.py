@@ -102,7 +102,7 @@ def has_version(document: XmlDocument, least: str) -> bool:
 def specified_elements(
     document: XmlDocument,
 ) -> Iterator[tuple[Element, Mapping[str, AttributeSpec]]]:
-    """Yield the elements of links and joints with what their attributes hold, in order."""
+    """Yield the elements of links and joints with the values of their attributes, in order."""
     for element, path in _descendants(document):
         around = element.parent.get("type") if element.parent is not None else ""
         if path in _elements() and not (path == "joint/axis" and around in _WITHOUT_AXIS):

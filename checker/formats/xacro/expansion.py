@@ -231,7 +231,7 @@ def _answer(data: Any) -> dict[str, Any]:
 
 
 def _lasts(answer: Mapping[str, Any]) -> bool:
-    """Return whether an answer holds: another day, or machine, may have the time or the memory.
+    """Return whether an answer is permanent: at another time there may be more memory.
 
     So do those that want another file: the key states which files are there.
     """

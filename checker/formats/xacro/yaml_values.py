@@ -64,8 +64,8 @@ def read(text: str, budget: Budget) -> Any:
     """Return what a YAML text contains, wrapped as xacro does.
 
     Raises:
-        ExpressionLimit: It is too long or holds too much.
-        RefusedExpression: It holds what expressions have no use for, such as `!!binary`.
+        ExpressionLimit: It is too long or contains too much.
+        RefusedExpression: It contains values that expressions do not need, such as `!!binary`.
         yaml.YAMLError: It is no YAML, or has a tag that nothing is known of.
     """
     if len(text) > LENGTH_LIMIT:

@@ -105,7 +105,7 @@ class Node(Record, eq=False):
     """A node that the launch file starts; those that a condition leaves out are not here.
 
     Attributes:
-        package: Package that holds the program (`pkg`).
+        package: Package of the program (`pkg`).
         type: Name of the program.
         name: Name of the node, without its namespace.
         namespace: Absolute, `/` or `/X1`.
@@ -131,7 +131,7 @@ class Node(Record, eq=False):
 
     @property
     def file(self) -> str:
-        """The launch file in which the node stands."""
+        """The launch file of the node."""
         return self.span.source.file
 
     @property

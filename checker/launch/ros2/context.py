@@ -82,7 +82,7 @@ class Context:
             self.report(kind, span, message, name)
 
     def under(self, conditions: Iterable[Condition]) -> Context:
-        """Return the place below conditions; what is set there holds behind them, too."""
+        """Return the place below conditions; what is set there is valid after them, too."""
         return replace(self, conditions=(*self.conditions, *conditions))
 
     def inner(self) -> Context:

@@ -71,7 +71,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
 
 
 def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
-    """Yield the texts of a node that may hold a description, and where they are."""
+    """Yield the texts of a node that may contain a description, and where they are."""
     for parameter in node.parameters:
         if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
             yield parameter.value, parameter, parameter.span

@@ -3,7 +3,7 @@
 Texts contain the values of the launch system. A share folder is a path below `ROOT`, so
 that paths can be joined and looked up; `share_path` takes them apart. What is only known when it is
 launched is kept as a substitution (`$(env HOME)`, `$(var ur_type)`, `$(command xacro …)`): a text
-that still holds `$(` is not known.
+that still contains `$(` is not known.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ class Parameter(Record, eq=False):
 
     Attributes:
         name: The name with dots for nested mappings.
-        value: Text, number, truth value or list; a text may hold `$(`.
+        value: Text, number, truth value or list; a text may contain `$(`.
         substituted: Whether substitutions made the value: launch reads such a text as YAML.
         as_text: Whether it is kept as a text (`ParameterValue(…, value_type=str)`).
         span: The value where it is written, else its name.
@@ -219,7 +219,7 @@ class Started(Record, eq=False, kw_only=True):
 
     @property
     def file(self) -> str:
-        """The launch file in which it stands."""
+        """The launch file of it."""
         return self.span.source.file
 
     @property
@@ -236,10 +236,10 @@ class Node(Started, eq=False, kw_only=True):
 
     Attributes:
         kind: What sort of node it is.
-        package: Package that holds the program.
+        package: Package of the program.
         executable: The program; of a component, its class.
         name: The name of the node; None for the program's own.
-        namespace: Absolute, `/` or `/r1`; it may hold `$(`.
+        namespace: Absolute, `/` or `/r1`; it may contain `$(`.
         arguments: Words of the command line, `--ros-args` and what follows among them.
         parameters: The parameters in force: of scopes around it first, then its own.
         remaps: The remaps in force; its own first.
@@ -273,7 +273,7 @@ class Process(Started, eq=False, kw_only=True):
     """A command that is no node.
 
     Attributes:
-        words: The command line, taken apart as a shell does; a word may hold `$(`.
+        words: The command line, taken apart as a shell does; a word may contain `$(`.
     """
 
     words: tuple[Located[str], ...]

@@ -121,7 +121,7 @@ def is_missing(package: Package, path: SharePath) -> bool:
 def unavailable(package: Package, name: str) -> str:
     """Return why a package cannot be read, and what helps; empty if that does not matter.
 
-    Packages of ROS whose nodes are known hold no part of the robot.
+    Packages of ROS whose nodes are known contain no part of the robot.
 
     Args:
         package: The package being checked.

@@ -19,7 +19,7 @@ _LEVELS = 20
 
 
 class AttributeText:
-    """The text of one attribute, and where each character of it stands."""
+    """The text of one attribute, and the place of each character of it."""
 
     def __init__(self, text: Located[str], allowance: Allowance, report: Report) -> None:
         """Take a text."""

@@ -162,7 +162,7 @@ class Made:
 
 
 class Guarded(Record, eq=False):
-    """A value that is there only if conditions hold that are tested while the file is read."""
+    """A value that is there only under conditions that are tested while the file is read."""
 
     value: Value
     conditions: tuple[Condition, ...]

@@ -1,4 +1,4 @@
-"""Text that remembers which Ruby it came from, and Ruby's string literals."""
+"""Text with the Ruby that it came from, and Ruby's string literals."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ Data: TypeAlias = (
 class Value(Record, eq=False):
     """A value, and the parameters and globals that influenced which one it is.
 
-    A string's pieces carry their own parameters besides.
+    A string's pieces also have their own parameters.
     """
 
     data: Data

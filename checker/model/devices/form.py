@@ -160,7 +160,7 @@ def _problem_of_table(name: str, table: Any, forms: Mapping[str, _Form]) -> str:
 def problem_of_match(match: str) -> str:
     """Return the reason why a user's expression is not taken; empty if it is.
 
-    Settings are in the folder of a package, so they may be anybody's. An expression without
+    Settings are in the folder of a package, so they are not trusted. An expression without
     repetition and with few choices takes no longer than its length allows.
     """
     bare = _ESCAPED.sub("", match)

@@ -106,7 +106,7 @@ class ScaledMeshes(Record, eq=False, dict=True):
     robot: Robot
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
-        """Return what the file behind a URI holds, if its unit is right."""
+        """Return the content of the file behind a URI, if its unit is right."""
         unit = self._units.get(uri.span)
         if unit is not None:
             return MeshFault(MeshTrouble.MISSCALED, f"seems to be in {unit}")

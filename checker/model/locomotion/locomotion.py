@@ -104,12 +104,12 @@ class WheelDrive(Record, eq=False):
         kingpin_width: Metres, of Ackermann steering.
         steering_limit: Radians, of Ackermann steering.
         steering: Left and right steering joints of Ackermann steering, as the plugin names them.
-        separation_tag: Parameter that holds the separation; empty if there is none to compare.
-        diameter_tag: Parameter that holds twice the radius; empty for one that holds the radius.
+        separation_tag: Parameter of the separation; empty if there is none to compare.
+        diameter_tag: Parameter of twice the radius; empty for one of the radius.
         swaps: Whether the plugin takes the wheels that it names as left for those on the right.
-        radius_tag: Parameter that holds the radius.
-        base_tag: Parameter that holds the wheel base.
-        kingpin_tag: Parameter that holds the kingpin width; of all tags, empty if there is none.
+        radius_tag: Parameter of the radius.
+        base_tag: Parameter of the wheel base.
+        kingpin_tag: Parameter of the kingpin width; of all tags, empty if there is none.
         slips: Whether its wheels may slip sideways in a turn, so that the separation is raised.
     """
 

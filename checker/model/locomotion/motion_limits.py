@@ -24,7 +24,7 @@ def read_limits(element: Element, kind: str = "") -> MotionLimits:
     """Read `min_velocity` and the like.
 
     Args:
-        element: What holds them.
+        element: The element that contains them.
         kind: `linear_` or `angular_`: `min_linear_velocity`, where stated, counts instead.
     """
 

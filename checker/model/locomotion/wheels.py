@@ -85,7 +85,7 @@ class WheelReader:
         """Return the wheel below a joint; None if there is no such joint or no link below.
 
         Args:
-            plugin: What names the joint: one of the model that the plugin stands in.
+            plugin: What names the joint: one of the model that contains the plugin.
             name: The name of the joint.
             side: What the plugin states.
             knuckles: Steering joints by the link that each of them turns.

@@ -27,7 +27,7 @@ class LineReference(Record, eq=False):
     Attributes:
         file: The file as written.
         ranges: First and last line of each stretch, both counted.
-        claim: The words in front (300 characters at most): what the lines are said to hold.
+        claim: The words in front (300 characters at most): the stated content of the lines.
         span: File and lines.
     """
 

@@ -113,7 +113,7 @@ def unpack_archive(
         target: An empty folder of our own.
         name: The archive's name as the user knows it, when the file is stored under another;
             its suffix determines the format.
-        limits: What the archive may hold.
+        limits: Limits for the content of the archive.
 
     Raises:
         RefusedArchive: An entry could do harm, or there is more than a package contains.
@@ -138,7 +138,7 @@ def check_archive(
     Args:
         archive: The file.
         name: The name, as for `unpack_archive`.
-        limits: What the archive may hold.
+        limits: Limits for the content of the archive.
         descriptor: The descriptor of the file, where it cannot be opened by name; it stays open.
 
     Raises:

@@ -39,7 +39,7 @@ class GzipStream:
         """Return `size` bytes, fewer only at the end.
 
         Raises:
-            DamagedArchive: The file ends early, or holds more than the bound.
+            DamagedArchive: The file ends early, or contains more than the bound.
         """
         pieces = []
         while size > 0 and not self._inflate.eof:
@@ -126,7 +126,7 @@ def tar_entries(stream: GzipStream, most: int) -> Iterator[TarEntry]:
         most: Headers of all kinds.
 
     Raises:
-        DamagedArchive: The stream ends early, or holds something else, or more headers.
+        DamagedArchive: The stream ends early, or contains something else, or more headers.
     """
     extended: dict[str, bytes] = {}
     headers = bytes_of_extended = 0

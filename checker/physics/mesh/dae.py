@@ -188,7 +188,7 @@ _NO_GEOMETRY = frozenset(
 def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
     """Return the root of a COLLADA document, and defects that were mended.
 
-    Files whose ids hold `<` (`id="<STL_BINARY>"`, as a converter writes them) are no XML, but
+    Files whose ids contain `<` (`id="<STL_BINARY>"`, as a converter writes them) are no XML, but
     widely copied, and Gazebo's parser takes them; so it does blanks in front of `<?xml`.
 
     Raises:

@@ -147,7 +147,7 @@ THINNEST = 1e-8
 
 
 def measure(content: MeshContent, path: str, format: str) -> Mesh:
-    """Return the figures of what a file holds.
+    """Return the figures of a file.
 
     Raises:
         NoSurface: It has no triangles, or a corner that is nowhere.

@@ -94,7 +94,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
         material_files: What is in those that it names, as far as they are available.
 
     Raises:
-        NoSurface: The file holds no corners, or its faces name some that it has not.
+        NoSurface: The file has no corners, or its faces name some that it has not.
         ValueError: A number is none.
     """
     if not _CORNER.search(data):

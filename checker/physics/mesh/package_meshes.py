@@ -62,7 +62,7 @@ class PackageMeshes(Record, eq=False, dict=True):
         return "_by_address" in self.__dict__ or not self.uris
 
     def load(self, uri: Located[str]) -> Mesh | MeshFault:
-        """Return what the file behind a URI holds; the first call reads all files.
+        """Return the content of the file behind a URI; the first call reads all files.
 
         Raises:
             MissingExtra: There is a file to read, and nothing to read it with.
@@ -195,7 +195,7 @@ def _key(file: MeshFile, picked: Sequence[str]) -> str | MeshFault:
 
 
 def _lasts(read: _Read) -> bool:
-    """Return whether a result holds: another day, or machine, may have the time or the memory."""
+    """Return whether a result is permanent: at another time there may be more memory."""
     return isinstance(read, Mesh) or read.trouble is not MeshTrouble.NOT_LOOKED_AT
 
 
@@ -204,7 +204,7 @@ _POINTS = ("low", "high")
 
 
 def read_from_json(data: Any) -> _Read:
-    """Return what a file holds, as the process that reads states it.
+    """Return the content of a file, as the process that reads it states it.
 
     Raises:
         AttributeError, KeyError, TypeError, ValueError: It is something else.

@@ -57,7 +57,7 @@ def mesh_work(
         wanted: `facts`, `appearance` or `views` (see `checker.physics.mesh.worker`).
         items: The items, as in `Work`; the same applies to the other arguments.
         decode: Makes a result of an answer.
-        lasts: Whether a result holds next time too.
+        lasts: Whether a result is valid next time too.
         files: The files of an item.
         here: Computes one item in this process.
     """
@@ -92,7 +92,7 @@ def facts_key(data: bytes, suffix: str, picked: Sequence[str] = ()) -> str:
 
 
 def are_new(package: Package, cache: Cache) -> bool:
-    """Return whether a package holds meshes of which nothing is known.
+    """Return whether a package contains meshes of which nothing is known.
 
     One known mesh will do: those that the robot does not name stay unknown for ever.
     """

@@ -106,7 +106,7 @@ def load_libraries(names: Iterable[str]) -> None:
 
 
 def read_mesh(data: bytes, path: str, picked: Sequence[str] = ()) -> Mesh | MeshFault:
-    """Return what a file holds.
+    """Return the content of a file.
 
     Args:
         data: Its content.

@@ -51,7 +51,7 @@ def answer(request: bytes, files: Files) -> bytes:
 def _facts(
     items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
 ) -> list[bytes]:
-    """Return what files hold.
+    """Return the content of files.
 
     Each item has a `file`, the `name` that the model knows, and the parts `picked`.
     """

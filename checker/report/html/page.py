@@ -199,7 +199,7 @@ def with_code(text: str) -> Markup:
 
 
 def data_url(content: bytes, kind: str) -> str:
-    """Return an address that holds the content itself."""
+    """Return an address that contains the content itself."""
     return f"data:{kind};base64,{b64encode(content).decode('ascii')}"
 
 

@@ -80,7 +80,7 @@ class _Writer:
         self.meshes = GlbMeshes(self.buffer)
 
     def world(self, scene: DisplayScene) -> int:
-        """Add everything; return the number of the node that holds it."""
+        """Add everything; return the number of the node that contains it."""
         own = {link.name: link.pose for link in scene.links}
         tracked = scene.tracks.poses if scene.tracks is not None else {}
         start = scene.poses()

@@ -21,7 +21,7 @@ VERTICES, INDICES = 34962, 34963
 _COMPONENTS = {"u1": 5121, "u2": 5123, "u4": 5125, "f4": 5126}
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 _ALIGNED = 4
-"""Bytes: where every view begins, whatever it holds."""
+"""Bytes: where every view begins, with any content."""
 
 
 @dataclass

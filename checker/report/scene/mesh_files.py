@@ -59,7 +59,7 @@ class Notes:
 
 
 def short(name: str) -> str:
-    """Return a name that a sentence can hold."""
+    """Return a name that fits in a sentence."""
     return plain(shortened(name, _NAME))
 
 
@@ -69,7 +69,7 @@ class Surfaces(Protocol):
     def load(self, uri: Located[str]) -> tuple[Surface, ...] | str:
         """Return what the mesh file behind a URI looks like.
 
-        Metres, its own unit honoured, the model's `<scale>` not applied. Asked again for the same
+        Metres, with its own unit, the model's `<scale>` not applied. Asked again for the same
         file, it returns the same arrays, so that they are stored once. Else why the file cannot be
         shown: the end of a sentence whose subject is the file.
         """
@@ -191,7 +191,7 @@ def _asked_of(
 
 
 def _lasts(read: Appearance) -> bool:
-    """Return whether a result holds: next time there may be more time or memory."""
+    """Return whether a result is permanent: next time there may be more time or memory."""
     return not isinstance(read, str)
 
 

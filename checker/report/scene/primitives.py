@@ -108,7 +108,7 @@ def revolve(profile: Sequence[Point]) -> Surface:
     """Return what a profile leaves when it turns about z.
 
     Args:
-        profile: The profile from below upwards along the outside; corners stand twice, once for
+        profile: The profile from below upwards along the outside; corners are there twice, once for
             each normal.
     """
     import numpy as np

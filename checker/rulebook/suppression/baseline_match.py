@@ -98,7 +98,7 @@ class Held:
         self._stale = dict(self._entries)
 
     def knows(self, rule: str) -> bool:
-        """Return whether the baseline holds findings of a rule."""
+        """Return whether the baseline has findings of a rule."""
         return rule in self._entries
 
     def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:

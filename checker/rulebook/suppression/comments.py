@@ -90,7 +90,7 @@ def _end(text: str, match: re.Match[str]) -> int:
 def _lines_below(source: SourceText, stretches: list[tuple[int, int]]) -> dict[int, int]:
     """Return the line that comments alone on theirs are about, by their first lines.
 
-    Of comments that stand one below the other, all are about the line below the last.
+    Of comments one below the other, all are about the line below the last.
     """
     below: dict[int, int] = {}
     for start, end in reversed(stretches):
@@ -101,7 +101,7 @@ def _lines_below(source: SourceText, stretches: list[tuple[int, int]]) -> dict[i
 
 
 def _is_alone(text: str, start: int, end: int) -> bool:
-    """Return whether the lines of a comment hold only comments."""
+    """Return whether the lines of a comment contain only comments."""
     first = text.rfind("\n", max(0, start - _LENGTH_LIMIT), start) + 1
     last = text.find("\n", end, end + _LENGTH_LIMIT)
     last = len(text) if last < 0 else last

@@ -40,7 +40,7 @@ def spot(rule: str, severity: Severity, place: Place, key: str, message: str) ->
 
 
 def spots_of(finding: ReportedFinding) -> Iterator[Spot]:
-    """Yield the main places of a finding; the others bear notes."""
+    """Yield the main places of a finding; the others have notes."""
     for number, place in enumerate(finding.places):
         if number == 0 or not place.note:
             message = place.message or finding.message

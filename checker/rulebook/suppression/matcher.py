@@ -59,7 +59,7 @@ class SuppressionMatcher:
     """The suppressions of one package, and which of them had an effect.
 
     Attributes:
-        held: What the baseline holds of the package.
+        held: The entries of the baseline for the package.
     """
 
     def __init__(
@@ -216,7 +216,7 @@ def split_suppressed(
     matcher: SuppressionMatcher | None,
     spot_of: Callable[[F], Spot],
 ) -> dict[Suppression | None, list[F]]:
-    """Part what a rule found by why it does not count; what does stands under None."""
+    """Group the findings of a rule by why they do not count; those that count have None."""
     nothing = [None] * len(findings)
     matches = matcher.matches(rule, findings, spot_of) if matcher else nothing
     parts: dict[Suppression | None, list[F]] = {}

@@ -52,7 +52,7 @@ class Suppressions(Record):
 
 
 class StaleEntries(Record):
-    """Findings of one rule that the baseline holds and that are gone.
+    """Findings of one rule in the baseline that are gone.
 
     Attributes:
         rules: Its id; those of all rules that do not exist, together.

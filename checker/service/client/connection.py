@@ -112,7 +112,7 @@ class Connection(Record):
             headers: Headers to send besides the usual ones.
 
         Raises:
-            CheckerError: No answer of use comes.
+            CheckerError: There is no usable answer.
         """
         ends, pause = monotonic() + self.patience.trouble, self.patience.pause
         while True:
@@ -212,7 +212,7 @@ class Connection(Record):
 
 @cache
 def _trust() -> ssl.SSLContext:
-    """Return what holds by the system's certificates, not by those that a library brings."""
+    """Return the TLS context with the system's certificates, not by those that a library brings."""
     return ssl.create_default_context()
 
 

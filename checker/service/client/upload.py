@@ -89,7 +89,7 @@ def file_to_send(path: Path, say: Say) -> Iterator[Path]:
 
     Args:
         path: The path of a package.
-        say: Called with what the service will not see.
+        say: Called with the files that are left out.
 
     Raises:
         UnreadableInput: It is none of them, or cannot be read.
@@ -137,13 +137,13 @@ def pack(folder: Path, archive: BinaryIO, limits: ArchiveLimits | None = None) -
     Args:
         folder: A package, or a folder of packages.
         archive: The file of the archive, open for writing.
-        limits: What an archive may hold.
+        limits: Limits for the content of an archive.
 
     Returns:
         What is left out of it and why, in sentences without their dots.
 
     Raises:
-        UnreadableInput: It holds more than is allowed, or what cannot be read.
+        UnreadableInput: It contains more than is allowed, or unreadable files.
     """
     root = folder.resolve()
     index = build_index(root, lambda _: False)

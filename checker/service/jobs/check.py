@@ -77,7 +77,7 @@ def check_upload(
     """Check an upload; a result that is in the store already is not made again.
 
     Args:
-        store: Holds the upload, takes the result.
+        store: Contains the upload, takes the result.
         children: One of them checks.
         order: What to check.
         stage: `STATIC` for the rules alone and the JSON report, `TRIAL` for all.

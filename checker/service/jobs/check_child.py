@@ -36,10 +36,10 @@ from checker.service.jobs.port import Stage
 def without_folder(report: Report, place: Path) -> Report:
     """Return a report in which paths begin below the folder of work in progress.
 
-    Messages hold paths here and there: of settings that cannot be used, of rules that crashed.
+    Messages may contain paths: of settings that cannot be used, of rules that crashed.
 
     Args:
-        report: The report as it came out of the check.
+        report: The report of the check.
         place: The folder, laid out by `checker.service.jobs.exchange`.
     """
     folders = "|".join(re.escape(str(folder)) for folder in {place, place.resolve()})

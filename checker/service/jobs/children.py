@@ -97,7 +97,7 @@ class Children:
         """Start nothing yet.
 
         Args:
-            store: Holds the folders that they work in.
+            store: Contains the folders that they work in.
             ahead: Whether one is to wait for the next check.
         """
         self._store, self._ahead = store, ahead
@@ -161,7 +161,7 @@ class Children:
         return place
 
     def _has_one(self) -> bool:
-        """Return whether a process waits; one that has died meanwhile is removed."""
+        """Return whether a process waits; one that has ended meanwhile is removed."""
         if self._waiting is not None and not self._waiting.alive:
             self._waiting.close()
             self._waiting = None

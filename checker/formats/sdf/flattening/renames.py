@@ -33,7 +33,7 @@ class Renaming(Record):
         return (*draft.edits, *self._of_plugins())
 
     def _of_plugins(self) -> Iterator[Edit]:
-        """Yield the edits of plugins' parameters, in whatever file these stand."""
+        """Yield the edits of plugins' parameters, in any file."""
         for plugin in self.robot.all_plugins:
             for named in names_in(plugin):
                 if named.value in self.names.changed:

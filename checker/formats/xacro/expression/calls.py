@@ -106,7 +106,7 @@ def _function_or_value(run: Interpreter, node: ast.expr, scope: Scope | None) ->
 
 
 def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable[..., Any]:
-    """Return what evaluates the body; it lives no longer than the expression."""
+    """Return what evaluates the body; it ends with the expression."""
     of = node.args
     if of.vararg or of.kwarg or of.kwonlyargs:
         raise RefusedExpression("a lambda function with other than plain parameters")

@@ -53,7 +53,7 @@ class Interpreter:
         return handler(self, node, scope)
 
     def data(self, node: ast.AST, scope: Scope | None) -> Any:
-        """Return the value of a node if it is data, such as a list may hold."""
+        """Return the value of a node if it is data, such as an item of a list."""
         return plain(self.value(node, scope))
 
     def look_up(self, name: str, scope: Scope | None) -> Any:

@@ -101,7 +101,7 @@ def attribute(value: Any, name: str) -> Any:
 
     Raises:
         AttributeError: It has no such key, or what it is has no attributes of that name.
-        NameError: The namespace holds no such name.
+        NameError: The namespace has no such name.
         RefusedExpression: It would be an attribute of Python's.
     """
     kind = type(value)
@@ -125,7 +125,7 @@ def add_key(run: Interpreter, key: Any, among: Any) -> Any:
 
 
 def items(run: Interpreter, nodes: list[ast.expr], scope: Scope | None) -> Iterator[Any]:
-    """Yield the values of the elements of a display or a call; `*x` is all that x holds."""
+    """Yield the values of the elements of a display or a call; `*x` is all items of x."""
     for node in nodes:
         if type(node) is ast.Starred:
             yield from consumed(run.value(node.value, scope), run.budget)

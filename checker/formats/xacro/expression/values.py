@@ -60,8 +60,8 @@ def weigh(value: Any, budget: Budget) -> int:
         How many steps.
 
     Raises:
-        RefusedExpression: It holds what is no data.
-        ExpressionLimit: It is too large or too deep, as is what holds itself.
+        RefusedExpression: It contains something other than data.
+        ExpressionLimit: It is too large or too deep, or contains itself.
     """
     taken = 0
     level: Iterable[Any] = (value,)

@@ -27,7 +27,7 @@ def description(visitor: Visitor, made: Made, context: Context) -> None:
 
 
 def include(visitor: Visitor, made: Made, context: Context) -> None:
-    """Visit an included file; the arguments that it is given hold behind it, too."""
+    """Visit an included file; its arguments are valid after it, too."""
     source = chosen_value(made.values.get("launch_description_source"))
     if isinstance(source, Made) and source.name == "LaunchDescriptionSource":
         visitor.visit(source.values.get("launch_description"), context)

@@ -61,7 +61,7 @@ def parameters_of(value: Value, context: Context, span: Span, unread: list[Unrea
 
 
 def remaps_of(made: Made, context: Context, unread: list[Unread]) -> tuple[Remap, ...]:
-    """Return the remaps of an action, and those that hold around it."""
+    """Return the remaps of an action, and those around it."""
     value = chosen_value(made.values.get("remappings"))
     if isinstance(value, Unknown):
         unread.append(Unread(value.reason, value.span))

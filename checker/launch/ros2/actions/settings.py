@@ -1,4 +1,4 @@
-"""Actions that set what holds for those behind them: arguments, names, parameters, variables."""
+"""Actions with an effect on those after them: arguments, names, parameters, variables."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def plain(value: Value) -> Any:
 
     Raises:
         RefusedExpression: It is none, or it is not known before the launch.
-        ExpressionLimit: It holds too much.
+        ExpressionLimit: It contains too much.
     """
     return _Plain().of(value, 0)
 

@@ -130,7 +130,7 @@ class Interpreter:
         return True
 
     def test(self, node: ast.expr, scope: Scope) -> tuple[bool | None, Condition]:
-        """Return whether a test holds, and the test as a condition."""
+        """Return whether a test is true, and the test as a condition."""
         truth = self.truth(evaluate(self, node, scope))
         text = Located(ast.unparse(node)[:200], self.span(node))
         return truth, Condition(text, wanted=True, holds=truth)

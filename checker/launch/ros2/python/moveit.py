@@ -54,7 +54,7 @@ def called(
 
 
 def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dict[str, Value]:
-    """Return what an attribute of the built configurations holds, as parameters of a node."""
+    """Return the value of an attribute of the built configurations, as parameters of a node."""
     given = configs.values.get(name)
     given = given if isinstance(given, dict) else {}
     file = chosen_value(given.get("file_path"))

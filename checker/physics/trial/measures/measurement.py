@@ -113,7 +113,7 @@ def _undriven(motion: Motion, leg: Leg) -> slice:
 
 
 _AT_REST = 1.0
-"""Seconds over which loads are averaged: one instant lies."""
+"""Seconds over which loads are averaged: one instant misleads."""
 
 
 def measure_loads(motion: Motion) -> Iterator[Measurement]:

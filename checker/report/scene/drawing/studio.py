@@ -166,7 +166,7 @@ def _add_mesh(spec: Any, name: str, surface: Surface) -> bool:
 
 
 def _spots(colours: Array) -> Array:
-    """Return where in the palette each colour stands (n × 2)."""
+    """Return the place of each colour in the palette (n × 2)."""
     import numpy as np
 
     red, green, blue = (colours[:, channel].astype(np.int64) for channel in range(3))

@@ -100,7 +100,7 @@ class Admin(Record):
             names: The names of workers, with or without what each process adds; none for all.
 
         Raises:
-            CheckerError: None of that name is alive.
+            CheckerError: No worker of that name runs.
         """
         living = self.workers.live_workers(SILENCE_SECONDS)
         for name in names:
@@ -112,7 +112,7 @@ class Admin(Record):
         return sorted(chosen)
 
     def _states(self, keys: Collection[str]) -> Iterator[tuple[State, Sequence[Row]]]:
-        """Yield where checks stand, by their keys, and their rows."""
+        """Yield the states of checks, by their keys, and their rows."""
         wanted = sorted({*keys})
         for start in range(0, len(wanted), _AT_ONCE):
             for key, rows in self.checks.rows(wanted[start : start + _AT_ONCE]).items():

@@ -48,7 +48,7 @@ class Checks(Record):
 
     Attributes:
         engine: The engine of the database.
-        client: Asks DBOS's tables there.
+        client: Queries DBOS's tables there.
         pauses: Seconds before each further try.
     """
 
@@ -94,9 +94,9 @@ class Checks(Record):
         self.client.resume_workflow(task.id, queue_name=task.stage.value)
 
     def recover(self, is_dead: Callable[[str], bool]) -> Sequence[str]:
-        """Retry the tasks of dead workers, and return the workers' names.
+        """Retry the tasks of workers that ended, and return the workers' names.
 
-        Of two workers that do so at once, or one that dies at it, no task suffers.
+        Of two workers that do so at once, or one that crashes meanwhile, no task is lost.
         """
         found = self.client.list_workflows(status="PENDING", queue_name=[*_QUEUES, KNOWN])
         lost = [each for each in found if is_dead(each.executor_id or "")]
@@ -161,7 +161,7 @@ class Checks(Record):
         """Return how many tasks probably come before one that waits; 0 if it does not wait.
 
         Whose turn is next among senders is drawn, with shorter tasks first within each: so many of
-        each other sender come before a task as of its own, and one.
+        each other sender come before a task as its own, and one.
         """
         waiting = self._queued(["ENQUEUED"], [task.stage.value])
         own = next((each for each in waiting if each.workflow_id == task.id), None)
@@ -180,7 +180,7 @@ class Checks(Record):
 
     @property
     def _turn(self) -> AbstractContextManager[object]:
-        """A turn of this process to write into SQLite, which has writers ask again after a while.
+        """A turn of this process to write into SQLite, which has writers try again after a while.
 
         Among many, some would wait for seconds.
         """

@@ -90,7 +90,7 @@ class DurableJobs(Record):
         return _LEAST_SECONDS + size * _SECONDS_PER_BYTE
 
     def status(self, id: str) -> State | None:
-        """Return where a check stands; None for an id that was never given or is forgotten."""
+        """Return the state of a check; None for an id that was never given or is forgotten."""
         with reachable():
             rows = self._rows(id)
             state = state_of(id, rows)

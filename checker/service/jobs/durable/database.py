@@ -46,11 +46,11 @@ _NO_ADDRESS = (
     "SUBT_CHECK_DATABASE_URL is not the address of a shared database, expected sqlite:///FILE or "
     "postgresql://…"
 )
-"""Said without the address: it may hold a password."""
+"""Message without the address, which may contain a password."""
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 METADATA = sa.MetaData()
-"""Tables of our own, besides those of DBOS. Nothing in them is worth keeping: they are made again
+"""Our own tables, besides those of DBOS. Nothing in them is worth keeping: they are made again
 where their columns differ."""
 
 

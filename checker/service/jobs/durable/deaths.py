@@ -1,4 +1,4 @@
-"""Returns tasks of dead workers to the queue: DBOS waits for a worker of the same name."""
+"""Returns tasks of workers that ended to the queue: DBOS waits for a worker of the same name."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Deaths:
         self.drained = threading.Event()
 
     def look(self) -> None:
-        """Show a sign of life, and put the tasks of dead workers back into the queue.
+        """Show a sign of life, and put the tasks of workers that ended back into the queue.
 
         `drained` is set once an operator has drained this worker.
 

@@ -138,7 +138,7 @@ def _trial_after(task: Task, outcome: Checked, cost: float) -> Task:
 
 
 def retry_until_answered(ask: Callable[[], _T]) -> _T:
-    """Ask the database until it answers: the result of minutes of work is not thrown away."""
+    """Query the database until it answers: the result of minutes of work is not thrown away."""
     is_away = False
     while True:
         try:

@@ -162,7 +162,7 @@ def row_of(workflow: WorkflowStatus) -> Row:
 
 
 def state_of(id: str, rows: Sequence[Row]) -> State | None:
-    """Return where a check stands; None if nothing is known of it.
+    """Return the state of a check; None if nothing is known of it.
 
     Args:
         id: The id of the check.

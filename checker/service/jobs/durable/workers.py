@@ -46,7 +46,7 @@ class Workers(Record):
         return known is not None and bool(known.drains)
 
     def drain(self, names: Collection[str]) -> None:
-        """Tell workers to take no new task, finish running ones, and end."""
+        """Notify workers to take no new task, finish running ones, and end."""
         with self.engine.begin() as connection:
             theirs = sa.update(WORKERS).where(WORKERS.c.name.in_(names))
             connection.execute(theirs.values(drains=True))
