@@ -72,7 +72,7 @@ class SpawnedModel(Record, eq=False):
 
     Attributes:
         node: The node.
-        options: The first word behind each option; empty for an option without a word.
+        options: The first word after each option; empty for a flag.
         stray: Words that belong to no option.
     """
 
