@@ -65,6 +65,7 @@ def _slow_wheels(
                 "m/s",
                 key=f"{limit.value:g} {speed.value:g}",
                 related=[(speed, "the drive's maximum speed")],
+                covered_by=("TRI003",),
             )
 
 

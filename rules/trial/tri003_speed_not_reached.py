@@ -1,16 +1,21 @@
 """A robot that drives slower or faster than commanded.
 
 Odometry assumes the commanded speed, so the robot is in another place than its driver believes.
-Usually `wheel_radius` is not the radius of the wheels, or the wheels slip because they carry too
-little load. With a limit of 0 the robot does not move.
+Usually `wheel_radius` is not the radius of the wheels, a wheel joint's limit of velocity or effort
+is too low, or the wheels slip because they carry too little load. With a limit of 0 the robot does
+not move.
 
-Fix: set `wheel_radius` to the radius of the wheels' collisions, and check friction and loads.
+Fix: set `wheel_radius` to the radius of the wheels' collisions, raise the limits of the wheel
+joints to those of the motors, and check friction and loads.
 Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 of the command.
+Gazebo Sim's physics engine DART keeps joints within their velocity and effort limits.
 """
 
 from checker.model.locomotion.locomotion import DriveKind
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rulebook.example_parts import rover
+from checker.source.text import Located
 
 
 @rule("TRI003", "speed-not-reached", Severity.ERROR, Concern.ROBOT, judges=("speed_ratio",))
@@ -47,18 +52,46 @@ def check(
     if off <= warning_beyond:
         return
     reached = round(ratio * leg.linear, 3) + 0.0
+    limited = _limited(driven) if ratio < 1.0 else None
+    cause, place, fastest = limited or (_cause(driven, ratio, warning_beyond), None, None)
     yield finding(
-        driven.drive,
+        place or driven.drive,
         f"commanded to drive at {leg.linear:.3g} m/s, the robot reaches {reached:g} m/s: a "
-        f"difference of {off:.0%}, expected at most "
-        f"{warning_beyond:.0%}{_cause(driven, ratio, warning_beyond)}",
+        f"difference of {off:.0%}, expected at most {warning_beyond:.0%}{cause}",
         severity=Severity.ERROR if simulated and off > error_beyond else Severity.WARNING,
         key="speed_ratio",
+        related=[(fastest, "the drive's maximum speed")] if fastest else [],
     )
 
 
 _NOT_TRIED = (DriveKind.NONE, DriveKind.LEGGED, DriveKind.MECANUM, DriveKind.OMNI)
 """Drives that no trial knows; a robot without one may fly or swim."""
+
+
+def _limited(
+    driven: SettledTrial,
+) -> tuple[str, Located[float], Located[float] | None] | None:
+    """Return the limit of a wheel joint that keeps the robot slow.
+
+    Returns:
+        The end of a sentence, the limit, and the drive's maximum speed where the joint is below it.
+    """
+    leg = driven.leg("drive")
+    if leg is None:
+        return None
+    for drive in driven.robot.locomotion.drives:
+        radius = drive.wheel_radius.value
+        for wheel in drive.wheels:
+            axis, said = wheel.joint.axes[0], f"; joint {wheel.joint.name.value!r}"
+            needed = leg.linear / radius if radius else 0.0
+            if axis.velocity.value < needed:
+                said += f" turns at {axis.velocity.value:g} rad/s at most and needs {needed:.3g}"
+                return f"{said} rad/s", axis.velocity, drive.linear.max_velocity
+            torque = driven.trial.value("torque", wheel.joint.scoped_name) or 0.0
+            if axis.effort.value < torque:
+                said += f" has {axis.effort.value:g} N·m at most and needs {torque:.3g} N·m"
+                return said, axis.effort, None
+    return None
 
 
 def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
@@ -75,6 +108,11 @@ def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
     return ""
 
 
+def _rover(limit: str) -> str:
+    text = rover(limit=f"<limit>{limit}</limit><!-- MARK -->")
+    return text.replace("MARK", "^ TRI003", 1)
+
+
 GOOD = [{"@robot": "rover"}]
 BAD = [
     {
@@ -83,5 +121,7 @@ BAD = [
             'DiffDrive">': 'DiffDrive">  <!-- ^ TRI003 -->',
             "<wheel_radius>0.1<": "<wheel_radius>0.15<",
         },
-    }
+    },
+    _rover("<velocity>2</velocity>"),
+    _rover("<effort>0.01</effort>"),
 ]

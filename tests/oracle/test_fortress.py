@@ -10,6 +10,8 @@ from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from checker.rule_testing import write_example
+from checker.rulebook.example_parts import rover
 from support.fortress import Refused, compiled, driven, is_installed
 from support.fortress.comparison import Comparison, compared
 
@@ -51,6 +53,18 @@ def test_a_robot_stands_drives_and_stops_as_in_gazebo(sample: str, fortress: Pat
 def test_a_steered_robot_drives_the_same_circle(fortress: Path) -> None:
     result = comparison_of(SAMPLES / "subtcheck_buggy_sensor_config_1", fortress)
     assert result.here.turn == pytest.approx(result.there.turn, rel=0.05)
+
+
+@pytest.mark.parametrize("limit", ["<velocity>2</velocity>", "<effort>0.05</effort>"])
+def test_limits_of_wheels_slow_it_down_as_in_gazebo(
+    limit: str, fortress: Path, tmp_path: Path
+) -> None:
+    text = rover(limit=f"<limit>{limit}</limit>")
+    result = comparison_of(write_example(text, tmp_path), fortress)
+    assert result.here.speed == pytest.approx(result.there.speed, rel=0.01)
+    assert result.here.full == pytest.approx(result.there.full, rel=0.02)
+    assert result.here.stop == pytest.approx(result.there.stop, rel=0.05)
+    assert result.here.full < 0.3
 
 
 def test_what_gazebo_refuses_is_said(fortress: Path, tmp_path: Path) -> None:

@@ -293,7 +293,7 @@ JOINTS = (
     Fault(
         "wheel that turns at 1 rad/s at most",
         (Swap("<velocity>10", "<velocity>1", JOINT),),
-        ("KIN012",),
+        ("KIN012", "TRI003"),
         "front_left_wheel",
     ),
 )

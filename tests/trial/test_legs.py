@@ -55,15 +55,20 @@ ARM = """
 <link name="arm"><pose>0 0 0.2 0 0 0</pose><inertial><pose>0.3 0 0 0 0 0</pose><mass>2</mass>
   {inertia}</inertial></link>
 <joint name="shoulder" type="revolute"><parent>base_link</parent><child>arm</child>
-  <axis><xyz>0 1 0</xyz><limit><lower>-3</lower><upper>3</upper><effort>5</effort></limit></axis>
+  <axis><xyz>0 1 0</xyz>
+    <limit><lower>-3</lower><upper>3</upper><effort>{effort}</effort></limit></axis>
 </joint>"""
 
 
-def test_an_arm_holds_and_needs_its_weight_times_its_lever() -> None:
+@pytest.mark.parametrize(("effort", "holds"), [("5", False), ("6", True)])
+def test_an_arm_holds_if_its_motor_bears_its_weight_times_its_lever(
+    effort: str, holds: bool
+) -> None:
     foot = """<collision name="c"><geometry><box><size>1 1 0.1</size></box></geometry>
       </collision></link>"""
     base = chassis(height=0.05).replace("</link>", foot)
-    trial = sound(sdf(base + ARM.format(inertia=box_inertia(2, 0.6, 0.05, 0.05))))
+    arm = ARM.format(inertia=box_inertia(2, 0.6, 0.05, 0.05), effort=effort)
+    trial = sound(sdf(base + arm))
     assert value(trial, "torque", "shoulder") == pytest.approx(2 * 9.81 * 0.3, rel=0.01)
-    assert value(trial, "torque_limit", "shoulder") == 5
-    assert value(trial, "hold_sag", "shoulder") < 0.01
+    assert value(trial, "torque_limit", "shoulder") == float(effort)
+    assert (value(trial, "hold_sag", "shoulder") < 0.01) is holds

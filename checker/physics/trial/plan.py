@@ -77,6 +77,7 @@ class Plan(Record):
         belts: What a tracked robot stands on.
         rotors: What carries a copter.
         efforts: Effort limits of joints that are driven, N·m or N.
+        limits_act: Whether the simulator keeps joints within them, and within velocity limits.
         speed_limit: m/s; None without.
         acceleration_limit: m/s²; None without.
         turns_in_place: Whether the turn is one in place, not a circle.
@@ -94,6 +95,7 @@ class Plan(Record):
     belts: tuple[Belt, ...] = ()
     rotors: tuple[PlannedRotor, ...] = ()
     efforts: Mapping[str, float] = field(default_factory=dict)
+    limits_act: bool = True
     speed_limit: float | None = None
     acceleration_limit: float | None = None
     turns_in_place: bool = True

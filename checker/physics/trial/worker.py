@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION
-from checker.physics.trial.measures.measurement import measure_motion
+from checker.physics.trial.measures.measurement import TORQUE, measure_motion, too_weak
 from checker.physics.trial.measures.motion import Motion, excess_links, replay_of, series_of
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
@@ -38,7 +38,12 @@ def _trial(item: Mapping[str, Any]) -> Trial:
 
 
 def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
-    """Drive a robot and measure; a run that MuJoCo gives up is tried again with half the step."""
+    """Drive a robot and measure.
+
+    A run that MuJoCo gives up is tried again with half the step. Where joints need more than their
+    effort limit, the robot is driven again within these limits: the torques are those that it
+    needs, all else is what it then does.
+    """
     import mujoco
 
     trial = Trial(
@@ -55,10 +60,17 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
     except ValueError as refusal:
         return _refused(trial, str(refusal), scene)
     motion = Motion(run, plan)
+    figures = tuple(measure_motion(motion))
+    weak = too_weak(figures) if plan.limits_act and not run.trouble else ()
+    if weak:
+        run = drive(scene, plan, run.timestep, weak)
+        motion = Motion(run, plan)
+        needed = (figure for figure in figures if figure.name == TORQUE)
+        figures = (*(f for f in measure_motion(motion) if f.name != TORQUE), *needed)
     return replace(
         trial,
         legs=plan.legs,
-        measurements=(*measure_motion(motion), *overlaps(scene)),
+        measurements=(*figures, *overlaps(scene)),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
         replay=replay_of(run),

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.geometry.transform import Transform, Vector
+from checker.model.locomotion.classic import classic_drive
 from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import (
     DriveKind,
@@ -215,7 +216,26 @@ def plan_of(robot: Robot) -> Plan:
     others = [name for name in held if name not in turned]
     places = {**plan.places, **at_rest(robot, others, plan.legs)}
     efforts = _efforts(robot, (*plan.speeds, *places))
-    return replace(plan, places=places, efforts=efforts)
+    # Gazebo Classic's plugins set the speeds of joints with a torque of their own.
+    limits_act = not any(classic_drive(plugin) for plugin in robot.all_plugins)
+    speeds = {
+        name: _within(robot, name, line) if limits_act else line
+        for name, line in plan.speeds.items()
+    }
+    return replace(plan, speeds=speeds, places=places, efforts=efforts, limits_act=limits_act)
+
+
+def _within(robot: Robot, name: str, speeds: Knots) -> Knots:
+    """Return the speeds of a joint that its velocity limit allows, as DART and ros2_control do."""
+    joint = robot.joints_by_name.get(name)
+    most = joint.axes[0].velocity.value if joint is not None and joint.axes else math.inf
+    if not 0.0 <= most < math.inf:
+        return speeds
+    return mix_lines((speeds,), Limits(-most, most).clamp, step=_CLIPPED_SECONDS)
+
+
+_CLIPPED_SECONDS = 0.05
+"""Time between corners of a line that a limit clips."""
 
 
 def _joints_with_motor(robot: Robot) -> Iterator[str]:

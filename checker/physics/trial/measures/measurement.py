@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from checker.physics.trial.course import (
     CLIMB,
@@ -62,6 +62,17 @@ def _hover(motion: Motion) -> Iterator[Measurement]:
 _LEGS = (DRIVE, STOP_DRIVE, TURN, STOP_TURN, HOLD, HOVER, CLIMB)
 
 
+TORQUE, TORQUE_LIMIT = "torque", "torque_limit"
+
+
+def too_weak(figures: Iterable[Measurement]) -> tuple[str, ...]:
+    """Return the joints whose largest torque is above their effort limit."""
+    figures = tuple(figures)
+    limits = {figure.part: figure.value for figure in figures if figure.name == TORQUE_LIMIT}
+    torques = (figure for figure in figures if figure.name == TORQUE)
+    return tuple(t.part for t in torques if t.value > limits.get(t.part, math.inf))
+
+
 def measure_torque(motion: Motion) -> Iterator[Measurement]:
     """Measure the largest torque (or force) of each joint that has a servo."""
     import numpy as np
@@ -73,9 +84,9 @@ def measure_torque(motion: Motion) -> Iterator[Measurement]:
     first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
     means = np.abs(averaged(np.array(run.forces)[first:behind], run.timestep))
     for number, joint in enumerate(run.rig.names):
-        yield Measurement("torque", float(means[:, number].max(initial=0.0)), joint)
+        yield Measurement(TORQUE, float(means[:, number].max(initial=0.0)), joint)
         if joint in motion.plan.efforts:
-            yield Measurement("torque_limit", motion.plan.efforts[joint], joint)
+            yield Measurement(TORQUE_LIMIT, motion.plan.efforts[joint], joint)
 
 
 # Energy: what is not driven must not gain any.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from checker.physics.trial.mjcf.scene import Scene, carriers_of
@@ -34,8 +35,16 @@ class Rig:
         bodies: Numbers of their bodies.
     """
 
-    def __init__(self, scene: Scene, plan: Plan, timestep: float) -> None:
+    def __init__(
+        self, scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = ()
+    ) -> None:
         """Compile the scene.
+
+        Args:
+            scene: The robot.
+            plan: The commands.
+            timestep: Seconds.
+            limited: Joints whose servos have no more than the effort limit.
 
         Raises:
             ValueError: MuJoCo refuses it.
@@ -62,6 +71,7 @@ class Rig:
         self._link_to_robot = turned.reshape(3, 3).T
         mujoco.mj_forward(self.model, self.data)
         self._tune()
+        self._limit(limited)
         self.initial = self.positions
         self.belts = self._belts()
 
@@ -92,10 +102,7 @@ class Rig:
         return place - rotation @ self._link_place, rotation
 
     def _tune(self) -> None:
-        """Give each servo the stiffness that its load needs; their force has no limit.
-
-        A limited stiff servo chatters; its commanded force is compared with the limits afterwards.
-        """
+        """Give each servo the stiffness that its load needs."""
         own, reaches = self._own_inertia(), self._reaches()
         wheels = {wheel.joint: wheel for wheel in self.plan.wheels}
         for number, name in enumerate(self.names):
@@ -110,6 +117,18 @@ class Rig:
                 # Critically damped.
                 stiffness = carried / _HOLD_SECONDS**2
                 self._position_servo(number, stiffness, 2 * carried / _HOLD_SECONDS)
+
+    def _limit(self, joints: Collection[str]) -> None:
+        """Limit the forces of some servos.
+
+        A stiff servo chatters at a limit that is far above its load, so only those are limited
+        that reached their limit when they had none.
+        """
+        for number, name in enumerate(self.names):
+            if name in joints:
+                most = self.plan.efforts[name]
+                self.model.actuator_forcelimited[number] = 1
+                self.model.actuator_forcerange[number] = -most, most
 
     def _own_inertia(self) -> Array:
         """Return each joint's diagonal of the mass matrix, kg·m² or kg."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -146,20 +147,21 @@ class Run:
     belts: Belts | None = None
 
 
-def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
+def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = ()) -> Run:
     """Drive the course.
 
     Args:
         scene: The robot.
         plan: Its commands.
         timestep: Seconds.
+        limited: Joints whose servos have no more than the effort limit.
 
     Raises:
         ValueError: MuJoCo refuses the scene.
     """
     import mujoco
 
-    rig = Rig(scene, plan, timestep)
+    rig = Rig(scene, plan, timestep, limited)
     run = Run(rig, timestep)
     steps = round(plan.seconds / timestep)
     every, often = round(SAMPLE_SECONDS / timestep), round(PILOT_SECONDS / timestep)
