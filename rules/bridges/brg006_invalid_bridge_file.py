@@ -1,7 +1,7 @@
 """A YAML file of a bridge that is not valid, or an entry that the bridge ignores.
 
-The file must be a sequence of mappings: each entry begins with `- `. Otherwise nothing at all is
-bridged. An entry without types, with an unknown direction, or with `topic_name` beside
+The file must be a sequence of mappings: each entry starts with `- `. Otherwise nothing is
+bridged. An entry without types, with an unknown direction, or with `topic_name` in addition to
 `ros_topic_name` or `gz_topic_name` is ignored with a line in the log. Keys that the bridge does not
 know are ignored: a warning.
 

@@ -6,8 +6,8 @@ know makes the robot tumble. With less thrust than weight it stays on the ground
 across its thrust sweeps through the robot. Of the accepted packages that we checked, one shows
 this: rotors that lift thousands of times its weight.
 
-Fix: number the rotors from 0 in the order of `<rotorConfiguration>`; turn half of them `ccw`
-and half `cw`, neighbours opposite; copy `motorConstant`, `momentConstant` and the direction (ccw is
+Fix: number the rotors from 0 in the order of `<rotorConfiguration>`; turn half of them `ccw` and
+half `cw`, adjacent ones opposite; copy `motorConstant`, `momentConstant` and the direction (ccw is
 1) to the controller; correct `maxRotVelocity`, in rad/s.
 Source: gz-sim's MulticopterMotorModel (thrust = motorConstant · ω²) and MulticopterVelocityControl,
 which refuses rotors that do not command climb, roll, pitch and yaw independently.

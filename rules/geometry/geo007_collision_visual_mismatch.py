@@ -1,6 +1,6 @@
 """Collision and visual of a link are in different places, or of different size.
 
-The robot does not touch what it seems to touch: a wheel rolls beside its visual, a robot stops in
+The robot does not touch what it seems to touch: a wheel rolls next to its visual, a robot stops in
 front of nothing or drives into walls. Usually one of the two has a wrong pose, scale or unit. None
 of the accepted packages that we checked shows this.
 

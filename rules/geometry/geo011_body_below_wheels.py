@@ -1,7 +1,7 @@
 """The body of a robot reaches below its wheels or tracks, or is close to the ground.
 
-The robot lies on its belly: the wheels hang in the air or carry too little load to push. With
-little ground clearance, the first bump stops the robot. Usually the wheels are too high in the
+The robot rests on its body: the wheels do not touch the ground or carry too little load to push.
+With little ground clearance, the first bump stops the robot. Usually the wheels are too high in the
 body. No accepted package that we checked shows this: the lowest has a clearance of half a wheel's
 radius.
 

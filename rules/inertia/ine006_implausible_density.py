@@ -6,7 +6,7 @@ its way.
 
 Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
-visuals count as well. A mesh that is not closed counts as its convex hull. If the greatest volume
+visuals count too. A mesh that is not closed counts as its convex hull. If the greatest volume
 is that of meshes, a heavy link is information: a mesh often draws a bracket or a cover, and the
 motor behind it is not drawn. In published robots none of the links that are heavier than steel in
 meshes has a wrong mass, and all that are so in simple shapes have one. A whole link that is as

@@ -4,7 +4,8 @@ Solvers that work joint by joint pass the weight of one side to the other throug
 and lose as many digits as the masses differ. The joint gives way, trembles, or needs very small
 time steps. Links on fixed joints count as one body; a light link at the end of a chain is harmless.
 
-Fix: give the link the mass of the bearing or motor that it represents, or fix it to a neighbour.
+Fix: give the link the mass of the bearing or motor that it represents, or fix it to an adjacent
+link.
 Source: general experience with iterative contact solvers; the ratio is a starting point.
 """
 

@@ -8,7 +8,7 @@ Featherstone has one. URD019 is the rule for Fortress. A joint that a plugin dri
 
 Fix: in the world's physics plugin write `<engine>` with
 `<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 says what that engine lacks);
-or let ros2_control, or a plugin of its own, move the joint.
+or let ros2_control, or another plugin, move the joint.
 Source: gz-physics, features of dartsim and bullet-featherstone (gz-physics 7, 8, 9), issue 432;
 gz-sim, Physics.cc: the default engine; gz_ros2_control issue 340.
 """

@@ -15,7 +15,7 @@ of its own package on the path is an error.
 Fix: write `<gazebo_ros gazebo_model_path="${prefix}/.."/>` into `<export>` of the package.xml of
 the package with the meshes: `gz_sim.launch.py`, and `gzserver.launch.py` of Gazebo Classic, read
 it, and `${prefix}` is its share folder. A hook with the line
-`prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` as well.
+`prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` too.
 Source: libsdformat, parser_urdf.cc; gz-sim, resource paths; ros_gz_sim, gz_sim.launch.py; ros_gz
 issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one level too deep.
 """

@@ -2,7 +2,7 @@
 
 Gazebo downloads the file that such a URI names. It does not understand a URI of another form, and
 it cannot download a file that its package does not have. Blanks in it are allowed. The models that
-`<depend>` of model.config names are downloaded as well; a blank in such a name is reported if the
+`<depend>` of model.config names are downloaded too; a blank in such a name is reported if the
 package of that name, here or in package.xml, has an underscore in its place.
 
 Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`; or

@@ -7,13 +7,13 @@ publish such a topic itself: where the sensor, its link or the model has one, th
 checked.
 
 Topics differ between releases. A thermal camera of Dome publishes its picture under its own name
-without `/image` (`sensor/thermal`), and camera_info beside it (`sensor/camera_info`); since
+without `/image` (`sensor/thermal`), and camera_info next to it (`sensor/camera_info`); since
 Fortress it publishes both as every camera does (`gazebo_topics.json`).
 
 Fix: write the exact names of the link and its sensor, and a topic that this type of sensor
 publishes.
 Source: topics that gz-sensors publishes by default; SubT review findings about IMUs that were
-bridged from `base_link` but had a link of their own. Bridges of the launch files of subt_ros are
+bridged from `base_link` but had their own link. Bridges of the launch files of subt_ros are
 assumed (`models_common.json`).
 """
 

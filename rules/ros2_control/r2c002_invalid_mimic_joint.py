@@ -6,7 +6,7 @@ is not in the same `<ros2_control>` tag, and if a joint is marked `mimic="true"`
 `<mimic>`. `<param name="mimic">` is only read by Humble: later, the joint does not move.
 
 Fix: leave only state interfaces at the joint and keep `<mimic>` in the URDF; for a joint with a
-motor of its own, write `mimic="false"`.
+separate motor, write `mimic="false"`.
 Source: ros2_control, hardware_interface/src/component_parser.cpp,
 `parse_control_resources_from_urdf`; migration notes from Iron to Jazzy.
 """

@@ -3,7 +3,7 @@
 Plugins, bridges and joints find a part by its name. libsdformat refuses a file in which two parts
 of one kind share a name, or in which two children of a world do. Links, joints, frames and nested
 models of a model have one set of names: in files before SDF 1.7 libsdformat renames the second
-(joint `arm` beside a link `arm` becomes `arm_joint`), so that it cannot be found by its written
+(joint `arm` next to a link `arm` becomes `arm_joint`), so that it cannot be found by its written
 name; from 1.7 on it refuses the file. That other siblings share a name is against the specification
 since SDF 1.7, and works. Names of the form `__x__`, the name `world`, and names with `::` have a
 special meaning for the parser; before SDF 1.8 `::` was part of a valid name, and is reported in

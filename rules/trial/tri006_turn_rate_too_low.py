@@ -2,7 +2,7 @@
 
 Wheels in fixed directions slide sideways in a turn: a skid-steer robot turns slower than commanded.
 How much slower depends on the places of its wheels and the load on each. If a robot turns far less
-than that, something else holds it back.
+than that, something else brakes it.
 
 Fix: look for a collision that drags on the ground, and for wheels that are tilted or do not turn.
 Source: quasi-static balance of Coulomb friction over the wheels; it predicts the turn rate of 20 of

@@ -3,7 +3,7 @@
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
 at launch: one without a default, or with an empty default that makes the expansion fail. Further
-values that the file or a launch file names for an argument are tried as well.
+values that the file or a launch file names for an argument are tried too.
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
 reports what xacro refuses from ROS Noetic on.

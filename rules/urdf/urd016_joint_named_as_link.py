@@ -5,7 +5,7 @@ once Gazebo has converted the file, libsdformat refuses the model, and nothing i
 of a fixed joint that Gazebo merges does not count. In a URDF without a `<gazebo>` element, this is
 a warning.
 
-Fix: give the joint a name of its own, such as `arm_joint`, also in controllers and transmissions.
+Fix: give the joint its own name, such as `arm_joint`, also in controllers and transmissions.
 Source: SDFormat 1.7, "unique sibling names"; tried with libsdformat 12: "Joint with non-unique name
 detected in model".
 """

@@ -5,7 +5,7 @@ it is called: the value of the file that was included last then counts for both.
 radius of another wheel, without a message. A property that the including file sets itself is
 intended, and is not reported.
 
-Fix: give the properties names of their own, such as `caster_radius`; or pass the value to the macro
+Fix: give the properties different names, such as `caster_radius`; or pass the value to the macro
 as a parameter; or include the file with `ns="…"`.
 Source: xacro documentation, properties and `ns` of `<xacro:include>`; tried with xacro 2.
 """
