@@ -7,7 +7,7 @@
   new package, a new `Subject` and a new run of the static rules: nothing can be stale, and it
   takes a tenth of a second, since texts, meshes and expansions are known.
 - Packages are read in one thread; the event loop continues. Weights and the trial run
-  in its own process (`full_check`), which the user can stop; its findings stay with their
+  in a separate process (`full_check`), which the user can stop; its findings stay with their
   elements while the text changes (`measured`).
 - Garbage is collected while the editor is idle: otherwise it takes half the time of a check.
 """

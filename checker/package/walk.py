@@ -15,7 +15,7 @@ MAX_DEPTH = 50
 SKIPPED_FOLDERS = frozenset({".git"})
 
 Inside = Callable[[Path], bool]
-"""Whether a real path belongs to an available sibling package."""
+"""Function that returns whether a real path belongs to an available sibling package."""
 
 
 def build_index(root: Path, inside: Inside) -> FileIndex:

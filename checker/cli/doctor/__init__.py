@@ -1,1 +1,1 @@
-"""Whether everything works where the checker is installed; the command `doctor`."""
+"""Check of the installation: libraries, the sandbox and the viewer; the command `doctor`."""
