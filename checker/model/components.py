@@ -300,11 +300,6 @@ class Joint(Part):
         return f"both limits are {lower.value:g}" if stated and lower.value == upper.value else ""
 
     @property
-    def starts_outside(self) -> bool:
-        """True if 0, where a trial starts it, is outside its limits, which push it back."""
-        return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in self.axes)
-
-    @property
     def mimics(self) -> list[Located[str]]:
         """Names of joints that this one copies: below `<joint>` in URDF, below `<axis>` in SDF."""
         holders = (self.element, *self.element.all("axis"), *self.element.all("axis2"))

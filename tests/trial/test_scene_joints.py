@@ -97,7 +97,7 @@ def test_limits_the_wrong_way_round_are_left_out() -> None:
 
 def test_a_start_beyond_the_limits_is_noted() -> None:
     scene = jointed("revolute", limited("0.5", "1"))
-    assert scene.notes == ("Joints start at 0, which is outside their limits: b_joint.",)
+    assert scene.notes == ("Joints whose limits exclude 0 start at the nearest limit: b_joint.",)
 
 
 def test_damping_friction_and_spring() -> None:

@@ -73,6 +73,7 @@ class Plan(Record):
         angular: Commanded turn rate over time, rad/s.
         speeds: The speeds of joints by scoped name over time, rad/s.
         places: The places of joints that a stiff servo holds or steers, over time, rad or m.
+        starts: Positions in which joints start instead of 0, rad or m.
         wheels: The wheels among `speeds` that stand on the ground.
         belts: What a tracked robot stands on.
         rotors: What carries a copter.
@@ -91,6 +92,7 @@ class Plan(Record):
     angular: Knots = ()
     speeds: Mapping[str, Knots] = field(default_factory=dict)
     places: Mapping[str, Knots] = field(default_factory=dict)
+    starts: Mapping[str, float] = field(default_factory=dict)
     wheels: tuple[DrivenWheel, ...] = ()
     belts: tuple[Belt, ...] = ()
     rotors: tuple[PlannedRotor, ...] = ()

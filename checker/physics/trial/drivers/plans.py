@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from msgspec.structs import replace
 
 from checker.formats.urdf.description import joints_with_motor
+from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.classic import classic_drive
 from checker.model.locomotion.drive import WING_CLASSES
@@ -39,6 +40,7 @@ from checker.physics.trial.drivers.wheels import (
     plan_wheels,
     strictest_limits,
 )
+from checker.physics.trial.mjcf.names import clamp
 from checker.physics.trial.plan import Belt, Plan, PlannedRotor
 from checker.physics.trial.profile import Knots, Limits, mix_lines
 from checker.physics.trial.trial import Leg
@@ -196,12 +198,34 @@ def plan_hold(robot: Robot, kind: DriveKind) -> Plan:
 
 
 def at_rest(robot: Robot, joints: Iterable[str], legs: tuple[Leg, ...]) -> dict[str, Knots]:
-    """Return commands that keep joints where they are, of those that a servo can hold.
+    """Return commands that keep joints where they start, of those that a servo can hold.
 
     Balls are left out, and what cannot move.
     """
-    still = ((0.0, 0.0), (legs[-1].end, 0.0))
-    return {name: still for name in joints if AXES.get(robot.joints_by_name[name].type.value)}
+    starts = {name: start_of(robot.joints_by_name[name], held=True) for name in joints}
+    return {
+        name: ((0.0, start), (legs[-1].end, start))
+        for name, start in starts.items()
+        if AXES.get(robot.joints_by_name[name].type.value)
+    }
+
+
+_FROM_STOPS = 0.01, 0.05
+"""Distance of a held joint from its limits, at most: rad or m, and share of its range. On a limit,
+the stop would carry what the motor has to."""
+
+
+def start_of(joint: Joint, *, held: bool) -> float:
+    """Return where a joint starts, rad or m: its initial position, or the nearest within limits."""
+    if joint.type.value == "continuous" or not joint.axes:
+        return 0.0
+    axis = joint.axes[0]
+    low, high = axis.lower.value, axis.upper.value
+    if not low < high:
+        return 0.0
+    most, share = _FROM_STOPS
+    off = min(most, share * (high - low)) if held else 0.0
+    return clamp(axis.initial_position.value, low + off, high - off, 0.0)
 
 
 def plan_of(robot: Robot) -> Plan:
@@ -222,7 +246,18 @@ def plan_of(robot: Robot) -> Plan:
         name: _within(robot, name, line) if limits_act else line
         for name, line in plan.speeds.items()
     }
-    return replace(plan, speeds=speeds, places=places, efforts=efforts, limits_act=limits_act)
+    starts = {
+        name: places[name][0][1] if name in places else start_of(joint, held=False)
+        for name, joint in robot.joints_by_name.items()
+    }
+    return replace(
+        plan,
+        speeds=speeds,
+        places=places,
+        starts={name: start for name, start in starts.items() if start},
+        efforts=efforts,
+        limits_act=limits_act,
+    )
 
 
 def _within(robot: Robot, name: str, speeds: Knots) -> Knots:

@@ -110,7 +110,7 @@ def _range(name: str, axis: Axis, ledger: Ledger) -> tuple[float, float] | None:
         ledger.repair(name, f"has {limits}; both are left out", serious=True)
         return None
     if not low <= 0.0 <= high:
-        ledger.note("Joints start at 0, which is outside their limits", name)
+        ledger.note("Joints whose limits exclude 0 start at the nearest limit", name)
     low, high = max(low, -_ENDLESS), min(high, _ENDLESS)
     endless = low >= high or (low == -_ENDLESS and high == _ENDLESS)
     return None if endless else (low, high)

@@ -106,6 +106,11 @@ class Layout:
         return min(heights, default=0.0)
 
     @property
+    def stands(self) -> bool:
+        """Whether a part of the robot is not fixed to the world."""
+        return any(self.forest.tie(name) is None for name in self.forest.tops)
+
+    @property
     def jointed_pairs(self) -> tuple[tuple[str, str], ...]:
         """Pairs of links that others move with and that a joint lets move against each other."""
         pairs: dict[tuple[str, str], None] = {}

@@ -168,7 +168,8 @@ def build_scene(
     unusable = unusable_because(robot, layout)
     if unusable:
         return Scene(repairs=tuple(ledger.repairs), notes=ledger.notes, unusable=unusable)
-    height = DROP - layout.lowest
+    # What a joint fixes to the world stays in its place.
+    height = DROP - layout.lowest if layout.stands else 0.0
     writer = BodyWriter(layout, frozenset(belts))
     bodies, names, root = writer.text(height), writer.names, root_of(robot, layout)
     return Scene(

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from checker.physics.trial.mjcf.scene import Scene, carriers_of
+from checker.physics.trial.mjcf.scene import DROP, Scene, carriers_of
 from checker.physics.trial.plan import Plan
+from checker.physics.trial.simulation.shapes import lowest_point
 
 if TYPE_CHECKING:
     import numpy as np
@@ -70,6 +71,7 @@ class Rig:
         mujoco.mju_quat2Mat(turned, np.array(scene.root_in_robot[3:]))
         self._link_to_robot = turned.reshape(3, 3).T
         mujoco.mj_forward(self.model, self.data)
+        self._start()
         self._tune()
         self._limit(limited)
         self.initial = self.positions
@@ -100,6 +102,21 @@ class Rig:
         """
         rotation = turn.reshape(*turn.shape[:-1], 3, 3) @ self._link_to_robot
         return place - rotation @ self._link_place, rotation
+
+    def _start(self) -> None:
+        """Move joints to where they start, and what stands on the ground up or down with them."""
+        import mujoco
+
+        starts = [(j, at) for j, at in self.plan.starts.items() if j in self.scene.joints]
+        if not starts:
+            return
+        for name, position in starts:
+            self.data.qpos[self.model.jnt_qposadr[self._joint(name)]] = position
+        mujoco.mj_forward(self.model, self.data)
+        lift = DROP - lowest_point(self.model, self.data)
+        for joint in self.scene.free_joints.values():
+            self.data.qpos[self.model.jnt_qposadr[self.model.joint(joint).id] + 2] += lift
+        mujoco.mj_forward(self.model, self.data)
 
     def _tune(self) -> None:
         """Give each servo the stiffness that its load needs."""
