@@ -11,6 +11,7 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.faults import FaultKind
+from checker.model.locomotion.classic import enforces_limits
 from checker.model.tree import LinkTree
 
 if TYPE_CHECKING:
@@ -136,8 +137,12 @@ def bare_wheel(robot: Robot) -> str:
 
 def stuck_wheel(robot: Robot) -> str:
     """Return which joint of a driven wheel cannot turn, as a sentence; empty if all can."""
+    limited = enforces_limits(robot)
     for wheel in robot.locomotion.wheels:
-        if why := wheel.joint.immovable:
+        why = wheel.joint.immovable
+        if limited and any(axis.velocity.value == 0.0 for axis in wheel.joint.axes):
+            why = "its velocity limit is 0"
+        if why:
             return f"joint {wheel.joint.name.value!r} cannot move: {why}"
     return ""
 

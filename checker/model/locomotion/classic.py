@@ -72,6 +72,14 @@ def _drives() -> tuple[ClassicDrive, ...]:
     return convert(table("gazebo_classic_plugins")["drives"], tuple[ClassicDrive, ...])
 
 
+def enforces_limits(robot: Robot) -> bool:
+    """Return whether the simulator keeps driven joints within limits of velocity and effort.
+
+    Drive plugins of Gazebo Classic set speeds with a torque of their own.
+    """
+    return not any(classic_drive(plugin) for plugin in robot.all_plugins)
+
+
 def classic_joints(plugins: Iterable[Plugin]) -> Iterator[str]:
     """Yield the names of the wheel joints that drive plugins of Gazebo Classic turn."""
     for plugin in plugins:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.locomotion.classic import classic_drive
+from checker.model.locomotion.classic import enforces_limits
 from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import (
     DriveKind,
@@ -240,8 +240,7 @@ def plan_of(robot: Robot) -> Plan:
     others = [name for name in held if name not in turned]
     places = {**plan.places, **at_rest(robot, others, plan.legs)}
     efforts = _efforts(robot, (*plan.speeds, *places))
-    # Gazebo Classic's plugins set the speeds of joints with a torque of their own.
-    limits_act = not any(classic_drive(plugin) for plugin in robot.all_plugins)
+    limits_act = enforces_limits(robot)
     speeds = {
         name: _within(robot, name, line) if limits_act else line
         for name, line in plan.speeds.items()
