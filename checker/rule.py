@@ -124,6 +124,7 @@ class Context(Record):
         reads: Newest SDF version that the target knows: it converts older files to that one, so
             that its new elements count in them too.
         distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile without one.
+        payload: Mass that an arm is to carry at its end, kg.
     """
 
     profile: str = "subt"
@@ -131,6 +132,7 @@ class Context(Record):
     sdf_version: str = "1.6"
     reads: str = "1.7"
     distro: str = ""
+    payload: float = 0.0
 
     @property
     def is_subt(self) -> bool:

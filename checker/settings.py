@@ -6,6 +6,7 @@ in its own folder or in the nearest folder above that has one.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -63,6 +64,7 @@ class Settings(Record):
         display: Whether the report contains the robot in 3D.
         package_path: Folders in which further packages are found.
         xacro_args: Arguments for xacro files, before those that launch files give.
+        payload: Mass that an arm is to carry at its end, kg.
         suppress: Findings that do not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
@@ -85,6 +87,7 @@ class Settings(Record):
     display: bool = False
     package_path: tuple[Path, ...] = ()
     xacro_args: Mapping[str, str] = field(default_factory=dict)
+    payload: float = 0.0
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
     distro: str = ""
@@ -153,6 +156,7 @@ class Settings(Record):
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
         changes += [f"own devices: {len(self.devices)}"] if self.devices else []
         changes += [f"xacro arguments: {', '.join(self.xacro_args)}"] if self.xacro_args else []
+        changes += [f"payload {self.payload:g} kg"] if self.payload else []
         changes += [f"{len(self.suppress)} suppressed with reasons"] if self.suppress else []
         changes += [f"baseline {self.baseline.path.name}"] if self.baseline.path else []
         changes += [] if self.trial else ["without trial"]
@@ -243,6 +247,7 @@ _KEYS = {
     "devices": "devices",
     "package-path": "package_path",
     "xacro-args": "xacro_args",
+    "payload": "payload",
     "suppress": "suppress",
     "baseline": "baseline",
 }
@@ -295,7 +300,7 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "devices" | "suppress" | "baseline" | "package-path" | "xacro-args":
+        case "devices" | "suppress" | "baseline" | "package-path" | "xacro-args" | "payload":
             return _READERS[key](value, path)
         case _:
             return _by_rule(key, value, path)
@@ -360,6 +365,12 @@ def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
     return arguments
 
 
+def _payload(value: Any, path: Path) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+        raise InvalidSettings(path, f"payload is {value!r}, expected a mass in kg")
+    return float(value)
+
+
 def _checked_path(key: str, value: Any, path: Path, kind: str) -> Path:
     """Return the path that settings name: a stranger's may not name what is elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
@@ -375,6 +386,7 @@ _READERS: Mapping[str, Callable[[Any, Path], Any]] = {
     "baseline": _baseline,
     "package-path": _package_path,
     "xacro-args": _xacro_arguments,
+    "payload": _payload,
 }
 
 

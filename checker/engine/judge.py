@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from msgspec.structs import asdict
+from msgspec.structs import asdict, replace
 
 from checker.base.parts import type_name
 from checker.base.record import Record
@@ -12,7 +12,7 @@ from checker.finding import Severity
 from checker.formats.urdf.second_reading import SecondReading
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
-from checker.rule import Finding, Rule
+from checker.rule import Context, Finding, Rule
 from checker.rulebook.profiles import Profile, profile
 from checker.settings import Settings
 
@@ -37,6 +37,11 @@ class Judge(Record):
     def from_settings(cls, settings: Settings) -> Judge:
         """Return the judge with the profile that the settings name."""
         return cls(profile(settings.profile, settings.distro), settings)
+
+    @property
+    def context(self) -> Context:
+        """Facts about the check that rules may use."""
+        return replace(self.profile.context, payload=self.settings.payload)
 
     def is_selected(self, rule: Rule) -> bool:
         """Return whether a rule runs: it is in the profile, or the user names it."""

@@ -192,7 +192,7 @@ def _run_isolated(
 ) -> list[Finding | Unchecked] | NotChecked:
     """Run one rule; what goes wrong inside it is the checker's fault and states it."""
     try:
-        arguments = _arguments(rule, parts, judge.profile.context)
+        arguments = _arguments(rule, parts, judge.context)
         if isinstance(arguments, NotAvailable):
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)

@@ -69,6 +69,9 @@ def _keys(rules: Sequence[Rule]) -> dict[str, _Json]:
             {"type": "object", "additionalProperties": {"type": ["string", "number", "boolean"]}},
             "arguments for xacro files",
         ),
+        "payload": _described(
+            {"type": "number", "minimum": 0}, "mass that an arm is to carry at its end, kg"
+        ),
         "suppress": _suppress(),
         "baseline": _described({"type": "string"}, "file with findings that do not count"),
     }

@@ -13,6 +13,7 @@ from checker.base.parts import NotAvailable, part
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews
 from checker.package.package import Package
+from checker.physics.mass.arm_loads import ArmLoads, arm_loads
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mass.link_inertias import link_inertias as read_link_inertias
 from checker.physics.mass.mass_properties import MassProperties
@@ -58,6 +59,12 @@ def masses(robots: tuple[Robot, ...], cache: Cache, stages: Stages) -> tuple[Mas
 
     with stages.stage("weigh"):
         return tuple(weigh(robot, cache) for robot in robots)
+
+
+@part
+def arms(masses: tuple[MassProperties, ...]) -> tuple[ArmLoads, ...]:
+    """Return the joints of the robots that hold a weight."""
+    return tuple(map(arm_loads, masses))
 
 
 @part

@@ -10,6 +10,7 @@ from checker.cli.arguments import (
     DISTROS,
     FORMAT_NAMES,
     PROFILES,
+    above_zero,
     add_exit_codes,
     argument,
     ids,
@@ -77,6 +78,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         type=argument,
         help="give xacro files this argument; may be repeated",
+    )
+    parser.add_argument(
+        "--payload",
+        metavar="KG",
+        type=above_zero,
+        help="mass that an arm is to carry at its end: can its motors hold it in every pose?",
     )
     parser.add_argument(
         "--fail-on",

@@ -65,6 +65,7 @@ def _wishes(options: argparse.Namespace, renewed: Baseline | None) -> Mapping[st
         "ignore": options.ignore,
         "package_path": tuple(options.package_path) if options.package_path else None,
         "xacro_args": dict(options.xacro_arg) if options.xacro_arg else None,
+        "payload": options.payload,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
         "trial": False if options.no_trial else None,
         "thorough": True if options.thorough else None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
@@ -79,16 +80,25 @@ class PinModel(Record, eq=False):
         return np.asarray(inertia)
 
 
-def pin_model(robot: Robot) -> PinModel:
+def pin_model(robot: Robot, without: Collection[str] = ()) -> PinModel:
     """Build the model of a robot: links that have no parent are free.
 
-    It has room for some hundred joints: Pinocchio's `Data` holds square matrices.
+    It has room for some hundred joints: Pinocchio's `Data` contains square matrices.
+
+    Args:
+        robot: The robot.
+        without: Scoped names of links that get no mass.
     """
-    builder = _Builder(robot, spanning_tree_of(robot))
+    builder = _Builder(robot, spanning_tree_of(robot), without)
     # `crba` takes it for granted that the joints of a branch stand together.
     for name in builder.spanning_tree.depth_first:
         builder.add(name)
     return PinModel(builder.model, tuple(builder.degrees), tuple(builder.notes))
+
+
+def joint_label(joint: str, axis: int) -> str:
+    """Return the name of a joint in the model, for one of its axes."""
+    return f"{joint} {axis}"
 
 
 def _free(link: str) -> str:
@@ -104,10 +114,11 @@ class _Builder:
         poses: The pose of each link in the robot's frame.
     """
 
-    def __init__(self, robot: Robot, spanning_tree: SpanningTree) -> None:
+    def __init__(self, robot: Robot, spanning_tree: SpanningTree, without: Collection[str]) -> None:
         import pinocchio as pin
 
         self.robot = robot
+        self.without = without
         self.spanning_tree = spanning_tree
         self.model: Any = pin.Model()
         self.degrees: list[Degree] = []
@@ -133,8 +144,10 @@ class _Builder:
         carrier = self._free(name) if tie is None else self._hung(name, tie)
         self.carriers[name] = carrier
         frame = self.frames[carrier]
-        inertia, placement = self._inertia(link, frame), frame.inverse @ self.poses[name]
-        self.model.appendBodyToJoint(carrier, inertia, pin.SE3.Identity())
+        placement = frame.inverse @ self.poses[name]
+        if name not in self.without:
+            inertia = self._inertia(link, frame)
+            self.model.appendBodyToJoint(carrier, inertia, pin.SE3.Identity())
         self.model.addFrame(pin.Frame(name, carrier, 0, se3(placement), pin.FrameType.BODY), False)
 
     def _inertia(self, link: Link, frame: Transform) -> pin.Inertia:
@@ -167,7 +180,7 @@ class _Builder:
             kind = _joint_model(motion, frame)
             numbers = range(3) if motion.freedom is Freedom.BALL else (motion.number,)
             self.degrees += [Degree(tie.joint.scoped_name, number) for number in numbers]
-            label = f"{tie.joint.scoped_name} {motion.number}"
+            label = joint_label(tie.joint.scoped_name, motion.number)
             carrier = self._joint(carrier, kind, frame, label)
         return carrier
 

@@ -1,0 +1,67 @@
+"""Largest loads of joints, against closed forms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import pytest
+
+from checker.physics.mass.arm_loads import arm_loads
+from checker.physics.mass.robot_mass import weigh
+from tests.model.robots import sdf
+
+G = 9.81
+UPPER, LOWER = 1.2, 0.25
+"""kg·m about the shoulder and about the elbow, of an arm of 2 and 1 kg."""
+
+
+def loads(
+    elbow: str = "", payload: float = 0.0, kind: str = "revolute", axis: str = "0 1 0"
+) -> Mapping[str, float]:
+    """Return the largest loads of an arm that hangs down at 0; all motors are weak."""
+    robot = sdf(
+        f"""
+<link name="base"><inertial><mass>50</mass></inertial>
+  <collision name="c"><geometry><box><size>1 1 0.1</size></box></geometry></collision></link>
+<link name="upper"><pose>0 0 2 0 0 0</pose>
+  <inertial><pose>0 0 -0.3 0 0 0</pose><mass>2</mass></inertial></link>
+<link name="lower"><pose>0 0 1.4 0 0 0</pose>
+  <inertial><pose>0 0 -0.25 0 0 0</pose><mass>1</mass></inertial></link>
+<link name="hand"><pose>0 0 0.9 0 0 0</pose><inertial><mass>1e-9</mass></inertial></link>
+<joint name="shoulder" type="revolute"><parent>base</parent><child>upper</child>
+  <axis><xyz>0 1 0</xyz><limit><effort>0.01</effort></limit></axis></joint>
+<joint name="elbow" type="{kind}"><parent>upper</parent><child>lower</child>
+  <axis><xyz>{axis}</xyz><limit>{elbow}<effort>0.01</effort></limit></axis></joint>
+<joint name="wrist" type="fixed"><parent>lower</parent><child>hand</child></joint>"""
+    )
+    arms = arm_loads(weigh(robot))
+    assert not arms.unknown
+    assert arms.tool == "hand"
+    return {load.joint.name.value: load.effort for load in arms.loads(payload)}
+
+
+def test_an_arm_is_stretched_out() -> None:
+    found = loads()
+    assert found["shoulder"] == pytest.approx(G * (UPPER + LOWER), rel=1e-4)
+    assert found["elbow"] == pytest.approx(G * LOWER, rel=1e-4)
+
+
+def test_limits_keep_it_bent() -> None:
+    found = loads("<lower>1</lower><upper>2</upper>")
+    bent = math.hypot(UPPER + LOWER * math.cos(1), LOWER * math.sin(1))
+    assert found["shoulder"] == pytest.approx(G * bent, rel=1e-4)
+
+
+def test_a_payload_is_added_at_the_tool() -> None:
+    found = loads(payload=3.0)
+    assert found["shoulder"] == pytest.approx(G * (UPPER + LOWER + 3 * 1.1), rel=1e-4)
+    assert found["elbow"] == pytest.approx(G * (LOWER + 3 * 0.5), rel=1e-4)
+
+
+def test_a_slide_reaches_out() -> None:
+    found = loads("<lower>-0.5</lower><upper>0.5</upper>", kind="prismatic", axis="1 0 0")
+    # The slide moves the lower arm across; turned up by the shoulder, it holds its weight.
+    reach = math.hypot(UPPER + LOWER, 0.5)
+    assert found["shoulder"] == pytest.approx(G * reach, rel=1e-4)
+    assert found["elbow"] == pytest.approx(G, rel=1e-4)
