@@ -36,8 +36,6 @@ ABOUT_SOMETHING_MISSING = {
     "BAT005": "the minutes are worked out from the marked time",
     "SEN021": "the marked value says that the sensor is visualized",
     "LCH001": "the path is put together in the marked call",
-    "TRI003": "the speed is what comes of the marked drive",
-    "TRI006": "the turn is what comes of the marked drive",
     "URD008": "interfaces may be written with the package in front",
 }
 """Rules whose message names what is not at the marked place, and why."""

@@ -114,6 +114,9 @@ def _tune(root: etree._Element, scene: Scene, plan: Plan, recording: Recording) 
             element.tag = "position"
             element.set("kp", numbers([servo.stiffness]))
         element.set("kv", numbers([servo.damping]))
+        if servo.limit:
+            element.set("forcelimited", "true")
+            element.set("forcerange", numbers([-servo.limit, servo.limit]))
         most = max((abs(value) for _, value in lines[servo.joint]), default=0.0) or 1.0
         element.set("ctrllimited", "true")
         element.set("ctrlrange", numbers([-most, most]))

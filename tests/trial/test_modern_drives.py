@@ -82,9 +82,9 @@ def test_steering_joints_whose_axes_point_down_turn_it_the_other_way() -> None:
 def test_wheels_that_are_listed_on_the_other_side_turn_it_the_other_way() -> None:
     trial = driven("ros2_control_demos/example_2", "diffdrive_robot")
     assert trial.drive == "differential drive"
-    # Its casters are fixed spheres without a stated friction: they drag.
-    assert 0.05 < value(trial, "speed_ratio") < 1.0
-    assert value(trial, "yaw_ratio") < -0.1
+    # Its wheels of 15 mm turn at 1 rad/s at most, and its casters are fixed spheres, which drag.
+    assert 0.0 < value(trial, "speed_ratio") < 0.05
+    assert value(trial, "yaw_ratio") < 0.0
 
 
 def test_front_wheels_that_cannot_roll_hold_it_back() -> None:

@@ -9,6 +9,7 @@ import pytest
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from checker.physics.trial.measures.measurement import too_weak
 from checker.physics.trial.trial import Trial
 from tests.trial.machines import trial_in_child, value
 
@@ -50,7 +51,9 @@ def test_wheels_and_tracks_drive_straight_at_the_commanded_speed(trials: dict[st
 
 def test_turns_are_what_the_contact_loads_predict(trials: dict[str, Trial]) -> None:
     for name, trial in of_kind(trials, "drive", "Ackermann", "tracks").items():
-        assert 0.8 < value(trial, "yaw_of_predicted") < 1.2, name
+        # The flippers of one are too weak for its weight, and give way.
+        least = 0.7 if too_weak(trial.measurements) else 0.8
+        assert least < value(trial, "yaw_of_predicted") < 1.2, name
         assert (trial.value("turn_drift") or 0.0) < 0.5, name
 
 

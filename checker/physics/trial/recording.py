@@ -39,11 +39,13 @@ class Servo(Record):
         joint: Scoped name.
         stiffness: N·m/rad or N/m; 0 for a servo that holds a velocity.
         damping: N·m·s/rad or N·s/m; of one that holds a velocity, its gain.
+        limit: N·m or N at most; 0 for one without limit.
     """
 
     joint: str
     stiffness: float
     damping: float
+    limit: float = 0.0
 
 
 class BeltSurface(Record):
@@ -95,7 +97,12 @@ class Recording(Record):
         return cls(
             float(data["timestep"]),
             tuple(
-                Servo(str(each["joint"]), float(each["stiffness"]), float(each["damping"]))
+                Servo(
+                    str(each["joint"]),
+                    float(each["stiffness"]),
+                    float(each["damping"]),
+                    float(each["limit"]),
+                )
                 for each in data["servos"]
             ),
             {
@@ -144,14 +151,12 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
 
 def _recording(item: Mapping[str, Any]) -> Recording:
-    from checker.physics.trial.simulation.simulation import drive
+    from checker.physics.trial.worker import driven
 
     scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
     timestep = item["timestep"]
     try:
-        run = drive(scene, plan, timestep)
-        if run.trouble:  # as the trial does
-            run = drive(scene, plan, timestep / 2)
+        run, _ = driven(scene, plan, timestep)
     except ValueError as refusal:
         return Recording(timestep, refused=" ".join(str(refusal).split()))
     return _recording_of(run)
@@ -160,7 +165,12 @@ def _recording(item: Mapping[str, Any]) -> Recording:
 def _recording_of(run: Run) -> Recording:
     model = run.rig.model
     servos = (
-        Servo(name, -float(model.actuator_biasprm[i, 1]), -float(model.actuator_biasprm[i, 2]))
+        Servo(
+            name,
+            -float(model.actuator_biasprm[i, 1]),
+            -float(model.actuator_biasprm[i, 2]),
+            float(model.actuator_forcerange[i, 1]),
+        )
         for i, name in enumerate(run.rig.names)
     )
     states = {

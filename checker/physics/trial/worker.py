@@ -11,13 +11,17 @@ from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION
-from checker.physics.trial.measures.measurement import TORQUE, measure_motion, too_weak
+from checker.physics.trial.measures.measurement import (
+    measure_motion,
+    measure_torque,
+    too_weak,
+)
 from checker.physics.trial.measures.motion import Motion, excess_links, replay_of, series_of
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.contacts import overlaps
-from checker.physics.trial.simulation.simulation import drive
-from checker.physics.trial.trial import Trial
+from checker.physics.trial.simulation.simulation import Run, drive
+from checker.physics.trial.trial import Measurement, Trial
 
 
 def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
@@ -38,12 +42,7 @@ def _trial(item: Mapping[str, Any]) -> Trial:
 
 
 def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
-    """Drive a robot and measure.
-
-    A run that MuJoCo gives up is tried again with half the step. Where joints need more than their
-    effort limit, the robot is driven again within these limits: the torques are those that it
-    needs, all else is what it then does.
-    """
+    """Drive a robot and measure."""
     import mujoco
 
     trial = Trial(
@@ -54,27 +53,35 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
         not_driven=plan.not_driven,
     )
     try:
-        run = drive(scene, plan, timestep)
-        if run.trouble:
-            run = drive(scene, plan, timestep / 2)
+        run, needed = driven(scene, plan, timestep)
     except ValueError as refusal:
         return _refused(trial, str(refusal), scene)
     motion = Motion(run, plan)
-    figures = tuple(measure_motion(motion))
-    weak = too_weak(figures) if plan.limits_act and not run.trouble else ()
-    if weak:
-        run = drive(scene, plan, run.timestep, weak)
-        motion = Motion(run, plan)
-        needed = (figure for figure in figures if figure.name == TORQUE)
-        figures = (*(f for f in measure_motion(motion) if f.name != TORQUE), *needed)
     return replace(
         trial,
         legs=plan.legs,
-        measurements=(*figures, *overlaps(scene)),
+        measurements=(*measure_motion(motion, needed), *overlaps(scene)),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
         replay=replay_of(run),
     )
+
+
+def driven(scene: Scene, plan: Plan, timestep: float) -> tuple[Run, tuple[Measurement, ...]]:
+    """Drive a robot; return the run and the torques that it needs.
+
+    A run that MuJoCo gives up is tried again with half the step. Where joints need more than their
+    effort limit, the robot is driven again within these limits.
+
+    Raises:
+        ValueError: MuJoCo refuses the scene.
+    """
+    run = drive(scene, plan, timestep)
+    if run.trouble:
+        run = drive(scene, plan, timestep / 2)
+    needed = tuple(measure_torque(Motion(run, plan)))
+    weak = too_weak(needed) if plan.limits_act and not run.trouble else ()
+    return (drive(scene, plan, run.timestep, weak) if weak else run), needed
 
 
 def _refused(trial: Trial, reason: str, scene: Scene) -> Trial:

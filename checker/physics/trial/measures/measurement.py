@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from checker.physics.trial.course import (
     CLIMB,
@@ -62,15 +63,14 @@ def _hover(motion: Motion) -> Iterator[Measurement]:
 _LEGS = (DRIVE, STOP_DRIVE, TURN, STOP_TURN, HOLD, HOVER, CLIMB)
 
 
-TORQUE, TORQUE_LIMIT = "torque", "torque_limit"
+_TORQUE, _LIMIT = "torque", "torque_limit"
 
 
-def too_weak(figures: Iterable[Measurement]) -> tuple[str, ...]:
+def too_weak(torques: Sequence[Measurement]) -> tuple[str, ...]:
     """Return the joints whose largest torque is above their effort limit."""
-    figures = tuple(figures)
-    limits = {figure.part: figure.value for figure in figures if figure.name == TORQUE_LIMIT}
-    torques = (figure for figure in figures if figure.name == TORQUE)
-    return tuple(t.part for t in torques if t.value > limits.get(t.part, math.inf))
+    limits = {figure.part: figure.value for figure in torques if figure.name == _LIMIT}
+    largest = (figure for figure in torques if figure.name == _TORQUE)
+    return tuple(it.part for it in largest if it.value > limits.get(it.part, math.inf))
 
 
 def measure_torque(motion: Motion) -> Iterator[Measurement]:
@@ -84,9 +84,9 @@ def measure_torque(motion: Motion) -> Iterator[Measurement]:
     first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
     means = np.abs(averaged(np.array(run.forces)[first:behind], run.timestep))
     for number, joint in enumerate(run.rig.names):
-        yield Measurement(TORQUE, float(means[:, number].max(initial=0.0)), joint)
+        yield Measurement(_TORQUE, float(means[:, number].max(initial=0.0)), joint)
         if joint in motion.plan.efforts:
-            yield Measurement(TORQUE_LIMIT, motion.plan.efforts[joint], joint)
+            yield Measurement(_LIMIT, motion.plan.efforts[joint], joint)
 
 
 # Energy: what is not driven must not gain any.
@@ -191,21 +191,21 @@ def measure_settle(motion: Motion) -> Iterator[Measurement]:
     yield Measurement("rest_penetration", float(deepest))
 
 
-_MEASURES = (
-    measure_settle,
-    measure_drive,
-    measure_turn,
-    measure_loads,
-    measure_torque,
-    measure_flight,
-    measure_hold,
-    measure_energy,
-)
+def measure_motion(motion: Motion, torques: Sequence[Measurement]) -> Iterator[Measurement]:
+    """Yield the figures of a run; those that are no finite numbers are none.
 
-
-def measure_motion(motion: Motion) -> Iterator[Measurement]:
-    """Yield the figures of a run; those that are no finite numbers are none."""
-    for measure in _MEASURES:
-        for measurement in measure(motion):
-            if math.isfinite(measurement.value):
-                yield measurement
+    Args:
+        motion: The run.
+        torques: What `measure_torque` measured, of a run without limits.
+    """
+    parts = (
+        measure_settle(motion),
+        measure_drive(motion),
+        measure_turn(motion),
+        measure_loads(motion),
+        torques,
+        measure_flight(motion),
+        measure_hold(motion),
+        measure_energy(motion),
+    )
+    return (figure for figure in chain.from_iterable(parts) if math.isfinite(figure.value))
