@@ -126,6 +126,8 @@ def _as_mjcf(path: Path, package: Package, robot: Robot, cache: Cache, *, apart:
     if isinstance(recording, WorkerFailed) or trouble:
         recording = Recording()
         notes.append(f"without gains and keyframes, because the trial ended: {trouble}")
+    if any(wheel.friction for wheel in plan.wheels):
+        notes.append("MJCF has no friction directions: turns are slower than in the trial")
     if plan.belts:
         notes.append(
             "MJCF has no actuator for belts: set geom_surfacevel to the speed in the .controls.csv "

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from checker.base.record import Record
 from checker.formats.urdf.extensions import extension_number
 from checker.model.components import Collision, Link
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.values import stated_number
+from checker.model.values import parse_number, stated_number
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -17,10 +20,13 @@ class Friction(Record, eq=False):
     Attributes:
         first: Along the first friction direction (`mu`, URDF `mu1`).
         second: Across it (`mu2`).
+        direction: The first friction direction in the frame of the collision (`fdir1`), of any
+            length; None for the world's axes.
     """
 
     first: Located[float] | None = None
     second: Located[float] | None = None
+    direction: Vector | None = None
 
 
 _SDF = (("ode", "mu", "mu2"), ("bullet", "friction", "friction2"))
@@ -41,9 +47,22 @@ class FrictionReader:
         for engine, first, second in _SDF:
             element = stated.child(engine) if stated is not None else None
             if element is not None:
-                return Friction(stated_number(element, first), stated_number(element, second))
+                along = _direction(element.child("fdir1"))
+                return Friction(
+                    stated_number(element, first), stated_number(element, second), along
+                )
         for element in self.extensions.get(link.scoped_name, ()):
             first_number = extension_number(element, "mu1")
             if first_number is not None:
-                return Friction(first_number, extension_number(element, "mu2"))
+                along = _direction(element.child("fdir1"))
+                return Friction(first_number, extension_number(element, "mu2"), along)
         return Friction()
+
+
+def _direction(element: Element | None) -> Vector | None:
+    """Return the direction that an element states; None for zeros and for what is no direction."""
+    words = element.text.value.split() if element is not None else []
+    match [parse_number(word) for word in words]:
+        case [float(x), float(y), float(z)] if 0.0 < math.hypot(x, y, z) < math.inf:
+            return (x, y, z)
+    return None

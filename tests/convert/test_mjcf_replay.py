@@ -82,7 +82,12 @@ def assert_same(package: Path, folder: Path) -> Exported:
     near = IN_THE_AIR if plan.rotors else ON_WHEELS
     poses = {link: np.array(flat).reshape(-1, 7) for link, flat in replay.poses.items()}
     assert len(places) > 50
+    # Wheels with friction directions, which MJCF does not have, slide elsewhere in a turn.
+    turn = plan.leg("turn") if any(wheel.friction for wheel in plan.wheels) else None
+    last = replay.time.index(turn.start) if turn else max(places)
     for sample, bodies in places.items():
+        if sample > last:
+            break
         for link, pose in poses.items():
             assert bodies[link] == pytest.approx(pose[sample, :3], abs=near), (sample, link)
     return made

@@ -67,6 +67,18 @@ def test_limits_of_wheels_slow_it_down_as_in_gazebo(
     assert result.here.full < 0.3
 
 
+def test_a_friction_direction_lets_wheels_slide_sideways_in_a_turn(
+    fortress: Path, tmp_path: Path
+) -> None:
+    friction = "<ode><mu>0.5</mu><mu2>1</mu2><fdir1>0 1 0</fdir1></ode>"
+    surface = f"<surface><friction>{friction}</friction></surface>"
+    text = rover(0.15).replace("</sphere></geometry>", f"</sphere></geometry>{surface}")
+    result = comparison_of(write_example(text, tmp_path), fortress)
+    # MuJoCo limits both directions together: docs/oracles.md.
+    assert result.here.turn == pytest.approx(result.there.turn, rel=0.2)
+    assert result.here.speed == pytest.approx(result.there.speed, rel=0.01)
+
+
 def test_what_gazebo_refuses_is_said(fortress: Path, tmp_path: Path) -> None:
     model = tmp_path / "model.sdf"
     model.write_text("<sdf version='1.9'><model name='m'/></sdf>")

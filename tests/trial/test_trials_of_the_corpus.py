@@ -51,8 +51,8 @@ def test_wheels_and_tracks_drive_straight_at_the_commanded_speed(trials: dict[st
 
 def test_turns_are_what_the_contact_loads_predict(trials: dict[str, Trial]) -> None:
     for name, trial in of_kind(trials, "drive", "Ackermann", "tracks").items():
-        # The flippers of one are too weak for its weight, and give way.
-        least = 0.7 if too_weak(trial.measurements) else 0.8
+        # Flippers that are too weak give way, and wheels that are too weak turn slower.
+        least = 0.65 if too_weak(trial.measurements) else 0.8
         assert least < value(trial, "yaw_of_predicted") < 1.2, name
         assert (trial.value("turn_drift") or 0.0) < 0.5, name
 

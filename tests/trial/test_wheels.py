@@ -7,8 +7,10 @@ from collections.abc import Iterator
 
 import msgspec
 
+from checker.formats.sdf.reader import read_sdf
 from checker.physics.trial.trial import Trial
-from tests.model.robots import sdf
+from checker.rulebook.example_parts import rover
+from tests.model.robots import document, sdf
 from tests.trial.machines import (
     LEFT,
     RIGHT,
@@ -146,3 +148,18 @@ def test_two_halves_with_a_free_joint_between_drive_together() -> None:
     trial = sound(sdf(chassis(com="0.1 0 0") + rear + hinge + front + back + nose + drive))
     assert 0.97 < value(trial, "speed_ratio") < 1.03
     assert abs(value(trial, "path_sideways")) < 0.02
+
+
+def test_wheels_with_a_friction_direction_slide_sideways_in_a_turn() -> None:
+    surface = "<surface><friction><ode><mu>0.5</mu><mu2>1</mu2>{}</ode></friction></surface>"
+
+    def turned(direction: str) -> float:
+        shape = "</sphere></geometry>"
+        text = rover(0.15).replace(shape, shape + surface.format(direction))
+        (robot,) = read_sdf(document(text), lambda _: "is not available")
+        trial = sound(robot)
+        assert 0.8 < value(trial, "yaw_of_predicted") < 1.2
+        return value(trial, "yaw_ratio")
+
+    assert turned("<fdir1>0 1 0</fdir1>") > 0.8
+    assert turned("") < 0.65

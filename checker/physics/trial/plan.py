@@ -20,11 +20,14 @@ class DrivenWheel(Record):
         joint: Scoped name.
         links: Scoped names of the link below the joint and of those fixed to it.
         radius: Metres, of its collisions; the plugin's where it has none.
+        friction: Coefficients along its way and along its axle, where the file states them by
+            direction; None if it is the same in all.
     """
 
     joint: str
     links: tuple[str, ...]
     radius: float
+    friction: tuple[float, float] | None = None
 
 
 class Belt(Record):

@@ -291,7 +291,7 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
     if kind is DriveKind.ACKERMANN and has_wheels and steers:
         return plan_ackermann(robot, locomotion)
     if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and has_wheels:
-        return plan_wheels(locomotion)
+        return plan_wheels(robot, locomotion)
     return _standing(robot, locomotion)
 
 

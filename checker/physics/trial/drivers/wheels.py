@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from checker.formats.friction import FrictionReader
 from checker.model.controllers import Controller
 from checker.model.locomotion.locomotion import Locomotion, Side, Wheel, WheelDrive
 from checker.model.robot import Robot
@@ -20,13 +21,15 @@ from checker.physics.trial.course import (
     gentle_speed,
     linear_command,
 )
+from checker.physics.trial.mjcf.geoms import MOST
+from checker.physics.trial.mjcf.names import clamp
 from checker.physics.trial.plan import DrivenWheel, Plan
 from checker.physics.trial.profile import Knots, Limits, mix_lines
 from checker.physics.trial.trial import Leg
 from checker.source.text import Located
 
 
-def plan_wheels(locomotion: Locomotion) -> Plan:
+def plan_wheels(robot: Robot, locomotion: Locomotion) -> Plan:
     """Return the plan of a robot with DiffDrive plugins; several of them are driven together."""
     drives = locomotion.drives
     linear, angular = strictest(drives)
@@ -37,7 +40,7 @@ def plan_wheels(locomotion: Locomotion) -> Plan:
         for wheel in drive.wheels:
             name = wheel.joint.scoped_name
             speeds.setdefault(name, _speed(drive, wheel, legs))
-            wheels.setdefault(name, driven_wheel(drive, wheel))
+            wheels.setdefault(name, driven_wheel(robot, drive, wheel))
     return Plan(
         kind=locomotion.kind.value,
         legs=legs,
@@ -72,11 +75,34 @@ def finite_limit(limit: float) -> float | None:
     return limit if limit < float("inf") else None
 
 
-def driven_wheel(drive: WheelDrive, wheel: Wheel) -> DrivenWheel:
+def driven_wheel(robot: Robot, drive: WheelDrive, wheel: Wheel) -> DrivenWheel:
     """Return what the simulation needs to know of a wheel."""
     radius = wheel.radius if wheel.radius is not None else drive.wheel_radius.value
     names = tuple(link.scoped_name for link in wheel.body)
-    return DrivenWheel(wheel.joint.scoped_name, names, radius if radius > 0.0 else 0.0)
+    friction = _directed_friction(robot, wheel)
+    return DrivenWheel(wheel.joint.scoped_name, names, radius if radius > 0.0 else 0.0, friction)
+
+
+_ALONG = 0.98
+"""Cosine between an axle and a friction direction along it: what points elsewhere turns with the
+wheel."""
+
+
+def _directed_friction(robot: Robot, wheel: Wheel) -> tuple[float, float] | None:
+    """Return the friction along the way of a wheel and along its axle, if it has directions."""
+    reader = FrictionReader(robot)
+    for link in wheel.body:
+        for collision in link.collisions:
+            friction = reader.friction_of(link, collision)
+            pose = robot.pose_of_part(link, collision.pose)
+            side, way = friction.first, friction.second
+            if not (side and way and friction.direction and wheel.axis and pose):
+                continue
+            along = pose.rotate(friction.direction)
+            cosine = sum(a * b for a, b in zip(along, wheel.axis, strict=True)) / math.hypot(*along)
+            if abs(cosine) > _ALONG:
+                return clamp(way.value, 0.0, MOST, 1.0), clamp(side.value, 0.0, MOST, 1.0)
+    return None
 
 
 def _turn_rate(drives: Sequence[WheelDrive], linear: Limits, angular: Limits) -> float:
@@ -128,7 +154,7 @@ def plan_ackermann(robot: Robot, locomotion: Locomotion) -> Plan:
         reached = _within_reach(drive, curve)
         speeds |= _speeds(drive, ahead, reached)
         places |= dict(_angles(drive, reached))
-        wheels |= {w.joint.scoped_name: driven_wheel(drive, w) for w in drive.wheels}
+        wheels |= {w.joint.scoped_name: driven_wheel(robot, drive, w) for w in drive.wheels}
     return Plan(
         kind=locomotion.kind.value,
         legs=legs,

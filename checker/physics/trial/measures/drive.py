@@ -36,7 +36,8 @@ def predicted_twist(footing: Footing) -> Array | None:
     """Return vx, vy (m/s, of the robot's frame) and ω (rad/s); None if nothing holds it."""
     import numpy as np
 
-    if not footing.grip.sum() > 0.0:
+    most = footing.grip.max(axis=1)
+    if not most.sum() > 0.0:
         return None
     # Lengths near 1 make the Newton steps well scaled.
     arm = max(float(np.abs(footing.points).max()), 1e-6)
@@ -44,10 +45,13 @@ def predicted_twist(footing: Footing) -> Array | None:
     ones, none = np.ones_like(x), np.zeros_like(x)
     # slip = jacobian · twist + slide, with ω in m/s at the arm.
     jacobian = np.stack([np.stack([ones, none, -y], 1), np.stack([none, ones, x], 1)], 1)
-    grip = footing.grip / footing.grip.sum()
+    # Where friction has a direction, a slip counts by its share of the largest.
+    shares = footing.grip / most[:, None]
+    jacobian, slide = jacobian * shares[:, :, None], footing.slide * shares
+    grip = most / most.sum()
     twist = np.zeros(3)
     for creep in _SMOOTHING:
-        twist = _least_power(jacobian, footing.slide, grip, twist, creep)
+        twist = _least_power(jacobian, slide, grip, twist, creep)
     twist[2] /= arm
     return twist if np.isfinite(twist).all() else None
 

@@ -22,7 +22,7 @@ class Footing(Record):
 
     Attributes:
         points: x, y in metres (n × 2).
-        grip: Largest friction force, N (n).
+        grip: Largest friction forces along x and along y, N (n × 2).
         slide: Velocity of the surface that touches, against the robot, m/s (n × 2).
     """
 
@@ -65,22 +65,23 @@ def footing(motion: Motion, touches: Touches) -> Footing:
     import numpy as np
 
     surfaces = _Surfaces(motion, touches)
-    grip = touches.loads * touches.friction / len(touches.time)
+    grip = touches.loads[:, None] * touches.friction / len(touches.time)
     columns = np.column_stack([grip, touches.points[:, :2], surfaces.velocities()])
-    holds = (grip > 0.0) & ~np.isnan(columns).any(axis=1)
+    holds = (grip.max(axis=1) > 0.0) & ~np.isnan(columns).any(axis=1)
     columns, link = columns[holds], touches.link[holds]
     is_wheel = np.array([name in surfaces.wheels for name in touches.names])
     wheels = [_joined(columns[link == wheel]) for wheel in np.unique(link[is_wheel[link]])]
     columns = np.vstack([columns[~is_wheel[link]], *wheels])
-    return Footing(columns[:, 1:3], columns[:, 0], columns[:, 3:])
+    return Footing(columns[:, 2:4], columns[:, :2], columns[:, 4:])
 
 
 def _joined(points: Array) -> Array:
-    """Return the middle of points by their grip (the first column), with all of it."""
+    """Return the middle of points by their grip (the first two columns), with all of it."""
     import numpy as np
 
-    grip = points[:, 0]
-    return np.array([grip.sum(), *(grip @ points[:, 1:] / grip.sum())])
+    grip = points[:, :2]
+    most = grip.max(axis=1)
+    return np.array([*grip.sum(axis=0), *(most @ points[:, 2:] / most.sum())])
 
 
 class _Surfaces:

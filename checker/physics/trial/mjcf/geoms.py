@@ -40,13 +40,15 @@ def sliding_friction(
 ) -> float:
     """Return the coefficient of sliding friction of a collision, 0…`MOST`.
 
-    MuJoCo has no friction directions of a shape's own: the first coefficient counts.
+    The first coefficient counts, but for driven wheels with a friction direction.
     """
     stated = reader.friction_of(link, collision)
     mu = stated.first.value if stated.first is not None else _DEFAULT
     other = stated.second.value if stated.second is not None else mu
     taken = clamp(mu, 0.0, MOST, _DEFAULT)
-    if abs(min(other, MOST) - min(mu, MOST)) > _ALIKE * max(mu, _ALIKE):
+    if stated.direction is None and abs(min(other, MOST) - min(mu, MOST)) > _ALIKE * max(
+        mu, _ALIKE
+    ):
         ledger.note(
             f"Friction is {mu:g} in its first direction and {other:g} in its second; the trial "
             f"uses {taken:g} for both",

@@ -40,7 +40,8 @@ class Touches(Record):
         link: The number of the link of each contact (k).
         points: The points of contact in the robot's frame, metres (k × 3).
         loads: Normal forces, N (k).
-        friction: Coefficients (k).
+        friction: Coefficients along the way of a wheel and along its axle; of other links, the same
+            in both (k × 2).
         depth: Penetration, metres (k).
     """
 
@@ -110,7 +111,7 @@ class ContactLog:
                 data.xaxis[rig.joints],
                 contact.geom.copy(),
                 contact.pos.copy(),
-                contact.friction[:, 0].copy(),
+                contact.friction[:, :2].copy(),
                 contact.dist.copy(),
                 contact.efc_address.copy(),
                 data.efc_force.copy(),

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 
 _WHEEL_SECONDS = 0.001
 """Time constant of a wheel's velocity servo."""
+_LIMITED_SECONDS = 0.004
+"""The same of one whose torque is limited: longer than a step, for its torque is less meanwhile."""
+_ROUNDED = 1.0 + 1e-6
+"""A force that just reaches its limit is not cut: MuJoCo does not damp a cut one."""
 _HOLD_SECONDS = 0.01
 """Time constant of a position servo: stiff for the robot's weight, slow for the time step."""
 
@@ -34,6 +38,7 @@ class Rig:
         initial: The start positions of these joints, rad or m.
         tracked: Scoped names of the links whose motion is kept.
         bodies: Numbers of their bodies.
+        directed: The friction of wheels by direction.
     """
 
     def __init__(
@@ -76,6 +81,21 @@ class Rig:
         self._limit(limited)
         self.initial = self.positions
         self.belts = self._belts()
+        self.directed = DirectedFriction(self)
+
+    def step(self) -> None:
+        """Advance by one time step."""
+        import mujoco
+
+        if not self.directed.needed:
+            mujoco.mj_step(self.model, self.data)
+            return
+        mujoco.mj_step1(self.model, self.data)
+        if self.directed.apply():
+            mujoco.mj_makeConstraint(self.model, self.data)
+            mujoco.mj_projectConstraint(self.model, self.data)
+            mujoco.mj_referenceConstraint(self.model, self.data)
+        mujoco.mj_step2(self.model, self.data)
 
     def _actuator(self, joint: str) -> int:
         return int(self.model.actuator(self.scene.actuators[joint]).id)
@@ -138,14 +158,36 @@ class Rig:
     def _limit(self, joints: Collection[str]) -> None:
         """Limit the forces of some servos.
 
-        A stiff servo chatters at a limit that is far above its load, so only those are limited
-        that reached their limit when they had none.
+        The force of a stiff servo that is cut may turn a wheel past its command in one step. There,
+        the servo is softer, and its command is kept near the speed of the wheel (`commanded`).
         """
+        import numpy as np
+
+        self._reach = np.full(len(self.names), np.inf)
+        self._near = np.zeros(len(self.names))
+        own = self._own_inertia()
         for number, name in enumerate(self.names):
-            if name in joints:
-                most = self.plan.efforts[name]
-                self.model.actuator_forcelimited[number] = 1
-                self.model.actuator_forcerange[number] = -most, most
+            if name not in joints:
+                continue
+            most = self.plan.efforts[name]
+            self.model.actuator_forcelimited[number] = 1
+            self.model.actuator_forcerange[number] = -_ROUNDED * most, _ROUNDED * most
+            if name in self.plan.speeds:
+                gain = self.model.actuator_gainprm[number, 0] * _WHEEL_SECONDS / _LIMITED_SECONDS
+                self._velocity_servo(number, gain)
+                self._reach[number] = most / gain
+                self._near[number] = 3.0 * most * self.model.opt.timestep / own[number]
+
+    def commanded(self, commands: Array) -> Array:
+        """Return the commands of the servos, limited where these are near them."""
+        import numpy as np
+
+        if np.isinf(self._reach).all():
+            return commands
+        missing = commands - self.data.qvel[self.model.jnt_dofadr[self.joints]]
+        limited = commands - missing + np.clip(missing, -self._reach, self._reach)
+        near: Array = np.where(np.abs(missing) < self._near, limited, commands)
+        return near
 
     def _own_inertia(self) -> Array:
         """Return each joint's diagonal of the mass matrix, kg·m² or kg."""
@@ -200,3 +242,48 @@ class Rig:
                 geoms.append(geom)
                 surfaces.append(frame.T @ surface)
         return geoms, surfaces
+
+
+class DirectedFriction:
+    """Friction of wheels that differs along their way and along their axle.
+
+    MuJoCo has two coefficients for a contact, along axes of its own choice: these are turned to the
+    wheel after contacts are found.
+
+    Attributes:
+        needed: Whether any wheel has it.
+    """
+
+    def __init__(self, rig: Rig) -> None:
+        import numpy as np
+
+        self._data = rig.data
+        self._joint = np.full(rig.model.ngeom, -1)
+        self._friction = np.zeros((rig.model.ngeom, 2))
+        wheels = {link: wheel for wheel in rig.plan.wheels for link in wheel.links}
+        for geom, link in enumerate(rig.parts):
+            wheel = wheels.get(link)
+            if wheel is not None and wheel.friction and wheel.joint in rig.scene.joints:
+                self._joint[geom] = rig.model.joint(rig.scene.joints[wheel.joint]).id
+                self._friction[geom] = wheel.friction
+        self.needed = bool((self._joint >= 0).any())
+
+    def apply(self) -> bool:
+        """Turn the axes of contacts of such wheels; return whether there are any."""
+        import numpy as np
+
+        contact = self._data.contact
+        # The ground is the first geom.
+        geoms = contact.geom.max(axis=1, initial=0)
+        touching = np.flatnonzero(self._joint[geoms] >= 0)
+        if not touching.size:
+            return False
+        geoms = geoms[touching]
+        normal = contact.frame[touching, :3]
+        axle = self._data.xaxis[self._joint[geoms]]
+        axle = axle - (axle * normal).sum(axis=1, keepdims=True) * normal
+        axle /= np.linalg.norm(axle, axis=1, keepdims=True)
+        contact.frame[touching, 3:6] = np.cross(axle, normal)
+        contact.frame[touching, 6:] = axle
+        contact.friction[touching, :2] = self._friction[geoms]
+        return True

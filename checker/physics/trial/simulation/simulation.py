@@ -159,8 +159,6 @@ def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = 
     Raises:
         ValueError: MuJoCo refuses the scene.
     """
-    import mujoco
-
     rig = Rig(scene, plan, timestep, limited)
     run = Run(rig, timestep)
     steps = round(plan.seconds / timestep)
@@ -169,14 +167,13 @@ def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = 
     belts = run.belts = Belts(rig, plan, steps, timestep) if plan.belts else None
     pilot = Pilot(rig, plan) if plan.rotors else None
     model, data = rig.model, rig.data
-    step = mujoco.mj_step
     run.commands = commands
     lift, rest = _step_of(plan, HOVER, timestep), _rest_of(plan, timestep)
     touched = _touched(plan, steps, every, timestep)
     for number in range(steps):
         if number == rest:
             run.states[SETTLED] = _state(rig, number)
-        data.ctrl[:] = commands[number]
+        data.ctrl[:] = commands[number] = rig.commanded(commands[number])
         if belts is not None and number in belts.changes:
             model.geom_surfacevel[belts.geoms, :3] = belts.velocities(number)
         if pilot is not None and number >= lift:
@@ -185,7 +182,7 @@ def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = 
                 run.states[HOVERING] = _state(rig, number)
             if (number - lift) % often == 0:
                 run.thrusts.append((number, pilot.fly(number * timestep)))
-        step(model, data)
+        rig.step()
         run.forces.append(data.actuator_force.copy())
         if number in touched:
             run.contacts.add(rig, number * timestep)
