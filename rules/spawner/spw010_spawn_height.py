@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.launch.spawner.reader import SPAWNER_ARGUMENTS
 from checker.model.components import Collision, Link
-from checker.model.locomotion.drive import is_legged
+from checker.model.locomotion.legs import is_legged
 from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -38,7 +38,7 @@ def check(
         highest: Metres that the lowest point of the collisions may start above the ground; more is
             reported.
     """
-    if is_legged(robot.plugins):
+    if is_legged(robot):
         return
     poses = [pose for spawn in spawned.spawns if (pose := spawn.child("pose")) is not None]
     depths = [depth for depth in _depths(robot) if depth is not None]

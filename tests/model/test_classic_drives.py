@@ -7,7 +7,7 @@ import pytest
 from checker.model.locomotion.locomotion import DriveKind, Side, WheelDrive
 from checker.model.locomotion.motion_limits import bounded_motions
 from checker.model.robot import Robot
-from tests.model.robots import urdf
+from tests.model.robots import sdf, urdf
 
 JOINTS = ("front_left", "front_right", "rear_left", "rear_right")
 DIFF, SKID = "libgazebo_ros_diff_drive.so", "libgazebo_ros_skid_steer_drive.so"
@@ -49,6 +49,27 @@ ROS_2 = """<num_wheel_pairs>2</num_wheel_pairs>
 <right_joint>front_right</right_joint><right_joint>rear_right</right_joint>
 <wheel_separation>0.5</wheel_separation><wheel_diameter>0.3</wheel_diameter>
 <wheel_diameter>0.4</wheel_diameter>"""
+
+
+def test_a_model_of_gazebo_classic_in_sdf_is_driven_too() -> None:
+    wheels = "".join(
+        f"""<link name="{side}"><pose>0 {y} 0 0 0 0</pose></link>
+<joint name="{side}_axle" type="revolute"><parent>base</parent><child>{side}</child>
+<axis><xyz>0 1 0</xyz></axis></joint>"""
+        for side, y in (("left", 0.2), ("right", -0.2))
+    )
+    named = "<left_joint>left_axle</left_joint><right_joint>right_axle</right_joint>"
+    plugin = f'<plugin name="drive" filename="{DIFF}">{named}</plugin>'
+    publisher = "libgazebo_ros_joint_state_publisher.so"
+    reads = f'<plugin name="r" filename="{publisher}"><joint_name>left_axle</joint_name></plugin>'
+
+    robot = sdf(f'<link name="base"/>{wheels}{reads}{plugin}')
+
+    assert robot.locomotion.kind is DriveKind.DIFFERENTIAL
+    assert {joint: by.name.value for joint, by in robot.driven_joints.items()} == {
+        "left_axle": "drive",
+        "right_axle": "drive",
+    }
 
 
 class TestDiffDriveOfRos1:

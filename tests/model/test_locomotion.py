@@ -78,9 +78,12 @@ class TestKinds:
         assert sdf(TWO + plugins).locomotion.kind is kind
 
     def test_legs(self) -> None:
-        legs = [wheel(f"leg{i}") for i in range(6)]
+        above = {"left": "base", "right": "base"}
+        above |= {f"{side}_knee": side for side in ("left", "right")}
+        above |= {f"{side}_foot": f"{side}_knee" for side in ("left", "right")}
+        legs = [wheel(name, parent=parent) for name, parent in above.items()]
         controllers = [
-            plugin("JointPositionController", tags(joint_name=f"leg{i}_axle")) for i in range(6)
+            plugin("JointPositionController", tags(joint_name=f"{name}_axle")) for name in above
         ]
         moves = sdf(BASE + "".join(legs + controllers)).locomotion
         assert moves.kind is DriveKind.LEGGED

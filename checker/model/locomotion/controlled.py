@@ -254,3 +254,6 @@ _DRIVES: Mapping[str, Callable[[_Named], WheelDrive]] = {
     "MecanumDriveController": _mecanum,
     "OmniWheelDriveController": _omni,
 }
+
+DRIVING_CONTROLLERS = frozenset(_DRIVES)
+"""Classes of controllers that drive wheels."""

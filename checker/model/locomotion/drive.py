@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from checker.base.resources import table
 from checker.model.components import Joint, Link, Plugin
 from checker.model.locomotion.classic import classic_joints
+from checker.model.plugin_library import library_stem
 
 DRIVE_CLASSES = {
     "DiffDrive": "differential or skid-steer drive",
@@ -22,17 +23,8 @@ DRIVE_CLASSES = {
 WING_CLASSES = ("LiftDrag", "AdvancedLiftDrag")
 """Plugin classes that give a link lift."""
 
-_READS_ONLY = frozenset({"JointStatePublisher", *WING_CLASSES})
-"""Plugin classes that name joints and do not move them."""
-
-_LEGS = "AnymalControlPlugin"
-_JOINT_CONTROLLERS = (
-    "ApplyJointForce",
-    "ConfigurableJointPositionController",
-    "JointPositionController",
-)
-_FEWEST_LEG_JOINTS = 6
-"""Two legs of three joints; arms and sensor masts have fewer."""
+_READS_ONLY = frozenset({"JointStatePublisher", "gazebo_ros_joint_state_publisher", *WING_CLASSES})
+"""Plugin classes, and libraries of Gazebo Classic, that name joints and do not move them."""
 
 _WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
 
@@ -57,7 +49,7 @@ def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[st
     for plugin in plugins:
         scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
         paths = known.get(plugin.class_name)
-        if plugin.class_name in _READS_ONLY:
+        if _READS_ONLY & {plugin.class_name, library_stem(plugin.filename.value)}:
             continue
         for word in _words(plugin) if paths is None else _joints_at(plugin, paths):
             if scope + word in names:
@@ -75,14 +67,6 @@ def _joints_at(plugin: Plugin, paths: Mapping[str, str]) -> Iterator[str]:
     for path, kind in paths.items():
         if kind == "joint":
             yield from (named.value for named in plugin.at(path))
-
-
-def is_legged(plugins: Iterable[Plugin]) -> bool:
-    """Return whether a robot walks: by a plugin for legs, or by joint controllers alone."""
-    classes = [plugin.class_name for plugin in plugins]
-    if any(name in DRIVE_CLASSES for name in classes):
-        return _LEGS in classes
-    return sum(name in _JOINT_CONTROLLERS for name in classes) >= _FEWEST_LEG_JOINTS
 
 
 def find_wheels(

@@ -11,8 +11,9 @@ from msgspec.structs import replace
 from checker.model.components import Joint, Plugin
 from checker.model.locomotion.classic import classic_drive, classic_drives
 from checker.model.locomotion.controlled import STEERING_CLASSES, controlled_drives
-from checker.model.locomotion.drive import WING_CLASSES, is_legged
+from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.joint_control import CommandedWheels, commanded_wheels
+from checker.model.locomotion.legs import is_legged
 from checker.model.locomotion.locomotion import (
     DriveKind,
     Locomotion,
@@ -127,7 +128,7 @@ def read_locomotion(robot: Robot) -> Locomotion:
     tracked, tracks = tuple(belts.drives()), tuple(belts.tracks.values())
     rotors = tuple(read_rotor(robot, p) for p in _of_class(robot, "MulticopterMotorModel"))
     copters = tuple(read_copter(p) for p in _of_class(robot, "MulticopterVelocityControl"))
-    legs = tuple(_leg_joints(robot)) if is_legged(robot.plugins) else ()
+    legs = tuple(_leg_joints(robot)) if is_legged(robot) else ()
     wings = any(_of_class(robot, *WING_CLASSES))
     known = drives or tracked or tracks or rotors or copters or wings
     alone = CommandedWheels() if known else commanded_wheels(robot)
@@ -172,9 +173,8 @@ def _leg_joints(robot: Robot) -> Iterator[Joint]:
 
 def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
     reader = WheelReader(robot)
-    if not robot.conventions.states_devices:
-        yield from classic_drives(robot, reader)
-        yield from controlled_drives(robot, reader)
+    yield from classic_drives(robot, reader)
+    yield from controlled_drives(robot, reader)
     for plugin in _of_class(robot, *_WHEEL_CLASSES):
         if classic_drive(plugin) is not None:
             continue

@@ -11,7 +11,6 @@ from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.classic import enforces_limits
-from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import (
     DriveKind,
     Locomotion,
@@ -34,6 +33,7 @@ from checker.physics.trial.course import (
     holding_legs,
     linear_command,
 )
+from checker.physics.trial.drivers.not_driven import reason_not_driven
 from checker.physics.trial.drivers.wheels import (
     finite_limit,
     plan_ackermann,
@@ -300,25 +300,11 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
     kind = locomotion.kind
     plan = plan_hold(robot, kind)
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
-        return replace(plan, not_driven=_out_of_reach(robot, locomotion))
+        return replace(plan, not_driven=reason_not_driven(robot, locomotion))
     if kind in (DriveKind.MECANUM, DriveKind.OMNI):
         return replace(plan, not_driven="its wheels roll on rollers, which are not simulated")
     what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
     return replace(plan, not_driven=f"its plugins {what} no part of the model")
-
-
-_WATER = frozenset({"Buoyancy", "BuoyancyEngine", "Hydrodynamics", "Thruster"})
-"""Plugin classes of what swims."""
-
-
-def _out_of_reach(robot: Robot, locomotion: Locomotion) -> str:
-    """Return why a robot without a drive is not driven; empty if nothing shows that it moves."""
-    classes = {plugin.class_name for plugin in robot.all_plugins}
-    if classes & _WATER:
-        return "it swims, and water is not simulated"
-    if classes & set(WING_CLASSES) or locomotion.rotors:
-        return "it flies on wings or blades, and air is not simulated"
-    return locomotion.doubt
 
 
 def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:

@@ -1,0 +1,70 @@
+"""The reason why the trial does not drive a robot, with the plugin or controller that moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from checker.base.words import and_list, count
+from checker.model.locomotion.controlled import DRIVING_CONTROLLERS
+from checker.model.locomotion.drive import WING_CLASSES
+from checker.model.locomotion.locomotion import DriveKind, Locomotion
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+
+_WATER = frozenset({"Buoyancy", "BuoyancyEngine", "Hydrodynamics", "Thruster"})
+"""Plugin classes of what swims."""
+
+_BODY_MOVERS = {
+    "gazebo_ros_planar_move": "planar_move sets the body's velocity: there is nothing to drive",
+    "VelocityControl": "VelocityControl sets the body's velocity: there is nothing to drive",
+    "gazebo_ros_force": "gazebo_ros_force pushes the body: there is nothing to drive",
+}
+"""Libraries and classes of plugins that move a body without its joints."""
+
+_NAMED = 3
+"""Names in a sentence, at most."""
+
+
+def reason_not_driven(robot: Robot, locomotion: Locomotion) -> str:
+    """Return why a robot without a drive is not driven; empty if nothing shows that it moves."""
+    classes = {plugin.class_name for plugin in robot.all_plugins}
+    if classes & _WATER:
+        return "it swims, and water is not simulated"
+    if classes & set(WING_CLASSES) or locomotion.rotors:
+        return "it flies on wings or blades, and air is not simulated"
+    if locomotion.kind is DriveKind.LEGGED:
+        return ""
+    return locomotion.doubt or next(_reasons(robot, locomotion), "")
+
+
+def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
+    """Yield the reasons, the most certain one first."""
+    for plugin in robot.all_plugins:
+        names = (library_stem(plugin.filename.value), plugin.class_name)
+        yield from (_BODY_MOVERS[name] for name in names if name in _BODY_MOVERS)
+    moving = [each for each in robot.controllers if not each.class_name.endswith("Broadcaster")]
+    for controller in moving:
+        if controller.class_name in DRIVING_CONTROLLERS:
+            what = "names no wheel of the model, or gives its wheels no radius"
+            yield f"the {controller.class_name} {controller.name!r} {what}"
+    if moving:
+        yield _moved_by(each.class_name for each in moving)
+    if robot.element.child("ros2_control") is not None:
+        joints = [j for system in robot.element.all("ros2_control") for j in system.all("joint")]
+        hardware = f"ros2_control has the hardware of {count(len(joints), 'joint')}"
+        yield f"{hardware}, and the package configures no controller that moves them"
+    if robot.driven_joints:
+        yield _moved_by(plugin.class_name for plugin in robot.driven_joints.values())
+    if transmissions := len(robot.element.all("transmission")):
+        has = f"it has {count(transmissions, 'transmission')}"
+        yield f"{has} for controllers of ROS 1, whose parameter files are not read"
+    wheels = [wheel.link.name.value for wheel in locomotion.undriven if wheel.steering is None]
+    if wheels:
+        named = f"its wheels {and_list(wheels)}" if len(wheels) <= _NAMED else "its wheels"
+        yield f"its file and the parameters of its controllers name nothing that turns {named}"
+
+
+def _moved_by(classes: Iterable[str]) -> str:
+    names = sorted(set(classes))
+    moved = and_list(names) if len(names) <= _NAMED else f"{len(names)} kinds of controllers"
+    return f"its joints are moved by {moved}; none of these is a drive, and the trial holds them"

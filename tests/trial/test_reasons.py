@@ -1,0 +1,67 @@
+"""Why a robot is not driven: the report names the plugin or controller that moves it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.model.robot import Robot
+from checker.physics.trial.drivers.plans import plan_of
+from tests.model.robots import sdf, urdf
+from tests.model.test_controlled_drives import robot
+
+BODY = """<link name="base"/><link name="part_wheel"><collision><origin rpy="1.5708 0 0"/><geometry>
+<cylinder radius="0.1" length="0.05"/></geometry></collision></link>
+<joint name="part" type="continuous"><parent link="base"/><child link="part_wheel"/>
+<axis xyz="0 1 0"/></joint>"""
+
+
+def why(robot: Robot) -> str:
+    return plan_of(robot).not_driven
+
+
+def plugin(library: str, content: str = "") -> str:
+    return f'<gazebo><plugin name="any" filename="{library}">{content}</plugin></gazebo>'
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (plugin("libgazebo_ros_planar_move.so"), "planar_move sets the body's velocity"),
+        ('<ros2_control><joint name="part"/></ros2_control>', "hardware of 1 joint, and"),
+        ('<transmission><joint name="part"/></transmission>', "1 transmission for controllers"),
+        ("", "name nothing that turns its wheels part_wheel"),
+    ],
+)
+def test_what_moves_a_robot_of_urdf(content: str, reason: str) -> None:
+    assert reason in why(urdf(BODY + content))
+
+
+def test_joints_that_a_plugin_moves() -> None:
+    moved = """<link name="base"/><link name="arm"/><joint name="j" type="revolute">
+<parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>
+<plugin filename="p" name="gz::sim::systems::JointPositionController">
+<joint_name>j</joint_name></plugin>"""
+    assert why(sdf(moved)).startswith("its joints are moved by JointPositionController; none")
+
+
+def test_a_body_whose_velocity_a_plugin_sets() -> None:
+    plugin = '<plugin filename="p" name="gz::sim::systems::VelocityControl"/>'
+    assert "VelocityControl sets the body's velocity" in why(sdf(f'<link name="base"/>{plugin}'))
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason"),
+    [
+        ("joint_trajectory_controller/JointTrajectoryController", "by JointTrajectoryController;"),
+        ("diff_drive_controller/DiffDriveController", "DiffDriveController 'base' names no wheel"),
+        ("joint_state_broadcaster/JointStateBroadcaster", "configures no controller"),
+    ],
+)
+def test_controllers(tmp_path: Path, kind: str, reason: str) -> None:
+    assert reason in why(robot(tmp_path, kind, "    joints: [rear_left]\n"))
+
+
+def test_nothing_moves_a_crate() -> None:
+    assert not why(sdf('<link name="base"/>'))
