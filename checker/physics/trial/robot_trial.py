@@ -37,6 +37,11 @@ class RobotTrial(Record, eq=False, dict=True):
         return part or self.robot
 
     @cached_property
+    def effort_limits(self) -> dict[str, float]:
+        """The effort limits of joints, N·m or N, by scoped name."""
+        return {limit.part: limit.value for limit in self.trial.all("torque_limit")}
+
+    @cached_property
     def drive(self) -> Part | Controller:
         """Place of findings about its motion: its drive, else the robot."""
         locomotion = self.robot.locomotion

@@ -168,8 +168,11 @@ def build_scene(
     unusable = unusable_because(robot, layout)
     if unusable:
         return Scene(repairs=tuple(ledger.repairs), notes=ledger.notes, unusable=unusable)
-    # What a joint fixes to the world stays in its place.
-    height = DROP - layout.lowest if layout.stands else 0.0
+    height = DROP - layout.lowest
+    if not layout.stands:
+        # What a joint fixes to the world stays in its place; of URDF the node that spawns it may
+        # have put it on a table, so that it is lifted out of the ground.
+        height = 0.0 if robot.conventions.states_start else max(0.0, height)
     writer = BodyWriter(layout, frozenset(belts))
     bodies, names, root = writer.text(height), writer.names, root_of(robot, layout)
     return Scene(
