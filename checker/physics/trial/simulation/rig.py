@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.physics.trial.mjcf.scene import DROP, Scene, carriers_of
 from checker.physics.trial.plan import Plan
+from checker.physics.trial.simulation.friction import DirectedFriction
 from checker.physics.trial.simulation.shapes import lowest_point
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ _WHEEL_SECONDS = 0.001
 """Time constant of a wheel's velocity servo."""
 _LIMITED_SECONDS = 0.004
 """The same of one whose torque is limited: longer than a step, for its torque is less meanwhile."""
+_NEAR_STEPS = 3.0
+"""Steps at its limit in which such a servo reaches its command; farther away nothing is kept."""
 _ROUNDED = 1.0 + 1e-6
 """A force that just reaches its limit is not cut: MuJoCo does not damp a cut one."""
 _HOLD_SECONDS = 0.01
@@ -81,7 +84,9 @@ class Rig:
         self._limit(limited)
         self.initial = self.positions
         self.belts = self._belts()
-        self.directed = DirectedFriction(self)
+        turning = [wheel for wheel in plan.wheels if wheel.joint in scene.joints]
+        joints = {wheel.joint: self._joint(wheel.joint) for wheel in turning}
+        self.directed = DirectedFriction(self.data, self.parts, turning, joints)
 
     def step(self) -> None:
         """Advance by one time step."""
@@ -176,7 +181,7 @@ class Rig:
                 gain = self.model.actuator_gainprm[number, 0] * _WHEEL_SECONDS / _LIMITED_SECONDS
                 self._velocity_servo(number, gain)
                 self._reach[number] = most / gain
-                self._near[number] = 3.0 * most * self.model.opt.timestep / own[number]
+                self._near[number] = _NEAR_STEPS * most * self.model.opt.timestep / own[number]
 
     def commanded(self, commands: Array) -> Array:
         """Return the commands of the servos, limited where these are near them."""
@@ -242,48 +247,3 @@ class Rig:
                 geoms.append(geom)
                 surfaces.append(frame.T @ surface)
         return geoms, surfaces
-
-
-class DirectedFriction:
-    """Friction of wheels that differs along their way and along their axle.
-
-    MuJoCo has two coefficients for a contact, along axes of its own choice: these are turned to the
-    wheel after contacts are found.
-
-    Attributes:
-        needed: Whether any wheel has it.
-    """
-
-    def __init__(self, rig: Rig) -> None:
-        import numpy as np
-
-        self._data = rig.data
-        self._joint = np.full(rig.model.ngeom, -1)
-        self._friction = np.zeros((rig.model.ngeom, 2))
-        wheels = {link: wheel for wheel in rig.plan.wheels for link in wheel.links}
-        for geom, link in enumerate(rig.parts):
-            wheel = wheels.get(link)
-            if wheel is not None and wheel.friction and wheel.joint in rig.scene.joints:
-                self._joint[geom] = rig.model.joint(rig.scene.joints[wheel.joint]).id
-                self._friction[geom] = wheel.friction
-        self.needed = bool((self._joint >= 0).any())
-
-    def apply(self) -> bool:
-        """Turn the axes of contacts of such wheels; return whether there are any."""
-        import numpy as np
-
-        contact = self._data.contact
-        # The ground is the first geom.
-        geoms = contact.geom.max(axis=1, initial=0)
-        touching = np.flatnonzero(self._joint[geoms] >= 0)
-        if not touching.size:
-            return False
-        geoms = geoms[touching]
-        normal = contact.frame[touching, :3]
-        axle = self._data.xaxis[self._joint[geoms]]
-        axle = axle - (axle * normal).sum(axis=1, keepdims=True) * normal
-        axle /= np.linalg.norm(axle, axis=1, keepdims=True)
-        contact.frame[touching, 3:6] = np.cross(axle, normal)
-        contact.frame[touching, 6:] = axle
-        contact.friction[touching, :2] = self._friction[geoms]
-        return True

@@ -1,0 +1,69 @@
+"""Friction of wheels that differs along their way and along their axle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from checker.physics.trial.plan import DrivenWheel
+
+_ACROSS = 0.1
+"""Sine of the angle between an axle and the normal of a contact; below it, the wheel lies flat."""
+
+
+class DirectedFriction:
+    """The contacts of wheels whose friction has a direction.
+
+    MuJoCo has two coefficients for a contact, along axes of its own choice: these are turned to the
+    wheel after contacts are found.
+
+    Attributes:
+        needed: Whether any wheel has it.
+    """
+
+    def __init__(
+        self,
+        data: Any,
+        parts: Sequence[str],
+        wheels: Iterable[DrivenWheel],
+        joints: Mapping[str, int],
+    ) -> None:
+        """Find the shapes of such wheels.
+
+        Args:
+            data: MuJoCo's.
+            parts: The scoped name of the link of each geom.
+            wheels: Wheels that turn.
+            joints: The numbers of their joints, by scoped name.
+        """
+        import numpy as np
+
+        self._data = data
+        self._joint = np.full(len(parts), -1)
+        self._friction = np.zeros((len(parts), 2))
+        directed = {link: wheel for wheel in wheels if wheel.friction for link in wheel.links}
+        for geom, link in enumerate(parts):
+            if (wheel := directed.get(link)) is not None:
+                self._joint[geom] = joints[wheel.joint]
+                self._friction[geom] = wheel.friction
+        self.needed = bool((self._joint >= 0).any())
+
+    def apply(self) -> bool:
+        """Turn the axes of contacts of such wheels; return whether there are any."""
+        import numpy as np
+
+        contact = self._data.contact
+        # The ground is the first geom.
+        geoms = contact.geom.max(axis=1, initial=0)
+        touching = np.flatnonzero(self._joint[geoms] >= 0)
+        normal = contact.frame[touching, :3]
+        axle = self._data.xaxis[self._joint[geoms[touching]]]
+        axle = axle - (axle * normal).sum(axis=1, keepdims=True) * normal
+        length = np.linalg.norm(axle, axis=1)
+        rolls = length > _ACROSS
+        touching, normal = touching[rolls], normal[rolls]
+        axle = axle[rolls] / length[rolls, None]
+        contact.frame[touching, 3:6] = np.cross(axle, normal)
+        contact.frame[touching, 6:] = axle
+        contact.friction[touching, :2] = self._friction[geoms[touching]]
+        return bool(touching.size)
