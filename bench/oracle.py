@@ -21,8 +21,9 @@ from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.package.package import Package
-from support.fortress import Refused, compiled, is_installed
+from support.fortress import LIBRARIES, SOURCE, Refused
 from support.fortress.comparison import Comparison, Figures, compared
+from support.oracles import compiled, is_installed
 
 ROOT = Path(__file__).parent.parent
 
@@ -76,11 +77,11 @@ def _apart(here: Figures, there: Figures, member: str) -> float:
 
 def main() -> None:
     """Compare all robots."""
-    if not is_installed():
+    if not is_installed(LIBRARIES):
         sys.exit("libignition-physics-dev and libsdformat-dev are not installed")
     results = []
     with tempfile.TemporaryDirectory() as work:
-        program = compiled(Path(work))
+        program = compiled(SOURCE, LIBRARIES, Path(work))
         for folder in folders(sys.argv[1:]):
             for package, robot in robots(folder):
                 try:

@@ -5,9 +5,6 @@ Debian's `libignition-physics-dev`, `libsdformat-dev` and a compiler are needed.
 
 from __future__ import annotations
 
-import hashlib
-import os
-import shlex
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -35,32 +32,10 @@ class Drive:
     Attributes:
         time: The time of each sample, seconds.
         poses: Pose of the model's frame in each.
-        joints: Position (rad or m) and velocity in each sample, by the name of the joint.
     """
 
     time: tuple[float, ...]
     poses: tuple[Pose, ...]
-    joints: Mapping[str, tuple[tuple[float, float], ...]]
-
-
-def is_installed() -> bool:
-    """Return whether the libraries are there."""
-    try:
-        return subprocess.run(["pkg-config", "--exists", *LIBRARIES], check=False).returncode == 0
-    except FileNotFoundError:
-        return False
-
-
-def compiled(folder: Path) -> Path:
-    """Compile the program, unless a folder holds it already."""
-    program = folder / f"drive-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
-    if not program.exists():
-        wanted = ["pkg-config", "--cflags", "--libs", *LIBRARIES]
-        flags = shlex.split(subprocess.check_output(wanted, text=True))
-        new = program.with_suffix(f".{os.getpid()}")
-        subprocess.run(["g++", "-std=c++17", "-O1", SOURCE, "-o", new, *flags], check=True)
-        new.replace(program)
-    return program
 
 
 def driven(
@@ -96,9 +71,5 @@ def driven(
     if done.returncode:
         raise Refused(done.stderr.strip() or f"it ends with {done.returncode}")
     rows = [tuple(map(float, line.split(","))) for line in done.stdout.splitlines()]
-    poses = tuple((x, y, z, qw, qx, qy, qz) for _, x, y, z, qw, qx, qy, qz, *_ in rows)
-    names = [name for of_kind in commands.values() for name in of_kind]
-    columns = list(zip(*rows, strict=True))[8:]
-    joints = zip(names, columns[::2], columns[1::2], strict=True)
-    motions = {name: tuple(zip(at, speed, strict=True)) for name, at, speed in joints}
-    return Drive(tuple(row[0] for row in rows), poses, motions)
+    poses = tuple((x, y, z, qw, qx, qy, qz) for _, x, y, z, qw, qx, qy, qz in rows)
+    return Drive(tuple(row[0] for row in rows), poses)

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from checker.convert.mjcf_files import scene_of_trial
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.physics.trial.course import DRIVE, FULL, SETTLE, STOP_DRIVE, TURN
-from checker.physics.trial.drivers.plans import plan_of
-from checker.physics.trial.mjcf.scene import build_scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
 from checker.physics.trial.trial import Trial
@@ -70,9 +69,7 @@ def compared(program: Path, package: Package, robot: Robot) -> Comparison | str:
     Raises:
         Refused: Gazebo's physics does not load it.
     """
-    plan = plan_of(robot)
-    belts = [belt.link for belt in plan.belts]
-    scene = build_scene(robot, servos=(*plan.speeds, *plan.places), belts=belts)
+    scene, plan = scene_of_trial(robot)
     if scene.unusable:
         return scene.unusable
     if not plan.speeds:

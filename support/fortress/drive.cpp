@@ -6,7 +6,7 @@
 // MODEL is an SDF or URDF file; its frame starts HEIGHT metres above a plane. Folders hold what
 // `model://` and `package://` name. Each command is a line "speed JOINT TIME VALUE TIME VALUE …" or
 // "place …": piecewise linear, rad/s, rad or m. A sample each 50 ms is a line of CSV: the time, the
-// pose of the model's frame (x y z qw qx qy qz), and position and velocity of each commanded joint.
+// pose of the model's frame (x y z qw qx qy qz).
 
 #include <filesystem>
 #include <iostream>
@@ -156,10 +156,7 @@ int main(int count, char **words) try
       auto pose = math::eigen3::convert(frame) * in_model.Inverse();
       std::cout << step * STEP << ',' << pose.Pos().X() << ',' << pose.Pos().Y() << ',' << pose.Pos().Z()
                 << ',' << pose.Rot().W() << ',' << pose.Rot().X() << ',' << pose.Rot().Y() << ','
-                << pose.Rot().Z();
-      for (auto &command : commands)
-        std::cout << ',' << command.joint->GetPosition(0) << ',' << command.joint->GetVelocity(0);
-      std::cout << '\n';
+                << pose.Rot().Z() << '\n';
     }
     for (auto &command : commands)
     {

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Protocol
 
 import pytest
 
-from tests.oracle.libsdformat import ASKED, Loaded, compiled, load
+from support import fortress as fortress_program
+from support.oracles import compiled, is_installed
+from tests.oracle.libsdformat import LIBRARIES, SOURCE, Loaded, load
+
+Build = Callable[[Path, Sequence[str]], Path]
+"""Compiles a source with some libraries, and returns the program."""
 
 
 class Load(Protocol):
@@ -21,10 +24,26 @@ class Load(Protocol):
 
 
 @pytest.fixture(scope="session")
-def libsdformat(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> Load:
-    """Debian's libsdformat 12, in a program that is compiled once."""
-    if shutil.which("pkg-config") is None or subprocess.call([*ASKED, "--exists"]) != 0:
-        pytest.skip("libsdformat-dev is not installed")
+def build(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> Build:
+    """Return what compiles a program once; without its libraries the test is skipped."""
     shared: pytest.Cache | None = getattr(pytestconfig, "cache", None)
     folder = shared.mkdir("oracle") if shared else tmp_path_factory.mktemp("oracle")
-    return partial(load, compiled(folder))
+
+    def build(source: Path, libraries: Sequence[str]) -> Path:
+        if not is_installed(libraries):
+            pytest.skip(f"not installed: one of {', '.join(libraries)}")
+        return compiled(source, libraries, folder)
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def libsdformat(build: Build) -> Load:
+    """Debian's libsdformat 12."""
+    return partial(load, build(SOURCE, LIBRARIES))
+
+
+@pytest.fixture(scope="session")
+def fortress(build: Build) -> Path:
+    """Debian's ign-physics 5."""
+    return build(fortress_program.SOURCE, fortress_program.LIBRARIES)

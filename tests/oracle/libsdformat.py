@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
-import shlex
 import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-ASKED = ("pkg-config", "sdformat12")
+LIBRARIES = ("sdformat12",)
 SOURCE = Path(__file__).parent / "load_sdf.cpp"
 
 
@@ -34,18 +31,6 @@ class Loaded:
     def reason(self) -> str:
         """The first thing that it says against the file."""
         return self.errors[0] if self.errors else ""
-
-
-def compiled(folder: Path) -> Path:
-    """Compile the program, unless a folder holds it already."""
-    program = folder / f"load_sdf-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
-    if not program.exists():
-        wanted = [*ASKED, "--cflags", "--libs"]
-        flags = shlex.split(subprocess.check_output(wanted, text=True))
-        new = program.with_suffix(f".{os.getpid()}")
-        subprocess.run(["g++", "-std=c++17", SOURCE, "-o", new, *flags], check=True)
-        new.replace(program)
-    return program
 
 
 def load(program: Path, files: Sequence[Path], elements: bool = False) -> list[Loaded]:

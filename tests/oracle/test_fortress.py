@@ -12,19 +12,10 @@ from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.rule_testing import write_example
 from checker.rulebook.example_parts import rover
-from support.fortress import Refused, compiled, driven, is_installed
+from support.fortress import Refused, driven
 from support.fortress.comparison import Comparison, compared
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-
-
-@pytest.fixture(scope="session")
-def fortress(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Debian's ign-physics 5, in a program that is compiled once."""
-    if not is_installed():
-        pytest.skip("libignition-physics-dev is not installed")
-    shared: pytest.Cache | None = getattr(pytestconfig, "cache", None)
-    return compiled(shared.mkdir("oracle") if shared else tmp_path_factory.mktemp("oracle"))
 
 
 def comparison_of(folder: Path, program: Path) -> Comparison:
