@@ -9,7 +9,7 @@ from checker.formats.urdf.extensions import extension_number
 from checker.model.components import Collision, Link
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.values import parse_number, stated_number
+from checker.model.values import numbers_of_words, stated_number
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -61,8 +61,7 @@ class FrictionReader:
 
 def _direction(element: Element | None) -> Vector | None:
     """Return the direction that an element states; None for zeros and for what is no direction."""
-    words = element.text.value.split() if element is not None else []
-    match [parse_number(word) for word in words]:
+    match numbers_of_words(element.text.value) if element is not None else []:
         case [float(x), float(y), float(z)] if 0.0 < math.hypot(x, y, z) < math.inf:
             return (x, y, z)
     return None

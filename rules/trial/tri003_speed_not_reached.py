@@ -77,11 +77,13 @@ def _limited(
         The end of a sentence, the limit, and the drive's maximum speed where the joint is below it.
     """
     leg = driven.leg("drive")
-    if leg is None:
+    if leg is None or not driven.enforces_limits:
         return None
     for drive in driven.robot.locomotion.drives:
         radius = drive.wheel_radius.value
         for wheel in drive.wheels:
+            if not wheel.joint.axes:
+                continue
             axis, said = wheel.joint.axes[0], f"; joint {wheel.joint.name.value!r}"
             needed = leg.linear / radius if radius else 0.0
             if axis.velocity.value < needed:

@@ -28,8 +28,9 @@ def check(
         warning_above: Multiple of a joint's effort limit; a joint that needs more torque or force
             is reported.
     """
+    limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     for torque in driven.trial.all("torque"):
-        limit = driven.effort_limits.get(torque.part)
+        limit = limits.get(torque.part)
         if limit is None or abs(torque.value) <= warning_above * limit:
             continue
         joint = driven.robot.joints_by_name.get(torque.part)

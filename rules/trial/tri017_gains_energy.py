@@ -8,9 +8,8 @@ Source: kinetic and potential energy at rest, as a share of the energy that lift
 m.
 """
 
-import math
-
 from checker.physics.trial.robot_trial import SettledTrial
+from checker.physics.trial.trial import too_weak
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import rover_with
 
@@ -23,8 +22,7 @@ def check(driven: SettledTrial, *, warning_above: float = 0.1) -> Findings:
         warning_above: Energy gained, as a share of the energy that lifts the robot by 0.1 m; more
             is reported (0.1 means a lift of 10 mm).
     """
-    limits, torques = driven.effort_limits, driven.trial.all("torque")
-    if any(torque.value > limits.get(torque.part, math.inf) for torque in torques):
+    if too_weak(driven.trial.measurements):
         return  # motors that are too weak drop parts and raise them again; TRI009 reports these
     gain = driven.trial.value("energy_gain")
     if gain is not None and gain > warning_above:

@@ -209,3 +209,22 @@ def test_a_figure_that_moves_with_the_time_step_is_named() -> None:
     assert not isinstance(found, Unchecked)
     assert "speed reached / commanded changes from 1 to 0.8" in found.message
     assert not list(RULES["TRI016"].check(RepeatedTrial(rover(), once, again=once)))
+
+
+@pytest.mark.parametrize(
+    ("library", "named"), [("libgazebo_ros_diff_drive.so", False), ("diff-drive.so", True)]
+)
+def test_a_limit_is_the_cause_where_the_simulator_enforces_it(library: str, named: bool) -> None:
+    joint = """<link name="{0}"><pose>0 {1} 0.1 0 0 0</pose><collision name="c"><geometry><sphere>
+      <radius>0.1</radius></sphere></geometry></collision></link>
+      <joint name="{0}_joint" type="revolute"><parent>base_link</parent><child>{0}</child>
+      <axis><xyz>0 1 0</xyz><limit><velocity>1</velocity></limit></axis></joint>"""
+    robot = sdf(
+        f'''<link name="base_link"/>{joint.format("left", 0.2)}{joint.format("right", -0.2)}
+        <plugin filename="{library}" name="ignition::gazebo::systems::DiffDrive">
+        <left_joint>left_joint</left_joint><right_joint>right_joint</right_joint>
+        <wheel_radius>0.1</wheel_radius><wheel_diameter>0.2</wheel_diameter></plugin>'''
+    )
+    assert robot.locomotion.drives
+    (found,) = said_by(RULES["TRI003"], trial_of(speed_ratio=0.5), robot)
+    assert ("at most and needs 5 rad/s" in found.message) is named

@@ -9,8 +9,7 @@ import pytest
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
-from checker.physics.trial.measures.measurement import too_weak
-from checker.physics.trial.trial import Trial
+from checker.physics.trial.trial import Trial, too_weak
 from tests.trial.machines import trial_in_child, value
 
 

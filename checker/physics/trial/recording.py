@@ -156,10 +156,10 @@ def _recording(item: Mapping[str, Any]) -> Recording:
     scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
     timestep = item["timestep"]
     try:
-        run, _ = driven(scene, plan, timestep)
+        motion, _ = driven(scene, plan, timestep)
     except ValueError as refusal:
         return Recording(timestep, refused=" ".join(str(refusal).split()))
-    return _recording_of(run)
+    return _recording_of(motion.run)
 
 
 def _recording_of(run: Run) -> Recording:

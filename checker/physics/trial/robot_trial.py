@@ -7,6 +7,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
 from checker.model.controllers import Controller
+from checker.model.locomotion.classic import enforces_limits
 from checker.model.robot import Robot
 from checker.physics.trial.trial import Leg, Trial
 
@@ -36,10 +37,10 @@ class RobotTrial(Record, eq=False, dict=True):
         part = self.robot.links_by_name.get(name) or self.robot.joints_by_name.get(name)
         return part or self.robot
 
-    @cached_property
-    def effort_limits(self) -> dict[str, float]:
-        """The effort limits of joints, N·m or N, by scoped name."""
-        return {limit.part: limit.value for limit in self.trial.all("torque_limit")}
+    @property
+    def enforces_limits(self) -> bool:
+        """True if joints stay within their limits of velocity and effort."""
+        return enforces_limits(self.robot)
 
     @cached_property
     def drive(self) -> Part | Controller:

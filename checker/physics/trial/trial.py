@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from array import array
 from base64 import b64decode, b64encode
@@ -63,6 +64,17 @@ class Measurement(Record):
     value: float
     part: str = ""
     other: str = ""
+
+
+TORQUE, TORQUE_LIMIT = "torque", "torque_limit"
+"""Names of the figures of a joint that has a servo."""
+
+
+def too_weak(figures: Sequence[Measurement]) -> tuple[str, ...]:
+    """Return the joints whose largest torque is above their effort limit."""
+    limits = {figure.part: figure.value for figure in figures if figure.name == TORQUE_LIMIT}
+    largest = (figure for figure in figures if figure.name == TORQUE)
+    return tuple(it.part for it in largest if it.value > limits.get(it.part, math.inf))
 
 
 class Replay(Record):

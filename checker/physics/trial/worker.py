@@ -11,17 +11,13 @@ from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION
-from checker.physics.trial.measures.measurement import (
-    measure_motion,
-    measure_torque,
-    too_weak,
-)
+from checker.physics.trial.measures.measurement import measure_motion, measure_torque
 from checker.physics.trial.measures.motion import Motion, excess_links, replay_of, series_of
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.contacts import overlaps
-from checker.physics.trial.simulation.simulation import Run, drive
-from checker.physics.trial.trial import Measurement, Trial
+from checker.physics.trial.simulation.simulation import drive
+from checker.physics.trial.trial import Measurement, Trial, too_weak
 
 
 def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
@@ -53,10 +49,10 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
         not_driven=plan.not_driven,
     )
     try:
-        run, needed = driven(scene, plan, timestep)
+        motion, needed = driven(scene, plan, timestep)
     except ValueError as refusal:
         return _refused(trial, str(refusal), scene)
-    motion = Motion(run, plan)
+    run = motion.run
     return replace(
         trial,
         legs=plan.legs,
@@ -67,8 +63,8 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
     )
 
 
-def driven(scene: Scene, plan: Plan, timestep: float) -> tuple[Run, tuple[Measurement, ...]]:
-    """Drive a robot; return the run and the torques that it needs.
+def driven(scene: Scene, plan: Plan, timestep: float) -> tuple[Motion, tuple[Measurement, ...]]:
+    """Drive a robot; return its motion and the torques that it needs.
 
     A run that MuJoCo gives up is tried again with half the step. Where joints need more than their
     effort limit, the robot is driven again within these limits.
@@ -79,9 +75,12 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> tuple[Run, tuple[Measur
     run = drive(scene, plan, timestep)
     if run.trouble:
         run = drive(scene, plan, timestep / 2)
-    needed = tuple(measure_torque(Motion(run, plan)))
+    motion = Motion(run, plan)
+    needed = tuple(measure_torque(motion))
     weak = too_weak(needed) if plan.limits_act and not run.trouble else ()
-    return (drive(scene, plan, run.timestep, weak) if weak else run), needed
+    if weak:
+        motion = Motion(drive(scene, plan, run.timestep, weak), plan)
+    return motion, needed
 
 
 def _refused(trial: Trial, reason: str, scene: Scene) -> Trial:

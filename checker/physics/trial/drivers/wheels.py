@@ -36,11 +36,12 @@ def plan_wheels(robot: Robot, locomotion: Locomotion) -> Plan:
     legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)), angular)
     speeds: dict[str, Knots] = {}
     wheels: dict[str, DrivenWheel] = {}
+    reader = FrictionReader(robot)
     for drive in drives:
         for wheel in drive.wheels:
             name = wheel.joint.scoped_name
             speeds.setdefault(name, _speed(drive, wheel, legs))
-            wheels.setdefault(name, driven_wheel(robot, drive, wheel))
+            wheels.setdefault(name, driven_wheel(robot, drive, wheel, reader))
     return Plan(
         kind=locomotion.kind.value,
         legs=legs,
@@ -75,11 +76,13 @@ def finite_limit(limit: float) -> float | None:
     return limit if limit < float("inf") else None
 
 
-def driven_wheel(robot: Robot, drive: WheelDrive, wheel: Wheel) -> DrivenWheel:
+def driven_wheel(
+    robot: Robot, drive: WheelDrive, wheel: Wheel, reader: FrictionReader
+) -> DrivenWheel:
     """Return what the simulation needs to know of a wheel."""
     radius = wheel.radius if wheel.radius is not None else drive.wheel_radius.value
     names = tuple(link.scoped_name for link in wheel.body)
-    friction = _directed_friction(robot, wheel)
+    friction = _directed_friction(robot, wheel, reader)
     return DrivenWheel(wheel.joint.scoped_name, names, radius if radius > 0.0 else 0.0, friction)
 
 
@@ -88,9 +91,10 @@ _ALONG = 0.98
 wheel."""
 
 
-def _directed_friction(robot: Robot, wheel: Wheel) -> tuple[float, float] | None:
+def _directed_friction(
+    robot: Robot, wheel: Wheel, reader: FrictionReader
+) -> tuple[float, float] | None:
     """Return the friction along the way of a wheel and along its axle, if it has directions."""
-    reader = FrictionReader(robot)
     for link in wheel.body:
         for collision in link.collisions:
             friction = reader.friction_of(link, collision)
@@ -150,11 +154,12 @@ def plan_ackermann(robot: Robot, locomotion: Locomotion) -> Plan:
     speeds: dict[str, Knots] = {}
     places: dict[str, Knots] = {}
     wheels: dict[str, DrivenWheel] = {}
+    reader = FrictionReader(robot)
     for drive in drives:
         reached = _within_reach(drive, curve)
         speeds |= _speeds(drive, ahead, reached)
         places |= dict(_angles(drive, reached))
-        wheels |= {w.joint.scoped_name: driven_wheel(robot, drive, w) for w in drive.wheels}
+        wheels |= {w.joint.scoped_name: driven_wheel(robot, drive, w, reader) for w in drive.wheels}
     return Plan(
         kind=locomotion.kind.value,
         legs=legs,

@@ -20,7 +20,7 @@ from checker.physics.trial.course import (
 from checker.physics.trial.measures.drive import measure_drive, measure_turn
 from checker.physics.trial.measures.ground import loads
 from checker.physics.trial.measures.motion import Motion, averaged
-from checker.physics.trial.trial import Leg, Measurement
+from checker.physics.trial.trial import TORQUE, TORQUE_LIMIT, Leg, Measurement
 
 # Hovering and climbing.
 
@@ -63,16 +63,6 @@ def _hover(motion: Motion) -> Iterator[Measurement]:
 _LEGS = (DRIVE, STOP_DRIVE, TURN, STOP_TURN, HOLD, HOVER, CLIMB)
 
 
-_TORQUE, _LIMIT = "torque", "torque_limit"
-
-
-def too_weak(torques: Sequence[Measurement]) -> tuple[str, ...]:
-    """Return the joints whose largest torque is above their effort limit."""
-    limits = {figure.part: figure.value for figure in torques if figure.name == _LIMIT}
-    largest = (figure for figure in torques if figure.name == _TORQUE)
-    return tuple(it.part for it in largest if it.value > limits.get(it.part, math.inf))
-
-
 def measure_torque(motion: Motion) -> Iterator[Measurement]:
     """Measure the largest torque (or force) of each joint that has a servo."""
     import numpy as np
@@ -84,9 +74,9 @@ def measure_torque(motion: Motion) -> Iterator[Measurement]:
     first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
     means = np.abs(averaged(np.array(run.forces)[first:behind], run.timestep))
     for number, joint in enumerate(run.rig.names):
-        yield Measurement(_TORQUE, float(means[:, number].max(initial=0.0)), joint)
+        yield Measurement(TORQUE, float(means[:, number].max(initial=0.0)), joint)
         if joint in motion.plan.efforts:
-            yield Measurement(_LIMIT, motion.plan.efforts[joint], joint)
+            yield Measurement(TORQUE_LIMIT, motion.plan.efforts[joint], joint)
 
 
 # Energy: what is not driven must not gain any.

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
-from checker.physics.trial.mjcf.scene import DROP, Scene, carriers_of
+from checker.physics.trial.mjcf.scene import DROP, GROUND, Scene, carriers_of
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.friction import DirectedFriction
-from checker.physics.trial.simulation.shapes import lowest_point
 
 if TYPE_CHECKING:
     import numpy as np
@@ -24,6 +23,8 @@ _NEAR_STEPS = 3.0
 """Steps at its limit in which such a servo reaches its command; farther away nothing is kept."""
 _ROUNDED = 1.0 + 1e-6
 """A force that just reaches its limit is not cut: MuJoCo does not damp a cut one."""
+_FAR = 1e6
+"""Metres; no shape is so far from the ground."""
 _HOLD_SECONDS = 0.01
 """Time constant of a position servo: stiff for the robot's weight, slow for the time step."""
 
@@ -138,10 +139,22 @@ class Rig:
         for name, position in starts:
             self.data.qpos[self.model.jnt_qposadr[self._joint(name)]] = position
         mujoco.mj_forward(self.model, self.data)
-        lift = DROP - lowest_point(self.model, self.data)
+        lift = DROP - self._lowest()
         for joint in self.scene.free_joints.values():
             self.data.qpos[self.model.jnt_qposadr[self.model.joint(joint).id] + 2] += lift
         mujoco.mj_forward(self.model, self.data)
+
+    def _lowest(self) -> float:
+        """Return the height of the lowest point of all shapes, metres."""
+        import mujoco
+
+        ground = self.model.geom(GROUND).id
+        shapes = (geom for geom in range(self.model.ngeom) if geom != ground)
+        heights = (
+            mujoco.mj_geomDistance(self.model, self.data, ground, geom, _FAR, None)
+            for geom in shapes
+        )
+        return float(min(heights))
 
     def _tune(self) -> None:
         """Give each servo the stiffness that its load needs."""
@@ -170,6 +183,7 @@ class Rig:
 
         self._reach = np.full(len(self.names), np.inf)
         self._near = np.zeros(len(self.names))
+        self._keeps_near = False
         own = self._own_inertia()
         for number, name in enumerate(self.names):
             if name not in joints:
@@ -180,6 +194,7 @@ class Rig:
             if name in self.plan.speeds:
                 gain = self.model.actuator_gainprm[number, 0] * _WHEEL_SECONDS / _LIMITED_SECONDS
                 self._velocity_servo(number, gain)
+                self._keeps_near = True
                 self._reach[number] = most / gain
                 self._near[number] = _NEAR_STEPS * most * self.model.opt.timestep / own[number]
 
@@ -187,7 +202,7 @@ class Rig:
         """Return the commands of the servos, limited where these are near them."""
         import numpy as np
 
-        if np.isinf(self._reach).all():
+        if not self._keeps_near:
             return commands
         missing = commands - self.data.qvel[self.model.jnt_dofadr[self.joints]]
         limited = commands - missing + np.clip(missing, -self._reach, self._reach)
