@@ -12,7 +12,8 @@ Source: statics; Pinocchio's generalized gravity, whose largest value is searche
 after another.
 """
 
-from checker.physics.mass.arm_loads import ArmLoads, JointLoad
+from checker.physics.mass.arm_loads import ArmLoads
+from checker.physics.mass.pose_search import JointLoad
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 4

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from checker.physics.mass.arm_loads import arm_loads
+from checker.physics.mass.arm_loads import arm_loads, load_bounds
 from checker.physics.mass.robot_mass import weigh
 from tests.model.robots import sdf
 
@@ -38,7 +38,10 @@ def loads(
     arms = arm_loads(weigh(robot))
     assert not arms.unknown
     assert arms.tool == "hand"
-    return {load.joint.name.value: load.effort for load in arms.loads(payload)}
+    found = list(arms.loads(payload))
+    bounds = load_bounds(arms.masses, arms.tool, payload)
+    assert all(load.effort <= bounds[load.joint] * (1 + 1e-9) for load in found)
+    return {load.joint.name.value: load.effort for load in found}
 
 
 def test_an_arm_is_stretched_out() -> None:

@@ -3,63 +3,50 @@
 from __future__ import annotations
 
 import math
-import random
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from functools import cached_property
 
 from checker.base.record import Record
 from checker.model.components import Joint
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
 from checker.physics.mass.mass_properties import MassProperties
-from checker.physics.mass.mechanism import spanning_tree_of
-from checker.physics.mass.pinocchio_model import PinModel, joint_label, pin_model
+from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
+from checker.physics.mass.pose_search import JointLoad, PoseSearch
 from checker.physics.mass.robot_mass import GRAVITY
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 MOST_JOINTS = 60
 """Moving joints of a robot whose poses are searched; one with two hands has about 50."""
-_STARTS = 8
-_SWEEPS = 4
-_LEAST = 1e-9
-"""N·m or N: less is rounding."""
+_LONGEST = 1e3
+"""Metres that a sliding joint moves at most."""
 
 
-class JointLoad(Record, eq=False):
-    """The largest load of a joint.
-
-    Attributes:
-        joint: The joint, which turns or slides along one axis.
-        effort: N·m, of a sliding joint N.
-        pose: Positions of the joints on which it depends, by their scoped names, rad or m: the
-            joint, those behind it, then those in front of it.
-    """
-
-    joint: Joint
-    effort: float
-    pose: Mapping[str, float]
-
-
-class ArmLoads(Record, eq=False):
+class ArmLoads(Record, eq=False, dict=True):
     """The joints of a robot that carry no part that stands on the ground.
 
     Attributes:
         masses: The robot.
-        joints: Those of them with an effort limit.
-        tool: Scoped name of the link behind the most of them, of several the last, without fingers.
         unknown: The reason why loads are not known, as the end of a sentence; empty if they are.
     """
 
     masses: MassProperties
-    joints: tuple[Joint, ...]
-    tool: str
     unknown: str = ""
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joints with an effort limit."""
+        return tuple(
+            joint
+            for joint in self.masses.gravity_torques
+            if len(joint.axes) == 1 and 0.0 < joint.axes[0].effort.value < math.inf
+        )
+
+    @cached_property
+    def tool(self) -> str:
+        """Scoped name of the link behind the most of them, of several the last, no finger."""
+        return _tool(self.masses.robot, {joint.scoped_name for joint in self.joints})
 
     def loads(self, payload: float = 0.0) -> Iterator[JointLoad]:
         """Yield the largest load of each joint that may exceed its effort limit.
@@ -67,10 +54,13 @@ class ArmLoads(Record, eq=False):
         Args:
             payload: Mass in the origin of the tool, kg.
         """
-        search = _Search(self.masses.robot, self.tool, payload)
-        for joint in self.joints:
-            if search.bound(joint) > joint.axes[0].effort.value:
-                yield search.worst(joint)
+        tool = self.tool if payload else ""
+        bounds = load_bounds(self.masses, tool, payload)
+        heavy = [joint for joint in self.joints if bounds[joint] > joint.axes[0].effort.value]
+        if heavy:
+            # Only here is Pinocchio loaded, which takes longer than the rest.
+            search = PoseSearch(self.masses.robot, tool, payload)
+            yield from (search.worst(it) for it in heavy if it.scoped_name in search.coordinates)
 
 
 def arm_loads(masses: MassProperties) -> ArmLoads:
@@ -80,12 +70,7 @@ def arm_loads(masses: MassProperties) -> ArmLoads:
     unknown = masses.unbalanced or robot.unread_plugins
     if not unknown and moving > MOST_JOINTS:
         unknown = f"it has {moving} moving joints; poses of at most {MOST_JOINTS} are searched"
-    joints = tuple(
-        joint
-        for joint in masses.gravity_torques
-        if len(joint.axes) == 1 and 0.0 < joint.axes[0].effort.value < math.inf
-    )
-    return ArmLoads(masses, joints, _tool(robot, {joint.scoped_name for joint in joints}), unknown)
+    return ArmLoads(masses, unknown)
 
 
 _ARM = 3
@@ -110,151 +95,57 @@ def _tool(robot: Robot, joints: set[str]) -> str:
     return max(reversed(behind), key=behind.__getitem__, default="")
 
 
-class _Coordinate(Record, eq=False):
-    """A joint of Pinocchio's model that turns or slides along one axis.
+def load_bounds(masses: MassProperties, tool: str, payload: float) -> dict[Joint, float]:
+    """Return what the loads of joints cannot exceed: all masses behind them at full reach.
 
-    Attributes:
-        name: Scoped name of the robot's joint.
-        number: Its number in the model.
-        position: Its number in a configuration.
-        speed: Its number in a velocity.
-        low: The lower limit, rad or m.
-        high: The upper limit.
-        turns: Whether it turns.
+    Args:
+        masses: The robot.
+        tool: Scoped name of the link that carries a payload.
+        payload: Its mass, kg.
+
+    Returns:
+        N·m, of sliding joints N.
     """
-
-    name: str
-    number: int
-    position: int
-    speed: int
-    low: float
-    high: float
-    turns: bool
-
-
-class _Search:
-    """Search for poses, along one joint after another.
-
-    The load of a joint is a sine of the angle of any other, and linear in its way: three values
-    give the largest one in a range exactly, so that a few sweeps find a pose that no single joint
-    improves.
-    """
-
-    def __init__(self, robot: Robot, tool: str, payload: float) -> None:
-        import numpy as np
-        import pinocchio as pin
-
-        floating = [name for name, link in robot.tree.links.items() if not link.gravity.value]
-        built = pin_model(robot, floating)
-        self.model = built.model
-        if payload:
-            frame = self.model.frames[self.model.getFrameId(tool)]
-            mass = pin.Inertia(payload, frame.placement.translation, np.zeros((3, 3)))
-            self.model.appendBodyToJoint(frame.parentJoint, mass, pin.SE3.Identity())
-        self.data = self.model.createData()
-        self.coordinates = {each.name: each for each in _coordinates(robot, built)}
-        self.neutral = pin.neutral(self.model)
-
-    def bound(self, joint: Joint) -> float:
-        """Return what the load of a joint cannot exceed: all masses behind it at full reach."""
-        import numpy as np
-
-        chosen = self.coordinates.get(joint.scoped_name)
-        if chosen is None:
-            return 0.0
-        ways = {each.number: self._way(each) for each in self.coordinates.values()}
-        reaches, total = {chosen.number: 0.0}, 0.0
-        for number in list(self.model.subtrees[chosen.number]):
-            if number != chosen.number:
-                placement = float(np.linalg.norm(self.model.jointPlacements[number].translation))
-                before = reaches[self.model.parents[number]]
-                reaches[number] = before + placement + ways.get(number, 0.0)
-            inertia = self.model.inertias[number]
-            lever = reaches[number] + float(np.linalg.norm(inertia.lever)) if chosen.turns else 1.0
-            total += inertia.mass * GRAVITY * lever
-        return total
-
-    def _way(self, each: _Coordinate) -> float:
-        """Return how far a sliding joint moves what it carries, metres."""
-        return 0.0 if each.turns else max(abs(each.low), abs(each.high))
-
-    def worst(self, joint: Joint) -> JointLoad:
-        """Return the largest load of a joint."""
-        chosen = self.coordinates[joint.scoped_name]
-        numbers = [*self.model.subtrees[chosen.number], *self.model.supports[chosen.number]]
-        by_number = {each.number: each for each in self.coordinates.values()}
-        moving = [by_number[number] for number in dict.fromkeys(numbers) if number in by_number]
-        dice = random.Random(0)  # noqa: S311 - starts of a search, the same each time
-        best, at = 0.0, self.neutral
-        for number in range(_STARTS):
-            pose = self._start(moving, dice if number else None)
-            effort = self._climb(pose, moving, chosen.speed)
-            if abs(effort) > abs(best) + _LEAST:
-                best, at = effort, pose
-        return JointLoad(joint, abs(best), {each.name: float(at[each.position]) for each in moving})
-
-    def _start(self, moving: Sequence[_Coordinate], dice: random.Random | None) -> Array:
-        """Return the pose nearest to zero, or one at random."""
-        pose: Array = self.neutral.copy()
-        for each in moving:
-            low, high = max(each.low, -math.pi), min(each.high, math.pi)
-            nearest = min(max(0.0, each.low), each.high)
-            pose[each.position] = dice.uniform(low, high) if dice and low < high else nearest
-        return pose
-
-    def _climb(self, pose: Array, moving: Sequence[_Coordinate], speed: int) -> float:
-        """Move a pose to where one load is largest; return the load."""
-        now = self._load(pose, speed)
-        for _ in range(_SWEEPS):
-            before = now
-            for each in moving:
-                now = self._best(pose, each, speed, now)
-            if abs(now) <= abs(before) * (1 + 1e-6):
-                break
-        return now
-
-    def _best(self, pose: Array, each: _Coordinate, speed: int, now: float) -> float:
-        """Move one joint to where a load is largest; return the load."""
-        best = pose[each.position]
-
-        def load(position: float) -> float:
-            pose[each.position] = position
-            return self._load(pose, speed)
-
-        for position in _candidates(each, load):
-            if abs(new := load(position)) > abs(now) + _LEAST:
-                now, best = new, position
-        pose[each.position] = best
-        return now
-
-    def _load(self, pose: Array, speed: int) -> float:
-        import pinocchio as pin
-
-        return float(pin.computeGeneralizedGravity(self.model, self.data, pose)[speed])
-
-
-def _candidates(each: _Coordinate, load: Callable[[float], float]) -> Iterator[float]:
-    """Yield where a load may be largest: the ends of a range, and the extremes of its sine."""
-    yield from (end for end in (each.low, each.high) if math.isfinite(end))
-    if each.turns:
-        first, second, third = (load(angle) for angle in (0.0, math.tau / 3, -math.tau / 3))
-        # load(x) = c + a·cos x + b·sin x
-        cosine, sine = (2 * first - second - third) / 3, (second - third) / math.sqrt(3)
-        peak = math.atan2(sine, cosine)
-        for turns in range(-2, 3):
-            if each.low <= (extreme := peak + math.pi * turns) <= each.high:
-                yield extreme
-
-
-def _coordinates(robot: Robot, built: PinModel) -> Iterator[_Coordinate]:
-    for name, joint in robot.joints_by_name.items():
-        label = joint_label(name, 0)
-        if not built.model.existJointName(label) or len(joint.axes) != 1:
+    robot, tree = masses.robot, spanning_tree_of(masses.robot)
+    ways = _ways(robot, tree)
+    weights, moments = dict.fromkeys(tree.order, 0.0), dict.fromkeys(tree.order, 0.0)
+    bounds: dict[Joint, float] = {}
+    for name in reversed(tree.order):
+        origin, way = ways[name]
+        for mass, centre in _masses_of(masses, name, payload if name == tool else 0.0):
+            weights[name] += mass
+            moments[name] += mass * (way + math.dist(origin, centre))
+        tie = tree.by.get(name)
+        if tie is None:
             continue
-        number = built.model.getJointId(label)
-        place, axis = built.model.joints[number], joint.axes[0]
-        endless = joint.type.value == "continuous"
-        low, high = (-math.inf, math.inf) if endless else (axis.lower.value, axis.upper.value)
-        if place.nq == 1 and low <= high:
-            turns = joint.type.value != "prismatic"
-            yield _Coordinate(name, number, place.idx_q, place.idx_v, low, high, turns)
+        slides = tie.joint.type.value == "prismatic"
+        held = weights[name] if slides else moments[name] - weights[name] * way
+        bounds[tie.joint] = GRAVITY * held
+        if tie.parent != WORLD:
+            weights[tie.parent] += weights[name]
+            moments[tie.parent] += moments[name]
+    return bounds
+
+
+def _masses_of(masses: MassProperties, name: str, payload: float) -> Iterator[tuple[float, Vector]]:
+    """Yield what gravity pulls at in a link, kg, and where, metres in the robot's frame."""
+    link, pose = masses.links[name], masses.robot.pose_of(name)
+    if link.link.gravity.value and link.centre is not None:
+        yield link.mass, link.centre
+    if payload and pose is not None:
+        yield payload, pose.translation
+
+
+def _ways(robot: Robot, tree: SpanningTree) -> dict[str, tuple[Vector, float]]:
+    """Return the origin of each link's joint, and the longest way to it by all joints, metres."""
+    ways: dict[str, tuple[Vector, float]] = {WORLD: ((0.0, 0.0, 0.0), 0.0)}
+    for name in tree.order:
+        tie = tree.by.get(name)
+        before, way = ways[tie.parent if tie is not None else WORLD]
+        pose = robot.pose_of_joint(tie.joint) if tie is not None else robot.pose_of(name)
+        origin = before if pose is None else pose.translation
+        if tie is not None and tie.joint.type.value == "prismatic":
+            limits = [abs(end.value) for it in tie.joint.axes for end in (it.lower, it.upper)]
+            way += min(max(limits, default=0.0), _LONGEST)
+        ways[name] = origin, way + math.dist(before, origin)
+    return ways
