@@ -51,11 +51,11 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/formats/xacro/processor.py", ATTRIBUTE): "functions of xacro, named there",
     ("checker/formats/xacro/symbols.py", ATTRIBUTE): "functions of math, named there",
     (
-        "checker/formats/xacro/expression/nodes.py",
+        "checker/formats/xacro/expression/evaluation.py",
         ATTRIBUTE,
     ): "keys of YAML, as xacro looks them up",
     (
-        "checker/formats/xacro/expression/evaluation.py",
+        "checker/formats/xacro/expression/syntax.py",
         ATTRIBUTE,
     ): "fields of a syntax tree, named there",
     ("checker/formats/xacro/expression/methods.py", ATTRIBUTE): "of plain data, named there",

@@ -11,7 +11,7 @@ from typing import Any
 import xacro
 import yaml
 
-from checker.formats.xacro.expression.function import Function
+from checker.formats.xacro.expression.builtins import Function
 
 SYMBOLS: dict[str, Any] = xacro.create_global_symbols()
 """As xacro makes them, before anything in it is replaced."""

@@ -16,7 +16,7 @@ import xacro
 
 from checker.formats.xacro.expression import builtins
 from checker.formats.xacro.expression.bounds import Budget
-from checker.formats.xacro.expression.function import Function, Work
+from checker.formats.xacro.expression.builtins import Function, Work
 
 _LAZY = ("map", "filter", "zip", "range")
 FUNCTIONS = builtins.FUNCTIONS

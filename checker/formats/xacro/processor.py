@@ -28,9 +28,8 @@ from checker.formats.xacro.expression.bounds import (
     ExpressionLimit,
     RefusedExpression,
 )
-from checker.formats.xacro.expression.evaluation import evaluate
-from checker.formats.xacro.expression.function import functions
-from checker.formats.xacro.expression.interpreter import Names
+from checker.formats.xacro.expression.builtins import functions
+from checker.formats.xacro.expression.evaluation import Names, evaluate
 from checker.formats.xacro.files import ROOT
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read

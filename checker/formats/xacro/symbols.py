@@ -20,15 +20,17 @@ from checker.formats.xacro.expression.bounds import (
     RefusedExpression,
     check_bits,
 )
-from checker.formats.xacro.expression.builtins import FUNCTIONS, listed, mapping
-from checker.formats.xacro.expression.format import text_of
-from checker.formats.xacro.expression.function import (
+from checker.formats.xacro.expression.builtins import (
+    FUNCTIONS,
     Function,
     Work,
     functions,
+    listed,
+    mapping,
     unavailable_function,
     weighed,
 )
+from checker.formats.xacro.expression.format import text_of
 from checker.formats.xacro.expression.operators import multiply
 from checker.formats.xacro.expression.values import NUMBERS, weigh
 

@@ -49,8 +49,7 @@ class _Names:
         self._args = args
 
     def __getitem__(self, name: str) -> Any:
-        from checker.formats.xacro.expression.builtins import FUNCTIONS
-        from checker.formats.xacro.expression.function import Function
+        from checker.formats.xacro.expression.builtins import FUNCTIONS, Function
         from checker.formats.xacro.symbols import NAMES
 
         if name in _CONSTANTS:

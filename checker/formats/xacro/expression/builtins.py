@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import ast
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from checker.base.record import Record
 from checker.formats.xacro.expression.bounds import (
     Budget,
     RefusedExpression,
@@ -13,8 +15,7 @@ from checker.formats.xacro.expression.bounds import (
     check_width,
 )
 from checker.formats.xacro.expression.format import text_of
-from checker.formats.xacro.expression.function import Function, Work, unavailable_function, weighed
-from checker.formats.xacro.expression.operators import BINARY, apply_binary
+from checker.formats.xacro.expression.operators import apply_binary
 from checker.formats.xacro.expression.values import (
     LAZY,
     MAPPINGS,
@@ -28,10 +29,71 @@ from checker.formats.xacro.expression.values import (
     weigh,
 )
 
-_ADD = next(kind for kind in BINARY if kind.__name__ == "Add")
+Work = Callable[..., Any]
+"""Called with the budget, the arguments and the named arguments."""
 
 
-def length(budget: Budget, *arguments: Any) -> Any:
+class Function(Record):
+    """Function as the value of a name; an expression calls it, or passes it to another function.
+
+    Attributes:
+        name: The name as an expression writes it.
+        work: What it does.
+        takes: Places and names of arguments that may be functions.
+        stands_for: The type that `isinstance` may test for by this name.
+    """
+
+    name: str
+    work: Work
+    takes: frozenset[int | str] = frozenset()
+    stands_for: type | None = None
+
+
+def counting(function: Function, budget: Budget) -> Callable[..., Any]:
+    """Return a function as Python's own functions call it, such as `map`; each call is a step."""
+
+    def called(*arguments: Any) -> Any:
+        budget.spend()
+        return plain(function.work(budget, *map(plain, arguments)))
+
+    return called
+
+
+def weighed(native: Callable[..., Any]) -> Work:
+    """Return the work of a function of Python that only reads its arguments."""
+
+    def work(budget: Budget, *arguments: Any, **named: Any) -> Any:
+        for value in (*arguments, *named.values()):
+            weigh(value, budget)
+        return native(*arguments, **named)
+
+    return work
+
+
+def consuming(native: Callable[..., Any]) -> Work:
+    """Return the work of a function of Python that takes all items of its arguments."""
+    return lambda budget, *arguments: native(*_consumed(arguments, budget))
+
+
+def _consumed(arguments: Iterable[Any], budget: Budget) -> Iterator[Any]:
+    return (consumed(argument, budget) for argument in arguments)
+
+
+def unavailable_function(name: str) -> Function:
+    """Return what represents a function that the language does not have."""
+
+    def work(*_: Any, **__: Any) -> Any:
+        raise RefusedExpression(f"the function {name}()")
+
+    return Function(name, work)
+
+
+def functions(works: Sequence[tuple[str, Work]]) -> dict[str, Function]:
+    """Return functions by their names."""
+    return {name: Function(name, work) for name, work in works}
+
+
+def length(budget: Budget, *arguments: Any) -> int:
     """Do what `len` does."""
     budget.spend()
     return len(*arguments)
@@ -42,12 +104,6 @@ def text(budget: Budget, *arguments: Any) -> str:
     if len(arguments) > 1:
         raise RefusedExpression("str() of more than one value")
     return text_of(arguments[0], budget) if arguments else ""
-
-
-def shown(budget: Budget, value: Any) -> str:
-    """Do what `repr` does."""
-    weigh(value, budget)
-    return repr(value)
 
 
 def whole_number(budget: Budget, *arguments: Any, **named: Any) -> int:
@@ -67,12 +123,7 @@ def rounded(budget: Budget, number: Any, ndigits: Any = None) -> Any:
 
 def listed(budget: Budget, *arguments: Any) -> list[Any]:
     """Do what `list` does."""
-    return list(*(consumed(argument, budget) for argument in arguments))
-
-
-def tupled(budget: Budget, *arguments: Any) -> tuple[Any, ...]:
-    """Do what `tuple` does."""
-    return tuple(*(consumed(argument, budget) for argument in arguments))
+    return list(*_consumed(arguments, budget))
 
 
 def keyed(kind: type) -> Work:
@@ -177,39 +228,14 @@ def total(budget: Budget, items: Any, /, start: Any = 0) -> Any:
         return sum(values, start)
     result = plain(start)
     for value in values:
-        result = apply_binary(_ADD, result, value, budget)
+        result = apply_binary(ast.Add, result, value, budget)
     return result
-
-
-def decided(native: Any) -> Work:
-    """Return what `any` and `all` do."""
-    return lambda budget, items: native(consumed(items, budget))
-
-
-def mapped(budget: Budget, function: Any, /, *items: Any) -> Any:
-    """Do what `map` does."""
-    return map(function, *(consumed(item, budget) for item in items))
-
-
-def filtered(budget: Budget, function: Any, items: Any, /) -> Any:
-    """Do what `filter` does."""
-    return filter(function, counted(consumed(items, budget), budget))
 
 
 def zipped(budget: Budget, *items: Any, strict: Any = False) -> Any:
     """Do what `zip` does."""
     iterators = [counted(consumed(item, budget), budget) for item in items]
     return zip(*iterators, strict=bool(strict))
-
-
-def numbered(budget: Budget, items: Any, start: Any = 0) -> Any:
-    """Do what `enumerate` does."""
-    return enumerate(counted(consumed(items, budget), budget), plain(start))
-
-
-def backwards(budget: Budget, items: Any, /) -> Any:
-    """Do what `reversed` does."""
-    return reversed(consumed(items, budget))
 
 
 def is_of(budget: Budget, value: Any, kinds: Any, /) -> bool:
@@ -220,50 +246,54 @@ def is_of(budget: Budget, value: Any, kinds: Any, /) -> bool:
     return isinstance(value, kinds)
 
 
-_TYPES: Mapping[str, tuple[type, Work]] = MappingProxyType(
-    {
-        "int": (int, whole_number),
-        "float": (float, weighed(float)),
-        "bool": (bool, weighed(bool)),
-        "str": (str, text),
-        "list": (list, listed),
-        "tuple": (tuple, tupled),
-        "dict": (dict, mapping(dict)),
-        "set": (set, keyed(set)),
-        "frozenset": (frozenset, keyed(frozenset)),
-    }
-)
-_WORKS: Mapping[str, Work] = MappingProxyType(
-    {
-        "len": length,
-        "round": rounded,
-        "abs": weighed(abs),
-        "divmod": weighed(divmod),
-        "ord": weighed(ord),
-        "repr": shown,
-        "sum": total,
-        "any": decided(any),
-        "all": decided(all),
-        "zip": zipped,
-        "enumerate": numbered,
-        "reversed": backwards,
-        "range": weighed(range),
-        "isinstance": is_of,
-    }
-)
+_TYPES: Mapping[str, tuple[type, Work]] = {
+    "int": (int, whole_number),
+    "float": (float, weighed(float)),
+    "bool": (bool, weighed(bool)),
+    "str": (str, text),
+    "list": (list, listed),
+    "tuple": (tuple, consuming(tuple)),
+    "dict": (dict, mapping(dict)),
+    "set": (set, keyed(set)),
+    "frozenset": (frozenset, keyed(frozenset)),
+}
+_WORKS: Mapping[str, Work] = {
+    "len": length,
+    "round": rounded,
+    "abs": weighed(abs),
+    "divmod": weighed(divmod),
+    "ord": weighed(ord),
+    "repr": weighed(repr),
+    "sum": total,
+    "any": consuming(any),
+    "all": consuming(all),
+    "zip": zipped,
+    "enumerate": lambda budget, items, start=0: enumerate(
+        counted(consumed(items, budget), budget), plain(start)
+    ),
+    "reversed": consuming(reversed),
+    "range": weighed(range),
+    "isinstance": is_of,
+}
+_OF_FUNCTIONS: Mapping[str, tuple[Work, int | str]] = {
+    "map": (lambda budget, function, /, *items: map(function, *_consumed(items, budget)), 0),
+    "filter": (
+        lambda budget, function, items, /: filter(
+            function, counted(consumed(items, budget), budget)
+        ),
+        0,
+    ),
+    "sorted": (in_order, "key"),
+    "min": (extreme(min), "key"),
+    "max": (extreme(max), "key"),
+}
 _OTHERS = ("complex", "hash", "issubclass", "slice", "type", "vars")
 """Other names that xacro offers and no description of a robot needs."""
 
 FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {name: Function(name, work, stands_for=kind) for name, (kind, work) in _TYPES.items()}
     | {name: Function(name, work) for name, work in _WORKS.items()}
+    | {name: Function(name, work, frozenset({at})) for name, (work, at) in _OF_FUNCTIONS.items()}
     | {name: unavailable_function(name) for name in _OTHERS}
-    | {
-        "map": Function("map", mapped, frozenset({0})),
-        "filter": Function("filter", filtered, frozenset({0})),
-        "sorted": Function("sorted", in_order, frozenset({"key"})),
-        "min": Function("min", extreme(min), frozenset({"key"})),
-        "max": Function("max", extreme(max), frozenset({"key"})),
-    }
 )
 """The functions by name."""

@@ -22,22 +22,29 @@ from checker.formats.xacro.expression.values import (
     weigh,
 )
 
-# Methods of text that expressions may call.
-
-
-TextMethod = Callable[..., Any]
+Method = Callable[..., Any]
+"""Called with the budget, the value that it belongs to, and the arguments."""
+Cost = Callable[[Budget, Any, tuple[Any, ...]], None]
+"""Takes the steps of a method from the budget, by the value and the arguments, `sep` among them."""
 _SHORT = 40
-_WHOLE = (
-    *("capitalize", "casefold", "isalnum", "isalpha", "isascii", "isdecimal", "isdigit"),
-    *("isidentifier", "islower", "isnumeric", "isspace", "istitle", "isupper", "lower", "lstrip"),
-    *("removeprefix", "removesuffix", "rstrip", "strip", "swapcase", "title", "upper"),
-)
-_SEARCHING = (
-    *("count", "endswith", "find", "index", "partition", "rfind", "rindex", "rpartition"),
-    "startswith",
-)
-_WIDENING = ("center", "ljust", "rjust", "zfill")
-_SPLITTING = ("rsplit", "split", "splitlines")
+
+
+def _paid(cost: Cost, names: str) -> dict[str, Method]:
+    """Return methods of Python by name, each with its steps paid before it is called."""
+    return {name: _paid_method(cost, name) for name in names.split()}
+
+
+def _paid_method(cost: Cost, name: str) -> Method:
+    def method(budget: Budget, value: Any, *arguments: Any, **named: Any) -> Any:
+        sought = (named["sep"],) if "sep" in named else ()
+        cost(budget, value, (*arguments, *sought))
+        values = {key: plain(item) for key, item in named.items()}
+        return getattr(value, name)(*map(plain, arguments), **values)
+
+    return method
+
+
+# Methods of text.
 
 
 def _length(value: Any) -> int:
@@ -50,33 +57,18 @@ def _sought(arguments: tuple[Any, ...]) -> int:
     return sum(map(_length, first)) if type(first) is tuple else _length(first)
 
 
-def _whole(name: str) -> TextMethod:
-    def method(budget: Budget, text: str, *arguments: Any) -> Any:
-        budget.spend_on_search(4 * len(text), _sought(arguments))
-        return getattr(text, name)(*map(plain, arguments))
-
-    return method
+def _whole(budget: Budget, text: str, arguments: tuple[Any, ...]) -> None:
+    budget.spend_on_search(4 * len(text), _sought(arguments))
 
 
-def _splitting(name: str) -> TextMethod:
-    def method(budget: Budget, text: str, *arguments: Any, **named: Any) -> Any:
-        separator = (*arguments, named.get("sep"))[:1]
-        budget.spend(1 + len(text) // 2)
-        budget.spend_on_search(len(text), _sought(separator))
-        return getattr(text, name)(
-            *map(plain, arguments), **{key: plain(value) for key, value in named.items()}
-        )
-
-    return method
+def _splitting(budget: Budget, text: str, arguments: tuple[Any, ...]) -> None:
+    budget.spend(1 + len(text) // 2)
+    budget.spend_on_search(len(text), _sought(arguments or (None,)))
 
 
-def _widening(name: str) -> TextMethod:
-    def method(budget: Budget, text: str, *arguments: Any) -> str:
-        width = arguments[0] if arguments and type(arguments[0]) is int else 0
-        budget.spend_on_text(max(width, len(text)))
-        return str(getattr(text, name)(*map(plain, arguments)))
-
-    return method
+def _widening(budget: Budget, text: str, arguments: tuple[Any, ...]) -> None:
+    width = arguments[0] if arguments and type(arguments[0]) is int else 0
+    budget.spend_on_text(max(width, len(text)))
 
 
 def _expandtabs(budget: Budget, text: str, tabsize: Any = 8) -> str:
@@ -107,54 +99,44 @@ def _format(budget: Budget, text: str, *arguments: Any, **named: Any) -> str:
     return format_method(text, arguments, named, budget)
 
 
-TEXTS: Mapping[str, TextMethod] = MappingProxyType(
-    {name: _whole(name) for name in (*_WHOLE, *_SEARCHING)}
-    | {name: _splitting(name) for name in _SPLITTING}
-    | {name: _widening(name) for name in _WIDENING}
-    | {"expandtabs": _expandtabs, "format": _format, "join": _join, "replace": _replace}
-)
-"""The methods by name."""
+_TEXT: Mapping[str, Method] = {
+    **_paid(
+        _whole,
+        "capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit "
+        "isidentifier islower isnumeric isspace istitle isupper lower lstrip partition "
+        "removeprefix removesuffix rfind rindex rpartition rstrip startswith strip swapcase title "
+        "upper",
+    ),
+    **_paid(_splitting, "rsplit split splitlines"),
+    **_paid(_widening, "center ljust rjust zfill"),
+    "expandtabs": _expandtabs,
+    "format": _format,
+    "join": _join,
+    "replace": _replace,
+}
 
 
-Method = Callable[..., Any]
-"""Called with the budget, the value that it belongs to, and the arguments."""
+# Methods of collections.
 
 
-def _reading(name: str) -> Method:
-    """Return a method that looks at its value alone."""
-    return lambda budget, value, *arguments: (
-        budget.spend(),
-        getattr(value, name)(*map(plain, arguments)),
-    )[1]
+def _reading(budget: Budget, _: Any, __: tuple[Any, ...]) -> None:
+    budget.spend()
 
 
-def _copying(name: str) -> Method:
-    def method(budget: Budget, value: Any, *arguments: Any) -> Any:
-        budget.spend_on_copy(len(value))
-        return getattr(value, name)(*map(plain, arguments))
-
-    return method
+def _copying(budget: Budget, value: Any, _: tuple[Any, ...]) -> None:
+    budget.spend_on_copy(len(value))
 
 
-def _searching(name: str) -> Method:
-    def method(budget: Budget, value: Any, *arguments: Any) -> Any:
-        for sought in arguments[:1]:
-            spend_on_search(sought, value, budget)
-        return getattr(value, name)(*map(plain, arguments))
-
-    return method
+def _searching(budget: Budget, value: Any, arguments: tuple[Any, ...]) -> None:
+    for sought in arguments[:1]:
+        spend_on_search(sought, value, budget)
 
 
-def _looking_up(name: str) -> Method:
-    """Return a method whose first argument is a key."""
-
-    def method(budget: Budget, value: Any, *arguments: Any) -> Any:
-        for key in arguments[:1]:
-            weigh(key, budget)
-            spend_on_keys([key], len(value), budget)
-        return getattr(value, name)(*map(plain, arguments))
-
-    return method
+def _looking_up(budget: Budget, value: Any, arguments: tuple[Any, ...]) -> None:
+    """Take the steps of a method whose first argument is a key."""
+    for key in arguments[:1]:
+        weigh(key, budget)
+        spend_on_keys([key], len(value), budget)
 
 
 def _extend(budget: Budget, value: Any, *arguments: Any) -> Any:
@@ -186,47 +168,51 @@ def _combining(name: str) -> Method:
     return method
 
 
-_LIST: Mapping[str, Method] = MappingProxyType(
-    {name: _reading(name) for name in ("append", "clear", "reverse")}
-    | {name: _copying(name) for name in ("copy", "insert", "pop")}
-    | {name: _searching(name) for name in ("count", "index", "remove")}
-    | {"extend": _extend, "sort": _sort}
-)
-_DICT: Mapping[str, Method] = MappingProxyType(
-    {name: _reading(name) for name in ("clear", "items", "keys", "popitem", "values")}
-    | {name: _looking_up(name) for name in ("get", "pop", "setdefault")}
-    | {"copy": _copying("copy"), "update": _update}
-)
+_LIST: Mapping[str, Method] = {
+    **_paid(_reading, "append clear reverse"),
+    **_paid(_copying, "copy insert pop"),
+    **_paid(_searching, "count index remove"),
+    "extend": _extend,
+    "sort": _sort,
+}
+_SEARCHED = _paid(_searching, "count index")
+_DICT: Mapping[str, Method] = {
+    **_paid(_reading, "clear items keys popitem values"),
+    **_paid(_looking_up, "get pop setdefault"),
+    **_paid(_copying, "copy"),
+    "update": _update,
+}
 _COMBINING = (
     *("difference", "intersection", "isdisjoint", "issubset", "issuperset"),
     *("symmetric_difference", "union"),
 )
-_FROZENSET: Mapping[str, Method] = MappingProxyType(
-    {name: _combining(name) for name in _COMBINING} | {"copy": _copying("copy")}
-)
 _UPDATING = (
     *("difference_update", "intersection_update", "symmetric_difference_update", "update"),
 )
-_SET: Mapping[str, Method] = MappingProxyType(
-    {**_FROZENSET}
-    | {name: _combining(name) for name in _UPDATING}
-    | {name: _looking_up(name) for name in ("add", "discard", "remove")}
-    | {name: _reading(name) for name in ("clear", "pop")}
-)
+_FROZENSET: Mapping[str, Method] = {
+    **{name: _combining(name) for name in _COMBINING},
+    **_paid(_copying, "copy"),
+}
+_SET: Mapping[str, Method] = {
+    **_FROZENSET,
+    **{name: _combining(name) for name in _UPDATING},
+    **_paid(_looking_up, "add discard remove"),
+    **_paid(_reading, "clear pop"),
+}
 
 METHODS: Mapping[type, Mapping[str, Method]] = MappingProxyType(
     {
-        str: TEXTS,
+        str: _TEXT,
         list: _LIST,
         YamlListWrapper: _LIST,
-        tuple: {name: _searching(name) for name in ("count", "index")},
-        range: {name: _searching(name) for name in ("count", "index")},
+        tuple: _SEARCHED,
+        range: _SEARCHED,
         dict: _DICT,
         YamlDictWrapper: _DICT,
         set: _SET,
         frozenset: _FROZENSET,
-        float: {"is_integer": _reading("is_integer")},
-        int: {"bit_length": _reading("bit_length")},
+        float: _paid(_reading, "is_integer"),
+        int: _paid(_reading, "bit_length"),
     }
 )
 TAKING_A_KEY: Mapping[Method, frozenset[int | str]] = MappingProxyType({_sort: frozenset({"key"})})
