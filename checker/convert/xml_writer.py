@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from decimal import Decimal
 
 from lxml import etree
@@ -78,7 +78,7 @@ def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:
         pose: What to write.
         stated: The pose of the source; where it is the same, its numbers are taken as written.
     """
-    if stated is not None and _has_six_numbers(stated) and _same(pose, stated.transform):
+    if stated is not None and _has_six_numbers(stated) and pose.is_near(stated.transform, NOISE):
         return exact_numbers(stated.numbers[:3]), exact_numbers(stated.numbers[3:])
     return numbers(pose.translation), numbers(pose.rpy)
 
@@ -86,15 +86,6 @@ def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:
 def _has_six_numbers(stated: Pose) -> bool:
     """Return whether a pose is stated with six numbers; one of a URDF may not be stated at all."""
     return stated.in_radians and len(stated.numbers) == 6
-
-
-def _same(first: Transform, second: Transform) -> bool:
-    pairs = zip(_entries(first), _entries(second), strict=True)
-    return all(abs(one - other) <= NOISE for one, other in pairs)
-
-
-def _entries(pose: Transform) -> Sequence[float]:
-    return (*pose.translation, *(value for row in pose.rotation for value in row))
 
 
 def add(parent: etree._Element, tag: str, text: str = "", **attributes: str) -> etree._Element:
@@ -117,7 +108,7 @@ def child_of(parent: etree._Element, *path: str) -> etree._Element:
 
 def is_identity(pose: Transform) -> bool:
     """Return whether a pose is that of the frame itself, up to rounding."""
-    return _same(pose, Transform())
+    return pose.is_near(Transform(), NOISE)
 
 
 def unique(name: str, taken: dict[str, int]) -> str:

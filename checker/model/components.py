@@ -17,7 +17,7 @@ from checker.model.sensing.kind import SensorType, sensor_type
 from checker.model.sensing.lidar import Lidar, read_lidar
 from checker.model.values import ValueReader, parse_number
 from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.xml import Element, Tagged
 
 UNLIMITED = 1e16
 """SDFormat's own bound: limits at or beyond ±1e16 mean that there is none."""
@@ -27,7 +27,7 @@ _WITH_ALPHA = 4
 """Numbers of a colour that states how opaque it is."""
 
 
-class Part(Record, eq=False):
+class Part(Tagged, Record, eq=False):
     """Anything of a robot that has a name and an element.
 
     Attributes:
@@ -37,11 +37,6 @@ class Part(Record, eq=False):
 
     name: Located[str]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
 
 class Pose(Record, eq=False):
@@ -124,6 +119,10 @@ class Plugin(Part):
         """Name in messages: its class, or its library if the name is free to choose."""
         library = "" if "::" in self.name.value else library_stem(self.filename.value)
         return library or self.class_name
+
+    def scoped(self, name: str) -> str:
+        """Return the scoped name of what the plugin calls by this name."""
+        return f"{self.nested_in}::{name}" if self.nested_in else name
 
     def values(self, *tags: str) -> list[Located[str]]:
         """Return the texts of all elements of these names, at any depth."""

@@ -7,11 +7,11 @@ import math
 from checker.base.record import Record
 from checker.model.geometry.transform import Vector
 from checker.model.values import ValueReader
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 
-class Attenuation(Record, eq=False):
+class Attenuation(Tagged, Record, eq=False):
     """An `<attenuation>`: at distance d, light is divided by constant + linear·d + quadratic·d².
 
     Attributes:
@@ -27,11 +27,6 @@ class Attenuation(Record, eq=False):
     linear: Located[float]
     quadratic: Located[float]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @property
     def is_stated(self) -> bool:

@@ -10,8 +10,8 @@ from checker.base.resources import table
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 DEFAULT_SYSTEMS = frozenset({"physics", "user-commands", "scene-broadcaster"})
 """Plugins that Gazebo loads into a world without plugins, from its server.config."""
@@ -21,7 +21,7 @@ _WITH_POLICIES = ("ionic", "jetty")
 _POLICIES = ("gz:policies", "ignition:policies")
 
 
-class World(Record, eq=False, dict=True):
+class World(Tagged, Record, eq=False, dict=True):
     """A `<world>`.
 
     Attributes:
@@ -40,11 +40,6 @@ class World(Record, eq=False, dict=True):
     def name(self) -> str:
         """Its name; empty if it states none."""
         return (self.element.get("name") or "").strip()
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @cached_property
     def systems(self) -> frozenset[str]:

@@ -135,6 +135,18 @@ def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
     return replace(document, tolerated=(*located.tolerated, *namespace_faults(document)))
 
 
+class Tagged:
+    """Base of records that an element describes: their place is its start tag."""
+
+    __slots__ = ()
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
 class Element(Record, eq=False, dict=True):
     """One element of an XML document, with the places of its parts.
 

@@ -10,7 +10,7 @@ from checker.formats.urdf.macro_calls import MacroCall
 from checker.formats.urdf.reader import read_urdf
 from checker.model.robot import Robot
 from checker.source.text import Located, Span
-from checker.source.xml import Element, XmlDocument
+from checker.source.xml import Element, Tagged, XmlDocument
 
 
 class TransmissionEnd(Record, eq=False):
@@ -27,7 +27,7 @@ class TransmissionEnd(Record, eq=False):
     span: Span
 
 
-class Transmission(Record, eq=False):
+class Transmission(Tagged, Record, eq=False):
     """A `<transmission>`."""
 
     name: Located[str]
@@ -36,22 +36,12 @@ class Transmission(Record, eq=False):
     actuators: tuple[TransmissionEnd, ...]
     element: Element
 
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
-
-class GazeboTag(Record, eq=False):
+class GazeboTag(Tagged, Record, eq=False):
     """A `<gazebo>` tag; `reference` is empty for one that is meant for the whole robot."""
 
     reference: Located[str]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
 
 class UrdfDescription(Record, eq=False, dict=True):

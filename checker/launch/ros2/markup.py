@@ -15,7 +15,7 @@ from checker.launch.ros2.substitution_text import AttributeText, split_words
 from checker.launch.ros2.values import Made, Unknown, Value
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
-from checker.source.xml import Element, XmlDocument
+from checker.source.xml import Element, Tagged, XmlDocument
 from checker.source.xml_positions import XmlFault
 from checker.source.yaml import YamlNode, read_yaml
 
@@ -38,7 +38,7 @@ class Entity(Protocol):
         """Return the elements below it, of one name or of all."""
 
 
-class XmlEntity(Record, eq=False):
+class XmlEntity(Tagged, Record, eq=False):
     """An element of an XML launch file."""
 
     element: Element
@@ -47,11 +47,6 @@ class XmlEntity(Record, eq=False):
     def tag(self) -> str:
         """Its name."""
         return self.element.tag
-
-    @property
-    def span(self) -> Span:
-        """Its start tag."""
-        return self.element.span
 
     def get(self, name: str) -> Located[str] | None:
         """Return an attribute."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 LENGTHS = ("size", "radius", "length", "radii")
 """Names of lengths; a negative scale mirrors a mesh."""
 
 
-class Geometry(Record, eq=False, dict=True):
+class Geometry(Tagged, Record, eq=False, dict=True):
     """The shape of a collision or visual.
 
     Attributes:
@@ -28,11 +28,6 @@ class Geometry(Record, eq=False, dict=True):
     uri: Located[str] | None
     element: Element
 
-    @property
-    def span(self) -> Span:
-        """The shape's start tag."""
-        return self.element.span
-
     @cached_property
     def has_size(self) -> bool:
         """True if all its lengths are above 0; GEO008 reports others."""
@@ -40,7 +35,7 @@ class Geometry(Record, eq=False, dict=True):
         return all(length.value > 0.0 for each in lengths for length in each)
 
 
-class Material(Record, eq=False):
+class Material(Tagged, Record, eq=False):
     """Colours and textures.
 
     Attributes:
@@ -53,8 +48,3 @@ class Material(Record, eq=False):
     colours: dict[str, tuple[Located[float], ...]]
     textures: tuple[Located[str], ...]
     scripts: tuple[Located[str], ...]
-
-    @property
-    def span(self) -> Span:
-        """The material's start tag."""
-        return self.element.span

@@ -73,6 +73,13 @@ class Transform(Record, dict=True):
         turned, origin = self.rotate(point), self.translation
         return (turned[0] + origin[0], turned[1] + origin[1], turned[2] + origin[2])
 
+    def is_near(self, other: Transform, tolerance: float) -> bool:
+        """Return whether no number (metres, entries of the rotation) differs by more than that."""
+        rows = zip(
+            (self.translation, *self.rotation), (other.translation, *other.rotation), strict=True
+        )
+        return all(abs(a - b) <= tolerance for row in rows for a, b in zip(*row, strict=True))
+
     def __matmul__(self, other: Transform) -> Transform:
         """Chain: the pose of C in A, from that of B in A and that of C in B."""
         (a, b, c), (d, e, f), (g, h, i) = other.rotation

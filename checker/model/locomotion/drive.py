@@ -47,13 +47,12 @@ def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[st
     names = {joint.scoped_name for joint in joints}
     driven: dict[str, Plugin] = {}
     for plugin in plugins:
-        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
         paths = known.get(plugin.class_name)
         if _READS_ONLY & {plugin.class_name, library_stem(plugin.filename.value)}:
             continue
         for word in _words(plugin) if paths is None else _joints_at(plugin, paths):
-            if scope + word in names:
-                driven.setdefault(scope + word, plugin)
+            if plugin.scoped(word) in names:
+                driven.setdefault(plugin.scoped(word), plugin)
     return driven
 
 

@@ -90,8 +90,7 @@ def _commanded(robot: Robot, kind: str, control: str) -> Iterator[tuple[Plugin, 
 def _steering(robot: Robot) -> Iterator[tuple[Joint, Side]]:
     """Yield joints that are put in place and turn about an axis that points up."""
     for plugin, name in _commanded(robot, _PLACES, "POSITION"):
-        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
-        joint = robot.joints_by_name.get(scope + name.value)
+        joint = robot.joints_by_name.get(plugin.scoped(name.value))
         axis = robot.axis_in_model(joint, joint.axes[0]) if joint and joint.axes else None
         if joint is not None and axis is not None and axis[2] >= _ALONG:
             pose = robot.pose_of_joint(joint)

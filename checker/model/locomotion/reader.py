@@ -58,7 +58,7 @@ class TrackReader:
         tracks: dict[str, Track] = {}
         for controller in self.controllers:
             named = next((link.value for link in controller.at("link")), "")
-            name = _scoped(controller, named)
+            name = controller.scoped(named)
             link = self.robot.links_by_name.get(name)
             if link is not None and name not in tracks:
                 limits = read_limits(controller.element)
@@ -94,11 +94,7 @@ def _commanded(plugin: Plugin) -> Iterator[tuple[str, Side]]:
         side = _TRACK_SIDES.get(holder.tag)
         if side is not None:
             for child in holder.all("link"):
-                yield _scoped(plugin, child.text.value), side
-
-
-def _scoped(plugin: Plugin, name: str) -> str:
-    return f"{plugin.nested_in}::{name}" if plugin.nested_in else name
+                yield plugin.scoped(child.text.value), side
 
 
 _ACKERMANN, _MECANUM = "AckermannSteering", "MecanumDrive"
@@ -214,9 +210,8 @@ def _ackermann(plugin: Plugin) -> dict[str, Located[float]]:
 
 
 def _steering(robot: Robot, plugin: Plugin) -> Iterator[tuple[Joint, Side]]:
-    scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
     for child, side in _sided(plugin.element, _STEERING_SIDES):
-        joint = robot.joints_by_name.get(scope + child.text.value)
+        joint = robot.joints_by_name.get(plugin.scoped(child.text.value))
         if joint is not None:
             yield joint, side
 

@@ -119,10 +119,9 @@ _MAX_VELOCITY = 838.0
 
 def read_rotor(robot: Robot, plugin: Plugin) -> Rotor:
     """Read a MulticopterMotorModel."""
-    scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
     name = _text(plugin, "jointName")
-    joint = robot.joints_by_name.get(scope + name.value)
-    link = robot.links_by_name.get(scope + _text(plugin, "linkName").value)
+    joint = robot.joints_by_name.get(plugin.scoped(name.value))
+    link = robot.links_by_name.get(plugin.scoped(_text(plugin, "linkName").value))
     centre: Vector | None = None
     axis: Vector | None = None
     if joint is not None:

@@ -36,12 +36,11 @@ def slipping_wheels(robot: Robot) -> Iterator[SlippingWheel]:
     for plugin in robot.all_plugins:
         if plugin.class_name != "WheelSlip":
             continue
-        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
         for wheel in plugin.element.all("wheel"):
             name = wheel.attribute("link_name")
             yield SlippingWheel(
                 plugin,
-                "" if name is None else scope + name.value,
+                "" if name is None else plugin.scoped(name.value),
                 stated_number(wheel, "slip_compliance_lateral"),
                 stated_number(wheel, "wheel_normal_force"),
                 stated_number(wheel, "wheel_radius"),

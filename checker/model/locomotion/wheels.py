@@ -90,8 +90,7 @@ class WheelReader:
             side: What the plugin states.
             knuckles: Steering joints by the link that each of them turns.
         """
-        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
-        joint = self.robot.joints_by_name.get(scope + name.value)
+        joint = self.robot.joints_by_name.get(plugin.scoped(name.value))
         link = self.robot.links_by_name.get(self.child_of.get(joint, "")) if joint else None
         if joint is None or link is None:
             return None

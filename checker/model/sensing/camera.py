@@ -8,7 +8,7 @@ from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.xml import Element, Tagged
 
 
 class Pinhole(Record):
@@ -33,7 +33,7 @@ DEFAULT_PINHOLE = Pinhole(277.0, 277.0, 160.0, 120.0)
 """SDFormat's own: right for 320 × 240 pixels and a horizontal field of view of 60°."""
 
 
-class Intrinsics(Record, eq=False):
+class Intrinsics(Tagged, Record, eq=False):
     """A `<lens><intrinsics>`: focal lengths, principal point and skew, pixels."""
 
     fx: Located[float]
@@ -42,11 +42,6 @@ class Intrinsics(Record, eq=False):
     cy: Located[float]
     skew: Located[float]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @property
     def are_measured(self) -> bool:
@@ -62,7 +57,7 @@ class Clip(Record, eq=False):
     span: Span
 
 
-class Camera(Record, eq=False):
+class Camera(Tagged, Record, eq=False):
     """A `<camera>`.
 
     Attributes:
@@ -88,11 +83,6 @@ class Camera(Record, eq=False):
     distortion: dict[str, Located[float]]
     noise: Noise | None
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @property
     def pixels(self) -> float:

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 QUANTITIES = ("angular_velocity", "linear_acceleration")
 
 
-class Imu(Record, eq=False):
+class Imu(Tagged, Record, eq=False):
     """An `<imu>`.
 
     Attributes:
@@ -25,11 +25,6 @@ class Imu(Record, eq=False):
     noises: Mapping[tuple[str, str], Noise]
     enable_orientation: Located[bool]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
 
 def read_imu(sensor: Element) -> Imu | None:

@@ -6,7 +6,7 @@ from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.xml import Element, Tagged
 
 
 class Scan(Record, eq=False):
@@ -37,7 +37,7 @@ class Scan(Record, eq=False):
         return (self.lower.value + self.upper.value) / 2.0
 
 
-class Lidar(Record, eq=False):
+class Lidar(Tagged, Record, eq=False):
     """A `<lidar>` or `<ray>`.
 
     Attributes:
@@ -57,11 +57,6 @@ class Lidar(Record, eq=False):
     range_resolution: Located[float]
     noise: Noise | None
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @property
     def rows(self) -> float:

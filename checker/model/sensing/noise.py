@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 from checker.base.record import Record
 from checker.model.values import ValueReader
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 
-class Noise(Record, eq=False):
+class Noise(Tagged, Record, eq=False):
     """A `<noise>`; all figures in the unit of the value that it is added to.
 
     Attributes:
@@ -34,11 +34,6 @@ class Noise(Record, eq=False):
     dynamic_bias_correlation_time: Located[float]
     precision: Located[float]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @property
     def figures(self) -> Mapping[str, Located[float]]:

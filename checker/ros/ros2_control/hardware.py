@@ -7,8 +7,8 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.model.values import parse_number
-from checker.source.text import Located, Span
-from checker.source.xml import Element
+from checker.source.text import Located
+from checker.source.xml import Element, Tagged
 
 TYPES = ("system", "actuator", "sensor")
 KNOWN_CHILDREN = ("hardware", "joint", "sensor", "gpio", "transmission", "properties")
@@ -19,7 +19,7 @@ STANDARD_INTERFACES = (
 )
 
 
-class Interface(Record, eq=False):
+class Interface(Tagged, Record, eq=False):
     """A `<command_interface>` or `<state_interface>`.
 
     Attributes:
@@ -34,13 +34,8 @@ class Interface(Record, eq=False):
     params: Mapping[str, Located[str]]
     element: Element
 
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
-
-class HardwareJoint(Record, eq=False):
+class HardwareJoint(Tagged, Record, eq=False):
     """A `<joint>`, `<sensor>` or `<gpio>` of a `<ros2_control>` tag.
 
     Attributes:
@@ -59,13 +54,8 @@ class HardwareJoint(Record, eq=False):
     params: Mapping[str, Located[str]]
     element: Element
 
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
-
-class Hardware(Record, eq=False, dict=True):
+class Hardware(Tagged, Record, eq=False, dict=True):
     """A `<ros2_control>` tag.
 
     Attributes:
@@ -85,11 +75,6 @@ class Hardware(Record, eq=False, dict=True):
     sensors: tuple[HardwareJoint, ...]
     gpios: tuple[HardwareJoint, ...]
     element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
 
     @cached_property
     def joints_by_name(self) -> Mapping[str, HardwareJoint]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from checker.formats.sdf.flattening.draft import Draft, Holder
 from checker.formats.sdf.poses import in_degrees, transform_of
@@ -27,15 +27,16 @@ def write_pose(draft: Draft, holder: Element, pose: Transform) -> None:
     """Have the `<pose>` of an element state this one; what it states already stays as it is."""
     element = holder.child("pose")
     if element is None:
-        if _differs(pose, Transform()):
+        if not pose.is_near(Transform(), _SAME):
             draft.insert(holder, f"<pose>{pose_text(pose)}</pose>")
         return
     read = None if in_degrees(element) else _numbers(element, 6)
     if read is None:
         draft.put(element.whole_span, f"<pose>{pose_text(pose)}</pose>")
         return
-    turned = _differs(Transform(pose.rotation), Transform(stated_pose(element).rotation))
-    angles = pose.rpy if turned else tuple(number.value for number in read[3:])
+    stated = Transform(stated_pose(element).rotation)
+    kept = Transform(pose.rotation).is_near(stated, _SAME)
+    angles = tuple(number.value for number in read[3:]) if kept else pose.rpy
     _write_numbers(draft, read, (*pose.translation, *angles))
 
 
@@ -75,17 +76,6 @@ def _write_numbers(draft: Draft, read: Sequence[Located[float]], values: Sequenc
     for number, value in zip(read, values, strict=True):
         if abs(number.value - value) > _SAME:
             draft.put(number.span, _number(value))
-
-
-def _differs(one: Transform, other: Transform) -> bool:
-    pairs = zip(_entries(one), _entries(other), strict=True)
-    return any(abs(a - b) > _SAME for a, b in pairs)
-
-
-def _entries(pose: Transform) -> Iterator[float]:
-    yield from pose.translation
-    for row in pose.rotation:
-        yield from row
 
 
 def _text(values: Sequence[float]) -> str:
