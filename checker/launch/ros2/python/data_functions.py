@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import ast
 import itertools
 import json
 import math
 import textwrap
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import yaml
 
-from checker.launch.ros2.python.expressions import bounded, each, plain
+from checker.launch.ros2.python.call import Call, Work
+from checker.launch.ros2.python.expressions import bounded, plain
 from checker.launch.ros2.values import FileText, OpenFile, Unknown, Value, chosen_value
-
-if TYPE_CHECKING:
-    from checker.launch.ros2.python.interpreter import Interpreter
-
-Work = Callable[["Interpreter", ast.AST, list[Value], dict[str, Value]], Value]
 
 _WIDEST = 1_000
 """Greatest length of requested lines and indents."""
@@ -38,12 +33,12 @@ CONSTANTS: Mapping[str, float] = MappingProxyType(
 def _dumping(name: str, write: Callable[..., str], style: frozenset[str]) -> Work:
     """Return what writes data as text; one that writes into a file is not evaluated."""
 
-    def work(
-        run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-    ) -> Value:
-        if len(arguments) != 1 or not named.keys() <= style:
-            return run.unknown(node, f"{name} with these arguments is not evaluated")
-        return bounded(run, node, lambda _: write(plain(arguments[0]), **_styled(named)))
+    def work(call: Call) -> Value:
+        if len(call.arguments) != 1 or not call.named.keys() <= style:
+            return call.unknown(f"{name} with these arguments is not evaluated")
+        return bounded(
+            call.run, call.node, lambda _: write(plain(call.arguments[0]), **_styled(call.named))
+        )
 
     return work
 
@@ -55,55 +50,41 @@ def _styled(named: Mapping[str, Value]) -> dict[str, Any]:
     return options
 
 
-def _load_json(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
-    content = chosen_value(arguments[0]) if arguments else None
+def _load_json(call: Call) -> Value:
+    content = chosen_value(call.first())
     if isinstance(content, OpenFile | FileText):
-        run.by_argument = True
-        source = run.world.read(content.path, run.span(node))
+        call.run.by_argument = True
+        source = call.run.world.read(content.path, call.span)
         if isinstance(source, str):
-            return run.unknown(node, source)
+            return call.unknown(source)
         content = source.text
     if isinstance(content, Unknown):
         return content
-    run.allowance.spend_on_text(len(content) if isinstance(content, str) else 0)
-    return bounded(run, node, lambda _: json.loads(plain(content)))
+    call.run.allowance.spend_on_text(len(content) if isinstance(content, str) else 0)
+    return bounded(call.run, call.node, lambda _: json.loads(plain(content)))
 
 
-def _mathematics(function: Callable[..., Any]) -> Work:
-    def work(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-        return bounded(run, node, lambda _: function(*map(plain, arguments)))
+def _of_data(function: Callable[..., Any]) -> Work:
+    """Return what calls a function of Python with data."""
+    return lambda call: bounded(
+        call.run, call.node, lambda _: function(*map(plain, call.arguments))
+    )
 
-    return work
 
-
-def _product(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    columns = [each(run, argument, node) for argument in arguments]
-    run.allowance.spend(math.prod(map(len, columns)))
+def _product(call: Call) -> Value:
+    columns = [*map(call.items, call.arguments)]
+    call.run.allowance.spend(math.prod(map(len, columns)))
     return [*itertools.product(*columns)]
 
 
-def _dedent(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    return bounded(run, node, lambda _: textwrap.dedent(*map(plain, arguments)))
-
-
-def _from_keys(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
-    return bounded(run, node, lambda _: dict.fromkeys(*map(plain, arguments)))
-
-
-def _get_attribute(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
+def _get_attribute(call: Call) -> Value:
     """Return `getattr(owner, name)`; whether there is such an attribute is not known."""
-    if len(arguments) != 2:
-        return run.unknown(node, "getattr with a default is not evaluated")
-    owner, name = map(chosen_value, arguments)
+    if len(call.arguments) != 2:
+        return call.unknown("getattr with a default is not evaluated")
+    owner, name = map(chosen_value, call.arguments)
     if not isinstance(name, str):
-        return name if isinstance(name, Unknown) else run.unknown(node, "getattr takes a name")
-    return run.attribute(owner, str(name), node)
+        return name if isinstance(name, Unknown) else call.unknown("getattr takes a name")
+    return call.run.attribute(owner, str(name), call.node)
 
 
 FUNCTIONS: Mapping[str, Work] = MappingProxyType(
@@ -114,10 +95,10 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
         "json.loads": _load_json,
         "json.load": _load_json,
         "itertools.product": _product,
-        "textwrap.dedent": _dedent,
-        "builtins.dict.fromkeys": _from_keys,
+        "textwrap.dedent": _of_data(textwrap.dedent),
+        "builtins.dict.fromkeys": _of_data(dict.fromkeys),
         "builtins.getattr": _get_attribute,
     }
-    | {f"math.{function.__name__}": _mathematics(function) for function in _MATH}
+    | {f"math.{function.__name__}": _of_data(function) for function in _MATH}
 )
 """The functions by their dotted path in imports."""

@@ -10,6 +10,7 @@ from typing import Protocol
 from checker.launch.ros2.classes import CLASSES, ROOTS
 from checker.launch.ros2.graph import Condition, is_known
 from checker.launch.ros2.python import methods
+from checker.launch.ros2.python.call import Call
 from checker.launch.ros2.python.expressions import bounded, each, evaluate, plain, sequence
 from checker.launch.ros2.python.library import BUILTINS, CONSTANTS, FUNCTIONS
 from checker.launch.ros2.python.scope import (
@@ -317,7 +318,7 @@ class Interpreter:
     ) -> Value:
         work = FUNCTIONS.get(symbol.path) or BUILTINS.get(symbol.path)
         if work is not None:
-            return work(self, node, positional, named)
+            return Call(self, node, positional, named).evaluated(work)
         if symbol.root in ROOTS and symbol.last in CLASSES:
             parameters = CLASSES[symbol.last]
             values = dict(zip(parameters, positional, strict=False)) | named

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 import posixpath
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,8 @@ from checker.formats.xacro.expression.builtins import FUNCTIONS as SAFE
 from checker.formats.xacro.files import ROOT
 from checker.launch.ros2.graph import is_known
 from checker.launch.ros2.python import data_functions, moveit
-from checker.launch.ros2.python.expressions import bounded, each, hashable, plain
+from checker.launch.ros2.python.call import Call, NotKnown, Work
+from checker.launch.ros2.python.expressions import bounded, hashable, plain
 from checker.launch.ros2.python.scope import LocalFunction, Partial
 from checker.launch.ros2.values import (
     Choice,
@@ -26,14 +28,11 @@ from checker.launch.ros2.values import (
     Unknown,
     Value,
     chosen_value,
-    span_of,
 )
 from checker.source.yaml import read_yaml
 
 if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
-
-Work = Callable[["Interpreter", ast.AST, list[Value], dict[str, Value]], Value]
 
 CONSTANTS: Mapping[str, str | float] = MappingProxyType(
     {"os.sep": "/", "os.path.sep": "/", "os.pathsep": ":", "os.linesep": "\n"}
@@ -43,49 +42,15 @@ PREFIX = f"{ROOT}-prefix"
 """The folder of the install prefixes of packages."""
 
 
-def text_of(run: Interpreter, value: Value, node: ast.AST) -> PlacedText | Unknown:
-    """Return a path or name as text."""
-    value = chosen_value(value)
-    if isinstance(value, FilePath):
-        return PlacedText(value.text, run.span(node))
-    if isinstance(value, str):
-        return PlacedText(value, span_of(value, run.span(node)))
-    if isinstance(value, Unknown):
-        return value
-    if isinstance(value, Made):
-        return run.unknown(node, f"a text is made of a {value.name} before the launch")
-    return run.unknown(node, "is not text")
-
-
-def texts_of(
-    run: Interpreter, values: Iterable[Value], node: ast.AST
-) -> list[PlacedText] | Unknown:
-    """Return several as text; the first one that is none."""
-    texts = []
-    for value in values:
-        text = text_of(run, value, node)
-        if isinstance(text, Unknown):
-            return text
-        texts.append(text)
-    return texts
-
-
-def first(arguments: list[Value], named: dict[str, Value], *names: str) -> Value:
-    """Return the first argument, given by place or by one of some names."""
-    if arguments:
-        return arguments[0]
-    return next((named[name] for name in names if name in named), None)
-
-
 # Paths.
 
 
-def _join(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    parts = texts_of(run, arguments, node)
-    if isinstance(parts, Unknown) or not parts:
-        return parts or run.unknown(node, "os.path.join joins nothing")
-    run.allowance.spend_on_text(sum(map(len, parts)))
-    return PlacedText(posixpath.join(*map(str, parts)), run.span(node))
+def _join(call: Call) -> Value:
+    parts = call.texts(call.arguments)
+    if not parts:
+        return call.unknown("os.path.join joins nothing")
+    call.run.allowance.spend_on_text(sum(map(len, parts)))
+    return call.placed(posixpath.join(*map(str, parts)))
 
 
 _PATH_WORKS: Mapping[str, Callable[[str], str | tuple[str, str]]] = MappingProxyType(
@@ -94,110 +59,84 @@ _PATH_WORKS: Mapping[str, Callable[[str], str | tuple[str, str]]] = MappingProxy
         "basename": posixpath.basename,
         "splitext": posixpath.splitext,
         "split": posixpath.split,
+        "abspath": posixpath.normpath,
+        "realpath": posixpath.normpath,
+        "normpath": posixpath.normpath,
+        "expanduser": posixpath.normpath,
+        "expandvars": posixpath.normpath,
     }
 )
 
 
 def _path_work(name: str) -> Work:
-    def work(
-        run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-    ) -> Value:
-        text = text_of(run, first(arguments, named, "path", "filename"), node)
-        if isinstance(text, Unknown):
-            return text
-        result = _PATH_WORKS[name](str(text))
-        if isinstance(result, tuple):
-            return tuple(PlacedText(part, run.span(node)) for part in result)
-        return PlacedText(result, run.span(node))
+    def work(call: Call) -> Value:
+        result = _PATH_WORKS[name](str(call.text(call.first("path", "filename"))))
+        return tuple(map(call.placed, result)) if isinstance(result, tuple) else call.placed(result)
 
     return work
 
 
-def _same_path(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    text = text_of(run, first(arguments, named, "path", "filename"), node)
-    return (
-        text if isinstance(text, Unknown) else PlacedText(posixpath.normpath(text), run.span(node))
-    )
+def _exists(call: Call) -> Value:
+    call.run.by_argument = True
+    with suppress(NotKnown):
+        there = call.run.world.exists(str(call.text(call.first("path"))))
+        if there is not None:
+            return there
+    return call.unknown("whether the file exists is not known")
 
 
-def _exists(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    run.by_argument = True
-    text = text_of(run, first(arguments, named, "path"), node)
-    there = None if isinstance(text, Unknown) else run.world.exists(str(text))
-    return run.unknown(node, "whether the file exists is not known") if there is None else there
+def _share(call: Call) -> PlacedText:
+    return _package_folder(call, ROOT)
 
 
-def _share(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    return _package_folder(run, node, first(arguments, named, "package_name"), ROOT)
+def _share_path(call: Call) -> Value:
+    return FilePath(str(_share(call)))
 
 
-def _share_path(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    folder = _share(run, node, arguments, named)
-    return folder if isinstance(folder, Unknown) else FilePath(str(folder))
+def _prefix(call: Call) -> Value:
+    return _package_folder(call, PREFIX)
 
 
-def _prefix(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    return _package_folder(run, node, first(arguments, named, "package_name"), PREFIX)
-
-
-def _package_folder(run: Interpreter, node: ast.AST, package: Value, folder: str) -> Value:
-    name = text_of(run, package, node)
-    if isinstance(name, Unknown):
-        return name
+def _package_folder(call: Call, folder: str) -> PlacedText:
+    name = call.text(call.first("package_name"))
     if not is_known(name):
-        return run.unknown(node, "the name of the package is not known")
-    return PlacedText(f"{folder}/{name}", run.span(node))
+        raise call.not_known("the name of the package is not known")
+    return call.placed(f"{folder}/{name}")
 
 
-def _new_path(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
-    return run.joined_path(arguments, node)
+def _new_path(call: Call) -> Value:
+    return call.run.joined_path(call.arguments, call.node)
 
 
-def _directory(run: Interpreter, node: ast.AST, _: list[Value], __: dict[str, Value]) -> Value:
-    return run.unknown(node, "the working directory is not known")
+def _directory(call: Call) -> Value:
+    return call.unknown("the working directory is not known")
 
 
 # Files.
 
 
-def _open(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    text = text_of(run, first(arguments, named, "file"), node)
-    return text if isinstance(text, Unknown) else OpenFile(str(text))
+def _open(call: Call) -> Value:
+    return OpenFile(str(call.text(call.first("file"))))
 
 
-def _load_yaml(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    content = chosen_value(first(arguments, named, "stream"))
+def _load_yaml(call: Call) -> Value:
+    content = chosen_value(call.first("stream"))
     if isinstance(content, OpenFile | FileText):
-        return read_yaml_file(run, content.path, node)
-    return content if isinstance(content, Unknown) else run.unknown(node, "the YAML is not known")
+        return _yaml_file(call, content.path)
+    return content if isinstance(content, Unknown) else call.unknown("the YAML is not known")
 
 
-def read_yaml_file(run: Interpreter, path: str, node: ast.AST) -> Value:
+def _yaml_file(call: Call, path: str) -> Value:
     """Return what a YAML file contains."""
+    run = call.run
     run.by_argument = True
-    source = run.world.read(path, run.span(node))
+    source = run.world.read(path, call.span)
     if isinstance(source, str):
-        return run.unknown(node, source)
+        return call.unknown(source)
     run.allowance.spend_on_text(min(len(source.text), 90_000))
     root = read_yaml(source).root
     if root is None:
-        return run.unknown(node, f"{source.file} cannot be read")
+        return call.unknown(f"{source.file} cannot be read")
     run.allowance.spend(root.size)
     return root.plain()
 
@@ -205,32 +144,22 @@ def read_yaml_file(run: Interpreter, path: str, node: ast.AST) -> Value:
 # xacro, called from Python.
 
 
-def _xacro_file(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    file = chosen_value(first(arguments, named, "input_file_name", "input", "filename"))
-    path = file.path if isinstance(file, OpenFile) else text_of(run, file, node)
-    if isinstance(path, Unknown):
-        return path
-    return Made(
-        "XacroDocument", {"path": str(path), "mappings": named.get("mappings")}, run.span(node)
-    )
+def _xacro_file(call: Call) -> Made:
+    file = chosen_value(call.first("input_file_name", "input", "filename"))
+    path = file.path if isinstance(file, OpenFile) else call.text(file)
+    values = {"path": str(path), "mappings": call.named.get("mappings")}
+    return Made("XacroDocument", values, call.span)
 
 
-def _xacro_arguments(
-    _: Interpreter, __: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    document = chosen_value(first(arguments, named, "doc"))
+def _xacro_arguments(call: Call) -> Value:
+    document, named = chosen_value(call.first("doc")), call.named
     if isinstance(document, Made) and document.name == "XacroDocument" and "mappings" in named:
         document.values["mappings"] = named["mappings"]
     return None
 
 
-def _xacro_text(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    document = _xacro_file(run, node, arguments, named)
-    return document if isinstance(document, Unknown) else xacro_text(run, document, node)
+def _xacro_text(call: Call) -> Value:
+    return xacro_text(call.run, _xacro_file(call), call.node)
 
 
 def xacro_text(run: Interpreter, document: Made, node: ast.AST) -> Value:
@@ -249,155 +178,124 @@ def xacro_text(run: Interpreter, document: Made, node: ast.AST) -> Value:
 # Environment, and the rest.
 
 
-def _getenv(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    default = arguments[1] if len(arguments) > 1 else named.get("default")
-    return run.environment(first(arguments, named, "key"), default, node)
+def _getenv(call: Call) -> Value:
+    default = call.arguments[1] if len(call.arguments) > 1 else call.named.get("default")
+    return call.run.environment(call.first("key"), default, call.node)
 
 
-def _partial(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    if not arguments:
-        return run.unknown(node, "partial() of nothing")
-    return Partial(arguments[0], arguments[1:], named)
+def _partial(call: Call) -> Value:
+    if not call.arguments:
+        return call.unknown("partial() of nothing")
+    return Partial(call.arguments[0], call.arguments[1:], call.named)
 
 
-def _copy(run: Interpreter, __: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen_value(arguments[0]) if arguments else None
-    run.allowance.spend(len(value) if isinstance(value, list | dict) else 1)
+def _copy(call: Call) -> Value:
+    value = chosen_value(call.first())
+    call.run.allowance.spend(len(value) if isinstance(value, list | dict) else 1)
     return value.copy() if isinstance(value, list | dict) else value
 
 
-def _nothing(_: Interpreter, __: ast.AST, ___: list[Value], ____: dict[str, Value]) -> Value:
+def _nothing(_: Call) -> Value:
     return None
 
 
-def _sequence(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
-    return each(run, arguments[0], node) if arguments else []
+def _sequence(call: Call) -> list[Value]:
+    return call.items(call.arguments[0]) if call.arguments else []
 
 
-def _tuple(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    return tuple(_sequence(run, node, arguments, named))
-
-
-def _dict(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
+def _dict(call: Call) -> Value:
     entries: dict[Value, Value] = {}
-    if arguments:
-        given = chosen_value(arguments[0])
+    if call.arguments:
+        given = chosen_value(call.arguments[0])
         if isinstance(given, dict):
             entries |= given
         else:
-            for pair in each(run, given, node):
+            for pair in call.items(given):
                 if not isinstance(pair, tuple | list) or len(pair) != 2:
-                    return run.unknown(node, "the items are not known")
-                key = hashable(run, pair[0], node)
+                    return call.unknown("the items are not known")
+                key = hashable(call.run, pair[0], call.node)
                 if isinstance(key, Unknown):
                     return key
                 entries[key] = pair[1]
-    return entries | named
+    return entries | call.named
 
 
-def _map(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    if len(arguments) < 2:
-        return run.unknown(node, "map() takes a function and items")
-    columns = [each(run, argument, node) for argument in arguments[1:]]
-    return [
-        run.called(chosen_value(arguments[0]), list(row), {}, node)
-        for row in zip(*columns, strict=False)
-    ]
+def _map(call: Call) -> Value:
+    if len(call.arguments) < 2:
+        return call.unknown("map() takes a function and items")
+    columns = map(call.items, call.arguments[1:])
+    return [_applied(call, list(row)) for row in zip(*[*columns], strict=False)]
 
 
-def _zip(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    return [*zip(*(each(run, argument, node) for argument in arguments), strict=False)]
+def _applied(call: Call, arguments: list[Value]) -> Value:
+    """Return what the function that is the first argument returns."""
+    return call.run.called(chosen_value(call.arguments[0]), arguments, {}, call.node)
 
 
-def _enumerate(
-    run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-) -> Value:
-    start = arguments[1] if len(arguments) > 1 else named.get("start", 0)
-    items = _sequence(run, node, arguments[:1], {})
-    return [*enumerate(items, start if type(start) is int else 0)]
+def _zip(call: Call) -> Value:
+    return [*zip(*map(call.items, call.arguments), strict=False)]
 
 
-def _reversed(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
-    return _sequence(run, node, arguments, {})[::-1]
+def _enumerate(call: Call) -> Value:
+    start = call.arguments[1] if len(call.arguments) > 1 else call.named.get("start", 0)
+    return [*enumerate(_sequence(call), start if type(start) is int else 0)]
 
 
-def _chain(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    return [item for argument in arguments for item in each(run, argument, node)]
+def _chain(call: Call) -> Value:
+    return [item for argument in call.arguments for item in call.items(argument)]
 
 
-def _filter(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    if len(arguments) != 2:
-        return run.unknown(node, "filter() takes a function and items")
+def _filter(call: Call) -> Value:
+    if len(call.arguments) != 2:
+        return call.unknown("filter() takes a function and items")
     kept = []
-    for item in each(run, arguments[1], node):
-        keeps = (
-            item
-            if arguments[0] is None
-            else run.called(chosen_value(arguments[0]), [item], {}, node)
-        )
-        if run.truth(keeps) is not False:
+    for item in call.items(call.arguments[1]):
+        keeps = item if call.arguments[0] is None else _applied(call, [item])
+        if call.run.truth(keeps) is not False:
             kept.append(item)
     return kept
 
 
-def _string(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen_value(arguments[0]) if arguments else ""
+def _string(call: Call) -> Value:
+    value = chosen_value(call.arguments[0]) if call.arguments else ""
     if isinstance(value, str | FilePath | Made | Unknown):
-        return text_of(run, value, node)
-    return bounded(run, node, lambda budget: SAFE["str"].work(budget, plain(value)))
+        return call.text(value)
+    return bounded(call.run, call.node, lambda budget: SAFE["str"].work(budget, plain(value)))
 
 
-def _length(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]) -> Value:
-    value = chosen_value(arguments[0]) if arguments else None
+def _length(call: Call) -> Value:
+    value = chosen_value(call.first())
     if isinstance(value, list | tuple | dict) and not any(
         isinstance(item, Guarded | Choice | Unknown) for item in value
     ):
         return len(value)
-    return bounded(run, node, lambda budget: SAFE["len"].work(budget, plain(value)))
+    return bounded(call.run, call.node, lambda budget: SAFE["len"].work(budget, plain(value)))
 
 
-def _is_instance(
-    run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, Value]
-) -> Value:
+def _is_instance(call: Call) -> Value:
     names = {"str": str, "int": int, "float": float, "bool": bool, "list": list, "dict": dict}
-    wanted = arguments[1] if len(arguments) == 2 else ()
+    wanted = call.arguments[1] if len(call.arguments) == 2 else ()
     kinds = wanted if isinstance(wanted, tuple) else (wanted,)
     if kinds and all(isinstance(kind, Symbol) and kind.last in names for kind in kinds):
-        value = chosen_value(arguments[0])
+        value = chosen_value(call.arguments[0])
         if not isinstance(value, Unknown):
             return isinstance(value, tuple(names[kind.last] for kind in kinds))
-    return run.unknown(node, "isinstance() is not evaluated")
+    return call.unknown("isinstance() is not evaluated")
 
 
 def _safe(name: str) -> Work:
-    def work(
-        run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
-    ) -> Value:
-        values = {
-            key: value for key, value in named.items() if not isinstance(value, LocalFunction)
-        }
-        if len(values) != len(named):
-            return run.unknown(node, f"{name}() with a function is not evaluated")
+    def work(call: Call) -> Value:
+        named = call.named
+        if any(isinstance(value, LocalFunction) for value in named.values()):
+            return call.unknown(f"{name}() with a function is not evaluated")
         return bounded(
-            run,
-            node,
+            call.run,
+            call.node,
             lambda budget: _as_sequence(
                 SAFE[name].work(
                     budget,
-                    *map(plain, arguments),
-                    **{key: plain(value) for key, value in values.items()},
+                    *map(plain, call.arguments),
+                    **{key: plain(value) for key, value in named.items()},
                 )
             ),
         )
@@ -422,13 +320,13 @@ BUILTINS: Mapping[str, Work] = MappingProxyType(
         "builtins.set": _sequence,
         "builtins.frozenset": _sequence,
         "builtins.iter": _sequence,
-        "builtins.tuple": _tuple,
+        "builtins.tuple": lambda call: tuple(_sequence(call)),
         "builtins.dict": _dict,
         "builtins.map": _map,
         "builtins.filter": _filter,
         "builtins.zip": _zip,
         "builtins.enumerate": _enumerate,
-        "builtins.reversed": _reversed,
+        "builtins.reversed": lambda call: _sequence(call)[::-1],
         "builtins.print": _nothing,
         "builtins.open": _open,
         "builtins.isinstance": _is_instance,
@@ -440,11 +338,6 @@ _AMENT = ("ament_index_python.packages", "ament_index_python", "ament_index_pyth
 FUNCTIONS: Mapping[str, Work] = MappingProxyType(
     {
         "os.path.join": _join,
-        "os.path.abspath": _same_path,
-        "os.path.realpath": _same_path,
-        "os.path.normpath": _same_path,
-        "os.path.expanduser": _same_path,
-        "os.path.expandvars": _same_path,
         "os.getenv": _getenv,
         "os.environ.get": _getenv,
         "os.environ.setdefault": _nothing,

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ast
 import posixpath
+from functools import partial
 from typing import TYPE_CHECKING
 
 from checker.formats.xacro.expression.methods import method_of
 from checker.launch.ros2.classes import SUBSTITUTIONS
 from checker.launch.ros2.graph import is_known
 from checker.launch.ros2.python import library, moveit
+from checker.launch.ros2.python.call import Call
 from checker.launch.ros2.python.expressions import bounded, each, hashable, plain
 from checker.launch.ros2.python.scope import Method
 from checker.launch.ros2.values import (
@@ -163,7 +165,7 @@ def _of_dict(  # noqa: C901, PLR0911 - one per method
             return value
         case "update", others if not run.guards:
             for other in map(chosen_value, others):
-                pairs = library.BUILTINS["builtins.dict"](run, node, [other], {})
+                pairs = Call(run, node, [other], {}).evaluated(library.BUILTINS["builtins.dict"])
                 if not isinstance(pairs, dict):
                     return pairs
                 owner |= pairs
@@ -187,7 +189,7 @@ def _on_path(  # noqa: PLR0911 - one per method
         case "open":
             return OpenFile(path.text)
         case "exists" | "is_file" | "is_dir":
-            return library.FUNCTIONS["os.path.exists"](run, node, [path], {})
+            return Call(run, node, [path], {}).evaluated(library.FUNCTIONS["os.path.exists"])
         case "with_suffix" | "with_name" if positional and isinstance(positional[0], str):
             folder, file = posixpath.split(path.text)
             stem = posixpath.splitext(file)[0] if name == "with_suffix" else ""
@@ -223,9 +225,8 @@ def _of_made(  # noqa: C901, PLR0911 - one per method
         run.by_argument = True
         return _condition(run, owner, node)
     if name == "find" and owner.name == "FindPackageShare" and positional:
-        return library.FUNCTIONS["ament_index_python.get_package_share_directory"](
-            run, node, positional, {}
-        )
+        share = library.FUNCTIONS["ament_index_python.get_package_share_directory"]
+        return Call(run, node, positional, {}).evaluated(share)
     if owner.name == CONTEXT and name == "perform_substitution" and positional:
         run.by_argument = True
         return run.world.perform(positional[0], run.span(node))
@@ -252,11 +253,7 @@ def _of_text(
     node: ast.AST,
 ) -> Value:
     if name == "join" and positional:
-        parts = library.texts_of(run, each(run, positional[0], node), node)
-        if isinstance(parts, Unknown):
-            return parts
-        run.allowance.spend_on_text(sum(map(len, parts)) + len(text) * len(parts))
-        return PlacedText(str(text).join(map(str, parts)), run.span(node))
+        return Call(run, node, positional, {}).evaluated(partial(_joined, text))
     return bounded(
         run,
         node,
@@ -267,3 +264,9 @@ def _of_text(
             **{key: plain(value) for key, value in named.items()},
         ),
     )
+
+
+def _joined(text: str, call: Call) -> Value:
+    parts = call.texts(call.items(call.arguments[0]))
+    call.run.allowance.spend_on_text(sum(map(len, parts)) + len(text) * len(parts))
+    return call.placed(text.join(map(str, parts)))

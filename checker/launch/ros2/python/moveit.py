@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from checker.formats.xacro.files import ROOT
 from checker.launch.ros2.actions.node_parameters import MOVEIT
 from checker.launch.ros2.graph import is_known
+from checker.launch.ros2.python.call import Call
 from checker.launch.ros2.values import FileText, Made, Unknown, Value, chosen_value
 from checker.source.yaml import read_yaml
 
@@ -18,21 +19,17 @@ if TYPE_CHECKING:
 _DESCRIPTIONS = ("robot_description", "robot_description_semantic")
 
 
-def builder(
-    run: Interpreter, node: ast.AST, positional: list[Value], named: dict[str, Value]
-) -> Value:
+def builder(call: Call) -> Value:
     """Return a builder."""
-    values = dict(
-        zip(("robot_name", "robot_description", "package_name"), positional, strict=False)
-    )
-    values |= named
+    parameters = ("robot_name", "robot_description", "package_name")
+    values = dict(zip(parameters, call.arguments, strict=False)) | call.named
     robot = chosen_value(values.get("robot_name"))
     if not isinstance(robot, str) or not is_known(robot):
-        return run.unknown(node, "the robot name of MoveItConfigsBuilder is not known")
+        return call.unknown("the robot name of MoveItConfigsBuilder is not known")
     package = chosen_value(values.get("package_name", f"{robot}_moveit_config"))
     if not isinstance(package, str) or not is_known(package):
-        return run.unknown(node, "the package of MoveItConfigsBuilder is not known")
-    return Made("MoveItConfigs", {"robot": str(robot), "package": str(package)}, run.span(node))
+        return call.unknown("the package of MoveItConfigsBuilder is not known")
+    return Made("MoveItConfigs", {"robot": str(robot), "package": str(package)}, call.span)
 
 
 def called(
