@@ -26,6 +26,35 @@ def add_exit_codes(parser: argparse.ArgumentParser) -> None:
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
 
 
+def add_report_options(parser: argparse.ArgumentParser) -> None:
+    """Add what to check for, and where and how the result is reported."""
+    parser.add_argument(
+        "--output-format",
+        "--format",
+        dest="format",
+        choices=FORMAT_NAMES,
+        default="text",
+        help="format of the result (default: text); concise: one line a finding",
+    )
+    parser.add_argument(
+        "--output", metavar="FILE", help="write the result to this file instead of stdout"
+    )
+    parser.add_argument(
+        "--report",
+        metavar="DIR",
+        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
+    )
+    parser.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+    parser.add_argument(
+        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
+    )
+    parser.add_argument(
+        "--fail-on",
+        choices=("error", "warning"),
+        help="lowest severity that fails (default: error)",
+    )
+
+
 def add_data(parser: argparse.ArgumentParser) -> None:
     """Add the folder of a service, and what several machines share."""
     parser.add_argument(

@@ -23,7 +23,7 @@ from checker.base.output import (
     show,
     write,
 )
-from checker.cli.arguments import FORMAT_NAMES, PROFILES, add_exit_codes
+from checker.cli.arguments import add_exit_codes, add_report_options
 from checker.cli.exit_code import exit_code
 from checker.finding import Severity
 from checker.package.formats import single_file_suffixes
@@ -256,24 +256,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="",
         help="access token (safer: the variable SUBT_CHECK_TOKEN, which other users cannot see)",
     )
-    parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
-    )
-    parser.add_argument("--format", choices=FORMAT_NAMES, default="text")
-    parser.add_argument(
-        "--output", metavar="FILE", help="write the result to this file instead of stdout"
-    )
-    parser.add_argument(
-        "--report",
-        metavar="DIR",
-        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
-    )
-    parser.add_argument(
-        "--fail-on",
-        choices=("error", "warning"),
-        help="lowest severity that fails (default: error)",
-    )
-    parser.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+    add_report_options(parser)
 
 
 def run(options: argparse.Namespace) -> int:

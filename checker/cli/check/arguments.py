@@ -8,10 +8,9 @@ from pathlib import Path
 from checker.base.errors import CheckerError
 from checker.cli.arguments import (
     DISTROS,
-    FORMAT_NAMES,
-    PROFILES,
     above_zero,
     add_exit_codes,
+    add_report_options,
     argument,
     ids,
     positive,
@@ -32,31 +31,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="each PATH is a changed file: check the packages of these files",
     )
-    parser.add_argument(
-        "--output-format",
-        "--format",
-        dest="format",
-        choices=FORMAT_NAMES,
-        default="text",
-        help="format of the result (default: text); concise: one line a finding",
-    )
-    parser.add_argument(
-        "--output", metavar="FILE", help="write the result to this file instead of stdout"
-    )
-    parser.add_argument(
-        "--report",
-        metavar="DIR",
-        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
-    )
+    add_report_options(parser)
     parser.add_argument("--info", action="store_true", help="text and concise: show infos too")
     parser.add_argument(
         "-q", "--quiet", action="store_true", help="text and concise: print findings, nothing else"
     )
     parser.add_argument(
         "--statistics", action="store_true", help="print the number of findings of each rule"
-    )
-    parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
     )
     parser.add_argument(
         "--distro", choices=DISTROS, help="ROS 2 distribution to check for (default: jazzy)"
@@ -84,11 +65,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="KG",
         type=above_zero,
         help="mass that an arm is to carry at its end: can its motors hold it in every pose?",
-    )
-    parser.add_argument(
-        "--fail-on",
-        choices=("error", "warning"),
-        help="lowest severity that fails (default: error)",
     )
     parser.add_argument("--fix", action="store_true", help="apply safe fixes, then check")
     parser.add_argument(
@@ -128,7 +104,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="number of processes (default: for several packages, that of the processors)",
     )
-    parser.add_argument("--color", choices=("auto", "always", "never"), default="auto")
 
 
 _APART = {
