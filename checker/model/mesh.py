@@ -12,6 +12,7 @@ from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.record import Record
+from checker.model.geometry.transform import Vector
 
 # Readers of mesh files, which run in children, load this module and no robot.
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
     from checker.model.components import Collision, Visual
     from checker.model.geometry.shapes import Geometry
-    from checker.model.geometry.transform import Vector
     from checker.source.text import Located
 
 

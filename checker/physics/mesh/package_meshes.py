@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import islice
 from typing import Any
 
-from msgspec import field
+from msgspec import convert, field
 from msgspec.structs import replace
 
 from checker.base.background import Background
@@ -199,25 +199,10 @@ def _lasts(read: _Read) -> bool:
     return isinstance(read, Mesh) or read.trouble is not MeshTrouble.NOT_LOOKED_AT
 
 
-_LISTS = ("textures", "materials", "defects", "parts")
-_POINTS = ("low", "high")
-
-
 def read_from_json(data: Any) -> _Read:
     """Return the content of a file, as the process that reads it states it.
 
     Raises:
-        AttributeError, KeyError, TypeError, ValueError: It is something else.
+        KeyError, TypeError, ValidationError: It is something else.
     """
-    if "fault" in data:
-        return MeshFault(MeshTrouble(data["fault"]["trouble"]), data["fault"]["reason"])
-    return _mesh_from_json(data["mesh"])
-
-
-def _mesh_from_json(data: Any) -> Mesh:
-    fields = dict(data)
-    for name in (*_LISTS, *_POINTS):
-        fields[name] = tuple(fields[name])
-    fields["hull"] = tuple((x, y, z) for x, y, z in fields["hull"])
-    fields["picks"] = {name: _mesh_from_json(part) for name, part in fields["picks"].items()}
-    return Mesh(**fields)
+    return convert(data["fault"], MeshFault) if "fault" in data else convert(data["mesh"], Mesh)

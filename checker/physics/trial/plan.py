@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
-from msgspec import field, to_builtins
+from msgspec import field
 
 from checker.base.record import Record
 from checker.model.geometry.transform import Vector
@@ -115,26 +114,3 @@ class Plan(Record):
     def leg(self, name: str) -> Leg | None:
         """Return a leg of the course; None if it is not driven."""
         return next((leg for leg in self.legs if leg.name == name), None)
-
-    def as_json(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        members: dict[str, Any] = to_builtins(self)
-        return members
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> Plan:
-        """Return the plan that `as_json` expressed.
-
-        Raises:
-            KeyError, TypeError: It is no plan.
-        """
-        return cls(
-            **{
-                **data,
-                "legs": tuple(Leg(**leg) for leg in data["legs"]),
-                "wheels": tuple(DrivenWheel(**wheel) for wheel in data["wheels"]),
-                "belts": tuple(Belt(**belt) for belt in data["belts"]),
-                "rotors": tuple(PlannedRotor(**rotor) for rotor in data["rotors"]),
-                "notes": tuple(data["notes"]),
-            }
-        )

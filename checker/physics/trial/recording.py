@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from msgspec import field, to_builtins
+from msgspec import convert, field, to_builtins
 
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache
@@ -87,53 +88,12 @@ class Recording(Record):
     speeds: Changes = ()
     refused: str = ""
 
-    @classmethod
-    def from_json(cls, data: Any) -> Recording:
-        """Return the recording that `answer` expressed.
-
-        Raises:
-            KeyError, TypeError, ValueError: It is none.
-        """
-        return cls(
-            float(data["timestep"]),
-            tuple(
-                Servo(
-                    str(each["joint"]),
-                    float(each["stiffness"]),
-                    float(each["damping"]),
-                    float(each["limit"]),
-                )
-                for each in data["servos"]
-            ),
-            {
-                str(name): RecordedState(
-                    int(each["step"]), _floats(each["positions"]), _floats(each["velocities"])
-                )
-                for name, each in data["states"].items()
-            },
-            _parsed_changes(data["commands"]),
-            _parsed_changes(data["thrusts"]),
-            tuple(
-                BeltSurface(str(each["geom"]), _floats(each["direction"])) for each in data["belts"]
-            ),
-            _parsed_changes(data["speeds"]),
-            str(data["refused"]),
-        )
-
-
-def _parsed_changes(changes: Any) -> Changes:
-    return tuple((int(step), _floats(values)) for step, values in changes)
-
-
-def _floats(values: Any) -> tuple[float, ...]:
-    return tuple(map(float, values))
-
 
 def recorded(scene: Scene, plan: Plan, timestep: float, cache: Cache) -> Recording | WorkerFailed:
     """Drive a robot in a child process, and return what MuJoCo needs to repeat it."""
-    item = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
+    item = {"scene": to_builtins(scene), "plan": to_builtins(plan), "timestep": timestep}
     key = work_key([json.dumps(item)], ["physics/trial"], LIBRARIES)
-    work = Work("recording", __name__, LIMITS, {key: item}, Recording.from_json)
+    work = Work("recording", __name__, LIMITS, {key: item}, partial(convert, type=Recording))
     return Background(work, cache).result()
 
 
@@ -153,7 +113,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 def _recording(item: Mapping[str, Any]) -> Recording:
     from checker.physics.trial.worker import driven
 
-    scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
+    scene, plan = convert(item["scene"], Scene), convert(item["plan"], Plan)
     timestep = item["timestep"]
     try:
         motion, _ = driven(scene, plan, timestep)

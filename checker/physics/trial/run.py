@@ -6,6 +6,7 @@ import json
 from contextlib import suppress
 from functools import cached_property
 
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from checker.base.background import Background, Work, work_key
@@ -45,7 +46,7 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
     scene = build_scene(robot, servos=servos, belts=belts, timestep=timestep)
     if scene.unusable:
         return scene.unusable
-    item = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
+    item = {"scene": to_builtins(scene), "plan": to_builtins(plan), "timestep": timestep}
     key = work_key([json.dumps(item)], ["physics/trial"], LIBRARIES)
     module = f"{__package__}.worker"
     trial = Background(Work("trial", module, LIMITS, {key: item}, Trial.from_json), cache)

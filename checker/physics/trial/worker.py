@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec import convert
 from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
@@ -33,7 +34,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
 
 def _trial(item: Mapping[str, Any]) -> Trial:
-    scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
+    scene, plan = convert(item["scene"], Scene), convert(item["plan"], Plan)
     return run_trial(scene, plan, item["timestep"])
 
 

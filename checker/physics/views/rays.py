@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
-
-from msgspec import to_builtins
+from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.model.components import Sensor
@@ -72,11 +70,6 @@ class Grid(Record, dict=True):
     far: float
     picture: tuple[float, float] | None = None
 
-    def as_json(self) -> dict[str, Any]:
-        """Return what `grid_from_json` takes."""
-        members: dict[str, Any] = to_builtins(self)
-        return members
-
     @cached_property
     def directions(self) -> NDArray[float64]:
         """Unit vectors (n × 3), row by row from below."""
@@ -124,18 +117,6 @@ class Grid(Record, dict=True):
             steps.first + steps.step * np.arange(steps.number) for steps in (self.across, self.up)
         )
         return np.tile(across, self.up.number), np.repeat(up, self.across.number)
-
-
-def grid_from_json(data: dict[str, Any]) -> Grid:
-    """Return the grid from `Grid.as_json`."""
-    picture = data["picture"]
-    return Grid(
-        Steps(**data["across"]),
-        Steps(**data["up"]),
-        data["near"],
-        data["far"],
-        None if picture is None else (picture[0], picture[1]),
-    )
 
 
 def grid_of(sensor: Sensor) -> Grid | None:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
+from msgspec import to_builtins
+
 from checker.base.record import Record
 from checker.model.components import Collision, Light, Link, Visual
 from checker.model.geometry.boxes import Box
@@ -85,7 +87,7 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
         "sensors": [
             {
                 "pose": _numbers(mount.pose),
-                "grid": grid.as_json(),
+                "grid": to_builtins(grid),
                 "collisions": _meets_collisions(mount),
             }
             for mount, grid in looking

@@ -12,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from msgspec import convert
+
 from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content
 from checker.model.mesh import MeshFault, MeshTrouble
@@ -19,7 +21,7 @@ from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content
 from checker.physics.views.lights import covered_shares
 from checker.physics.views.obstacles import ball_around, entry_distances, first_hits, in_view
-from checker.physics.views.rays import Grid, grid_from_json
+from checker.physics.views.rays import Grid
 
 if TYPE_CHECKING:
     from numpy import bool_, float64
@@ -88,7 +90,7 @@ def sensors_of(item: Mapping[str, Any]) -> Sensors:
     import numpy as np
 
     sensors = item["sensors"]
-    return [(np.array(sensor["pose"]), grid_from_json(sensor["grid"])) for sensor in sensors]
+    return [(np.array(sensor["pose"]), convert(sensor["grid"], Grid)) for sensor in sensors]
 
 
 def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:

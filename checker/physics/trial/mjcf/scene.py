@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
-from typing import Any
 
-from msgspec import field, to_builtins
+from msgspec import field
 
 from checker.base.record import Record
 from checker.model.geometry.transform import Transform
@@ -122,30 +121,6 @@ class Scene(Record):
     root_in_robot: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     spawn_height: float = 0.0
     unusable: str = ""
-
-    def as_json(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        members: dict[str, Any] = to_builtins(self)
-        return members
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> Scene:
-        """Return the scene that `as_json` expressed.
-
-        Raises:
-            KeyError, TypeError: It is no scene.
-        """
-        return cls(
-            **{
-                **data,
-                "belts": {link: tuple(geoms) for link, geoms in data["belts"].items()},
-                "tied": tuple((first, second) for first, second in data["tied"]),
-                "swept": tuple(data["swept"]),
-                "repairs": tuple(Repair(**repair) for repair in data["repairs"]),
-                "notes": tuple(data["notes"]),
-                "root_in_robot": tuple(data["root_in_robot"]),
-            }
-        )
 
 
 def build_scene(
