@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class NotKnown(Exception):
-    """A call whose value is not known; the only argument is that `Unknown`."""
+    """Raised when the value of a call is not known; its only argument is that `Unknown`."""
 
 
 class Call(Record, eq=False):
@@ -54,14 +54,14 @@ class Call(Record, eq=False):
         return next((self.named[name] for name in names if name in self.named), None)
 
     def items(self, value: Value) -> list[Value]:
-        """Return the items of a value; of one that is not known, one that is not."""
+        """Return the items of a value; one unknown item if the value is unknown."""
         return each(self.run, value, self.node)
 
     def text(self, value: Value) -> PlacedText:
         """Return a path or name as text.
 
         Raises:
-            NotKnown: It is none.
+            NotKnown: The value is not a text that is known.
         """
         value = chosen_value(value)
         if isinstance(value, FilePath):
@@ -75,10 +75,10 @@ class Call(Record, eq=False):
         raise self.not_known("is not text")
 
     def texts(self, values: Iterable[Value]) -> list[PlacedText]:
-        """Return several as text.
+        """Return several values as text.
 
         Raises:
-            NotKnown: One is none.
+            NotKnown: One of them is not a text that is known.
         """
         return [self.text(value) for value in values]
 
@@ -91,11 +91,11 @@ class Call(Record, eq=False):
         return self.run.unknown(self.node, reason)
 
     def not_known(self, reason: str) -> NotKnown:
-        """Return what ends the evaluation of the call."""
+        """Return the exception that ends the evaluation of the call."""
         return NotKnown(self.unknown(reason))
 
     def evaluated(self, work: Work) -> Value:
-        """Return the value of the call, or that it is not known."""
+        """Return the value of the call; an `Unknown` if it is not known."""
         try:
             return work(self)
         except NotKnown as end:
