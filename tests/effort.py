@@ -46,10 +46,8 @@ def sampled(cases: Sequence[Case]) -> Sequence[Case]:
 def seconds(work: Callable[[], object]) -> float:
     """Return the processor time of a piece of work, only to be compared with that of another.
 
-    The pauses of the garbage collector do not count: what those cost depends on everything that
-    other tests left behind.
+    The garbage collector rests meanwhile: its pauses depend on everything that other tests left.
     """
-    gc.collect()
     gc.disable()
     try:
         start = time.process_time()

@@ -124,6 +124,7 @@ def test_what_is_not_in_an_output_is_not_found(shown: str) -> None:
         assert_shown(shown, "a\nb\nc\n")
 
 
+@pytest.mark.install
 def test_the_rule_that_is_written_is_tested_and_runs(folder: Path) -> None:
     for block in (*blocks(RULE, "python"), *blocks(RULE, "toml")):
         name, _, text = block.partition("\n")

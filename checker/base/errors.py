@@ -8,6 +8,8 @@ from __future__ import annotations
 import errno
 from pathlib import Path
 
+DEBUG = "SUBT_CHECK_DEBUG"
+"""Name of the variable that adds tracebacks to internal errors."""
 _MOMENTARY = frozenset(
     (
         *(errno.EAGAIN, errno.EDQUOT, errno.EIO, errno.EMFILE),

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(_options: argparse.Namespace) -> int:
     """Serve until the editor ends it."""
     EDITOR.require_for("server")
-    from checker.editor.server import serve
+    from checker.editor.features import serve
 
     serve()
     return EXIT_CLEAN

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import gc
+import os
+import sys
+
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
@@ -14,6 +18,20 @@ from checker.editor.server import Server, real_folders
 from checker.package.walk import SKIPPED_FOLDERS
 
 _WATCHED = [lsp.FileSystemWatcher(glob_pattern="**/*")]
+
+
+def serve() -> None:
+    """Serve an editor by standard input and output until it ends the server."""
+    server = Server()
+    register(server)
+    # What a library prints must not end up among the words of the protocol.
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(sys.stderr.fileno(), 1)
+    gc.disable()
+    try:
+        server.start_io(stdout=output)
+    finally:
+        server.end()
 
 
 def register(server: Server) -> None:

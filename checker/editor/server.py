@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import gc
-import os
-import sys
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -184,19 +182,3 @@ def real_folders(uris: Iterable[str]) -> tuple[Path, ...]:
     """Return the folders of URIs, the innermost first."""
     found = {path for uri in uris if uri and (path := path_of(uri)) is not None and path.is_dir()}
     return tuple(sorted(found, key=lambda path: (-len(path.parts), path)))
-
-
-def serve() -> None:
-    """Serve an editor by standard input and output until it ends the server."""
-    from checker.editor.features import register
-
-    server = Server()
-    register(server)
-    # What a library prints must not end up among the words of the protocol.
-    output = os.fdopen(os.dup(1), "wb")
-    os.dup2(sys.stderr.fileno(), 1)
-    gc.disable()
-    try:
-        server.start_io(stdout=output)
-    finally:
-        server.end()

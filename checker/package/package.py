@@ -133,8 +133,7 @@ class Package(Record, eq=False, dict=True):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Send a package to another process as its path."""
-        space = self.workspace
-        return _package_at, (self.root, self.only, space.directories, space.within, space.overlay)
+        return type(self.workspace).again, (self.workspace, self.root, self.only)
 
     @property
     def name(self) -> str:
@@ -400,13 +399,3 @@ class Package(Record, eq=False, dict=True):
     def inherited(self) -> tuple[Inherited, ...]:
         """Parts that come from siblings."""
         return tuple(inherited_parts(self))
-
-
-def _package_at(
-    root: Path, only: str, directories: tuple[Path, ...], within: Path | None, overlay: Overlay
-) -> Package:
-    """Return the package of a folder or file again."""
-    from checker.package.workspace import Workspace
-
-    space = Workspace(directories, within, overlay)
-    return Package(root, space, only) if only else space.at(root)

@@ -7,6 +7,7 @@ import re
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from lxml import etree
 from msgspec import field
@@ -46,6 +47,14 @@ class Workspace(Record, eq=False, dict=True):
     overlay: Overlay = field(default_factory=Overlay)
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Send a workspace to another process without its packages."""
+        return Workspace, (self.directories, self.within, self.overlay)
+
+    def again(self, root: Path, only: str) -> Package:
+        """Return a package that came from another process, by its folder and its only file."""
+        return Package(root, self, only) if only else self.at(root)
 
     def with_overlay(self, overlay: Overlay) -> Workspace:
         """Return the workspace as if files held other texts; what stays is not read again."""

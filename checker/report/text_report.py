@@ -56,7 +56,8 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
     if trial["repairs"]:
         repaired = count(len(trial["repairs"]), "repair")
         first = trial["repairs"][0]
-        yield plain(f"    {repaired} to make the trial possible: {_short(_repair(first))}")
+        made = _short(f"{first['part']} {first['what']}")
+        yield plain(f"    {repaired} to make the trial possible: {made}")
 
 
 def _table(rows: Sequence[Row], palette: Palette) -> Iterator[str]:
@@ -74,10 +75,6 @@ def _course(trial: Mapping[str, Any]) -> str:
     seconds = max((leg["end"] for leg in trial["course"]), default=0.0)
     version = trial["versions"].get("mujoco", "")
     return f"{trial['drive']}, {seconds:g} s in MuJoCo {version}".rstrip()
-
-
-def _repair(repair: Mapping[str, Any]) -> str:
-    return f"{repair['part']} {repair['what']}"
 
 
 def _coloured(verdict: str, palette: Palette) -> str:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from checker.source.cmake import read_cmake
 from checker.source.text import SourceText
-from tests.effort import limited
+from tests.effort import large, limited
 
 PIECES = st.lists(
     st.sampled_from(
@@ -158,23 +158,23 @@ def test_what_stands_inside_if_is_conditional_and_its_variables_are_not_known():
 @pytest.mark.parametrize(
     "text",
     [
-        "a(" + "(" * 100_000,
-        "a(" + "(" * 100_000 + ")" * 100_001,
-        'x("' * 50_000,
-        "[[" * 50_000,
-        "${" * 100_000,
-        "a(" + "x " * 100_000 + ")",
-        "a(" + "${" * 50_000 + ")",
-        "x" * 1_000_000,
-        "if()\n" * 20_000,
+        "a(" + "(" * large(100_000),
+        "a(" + "(" * large(100_000) + ")" * (large(100_000) + 1),
+        'x("' * large(50_000),
+        "[[" * large(50_000),
+        "${" * large(100_000),
+        "a(" + "x " * large(100_000) + ")",
+        "a(" + "${" * large(50_000) + ")",
+        "x" * large(1_000_000),
+        "if()\n" * large(20_000),
         "set(a x)\n" + 'set(a "${a}${a}")\n' * 1000,
-        "set(a " + "x" * 9000 + ")\nb(" + "${a}" * 100_000 + ")",
+        "set(a " + "x" * 9000 + ")\nb(" + "${a}" * large(100_000) + ")",
         "foreach(a 1 2 3 4 5 6 7 8 9 10)\n" * 30 + "m(${a})\n" + "endforeach()\n" * 30,
         "foreach(a 1)\n" * 5000 + "endforeach()\n" * 5000,
     ],
 )
 def test_hostile_files_take_little_time_and_memory(text):
-    with limited(20):
+    with limited(large(20)):
         file = read(text)
     assert len(file.calls) <= 20_000
 

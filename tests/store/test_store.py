@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.service.store.store import SUMMARY, Store, TooLarge
+from tests.effort import examples
 from tests.store.filled import KEY, OTHER, made, uploaded
 
 BACK = '<p class="back"><a href="../../">Back to the check</a></p>'
@@ -268,7 +269,7 @@ def test_what_expires_while_it_is_listed_is_whole_or_not_there(store: Store) -> 
 
     with ThreadPoolExecutor(1) as pool:
         looking = pool.submit(listed)
-        for _ in range(80):
+        for _ in range(examples(200)):
             made(store, files)
             store.expire(time.time() + 60, ())
         over.set()

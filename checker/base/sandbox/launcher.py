@@ -21,13 +21,13 @@ from typing import BinaryIO
 
 from msgspec import to_builtins
 
+from checker.base.errors import DEBUG
 from checker.base.record import Record
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.account import free_account
 from checker.base.sandbox.layers import Layer, Sandbox
 from checker.base.sandbox.priority import lower_priority
 from checker.base.sandbox.program_files import program_paths
-from checker.base.sandbox.task import DEBUG
 from checker.base.sandbox.usage import Usage, descendant_ids, usage_below
 
 _HELLO_LIMIT = 10_000

@@ -17,7 +17,7 @@ from struct import Struct
 from types import ModuleType
 from typing import Any, BinaryIO
 
-from checker.base.errors import is_momentary
+from checker.base.errors import DEBUG, is_momentary
 from checker.base.sandbox.files import Content, read, write
 from checker.base.sandbox.layers import Sandbox, narrow
 
@@ -34,8 +34,6 @@ FAULT_LIMIT = 4_000
 _FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
 INPUT = 0
 """Descriptor of the input: a byte comes when the request is there."""
-DEBUG = "SUBT_CHECK_DEBUG"
-"""Name of the variable that adds tracebacks to internal errors."""
 
 
 def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -> int:

@@ -87,7 +87,7 @@ def read_description(document: XmlDocument, file: str, *, for_rviz: bool) -> Urd
         file,
         document,
         tuple(_read_transmission(element) for element in root.all("transmission")),
-        tuple(_read_gazebo(element) for element in root.all("gazebo")),
+        tuple(GazeboTag(_attribute(each, "reference"), each) for each in root.all("gazebo")),
         for_rviz,
     )
 
@@ -115,10 +115,6 @@ def _read_end(element: Element) -> TransmissionEnd:
         tuple(interface for interface in interfaces if interface.stated),
         element.span,
     )
-
-
-def _read_gazebo(element: Element) -> GazeboTag:
-    return GazeboTag(_attribute(element, "reference"), element)
 
 
 def _attribute(element: Element, name: str) -> Located[str]:

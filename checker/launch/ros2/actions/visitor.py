@@ -69,7 +69,8 @@ class Visitor:
             later = context.inner()
             later.after = True
             if not isinstance(value, Made | list | tuple | Unknown):
-                value = self.files.call(value, _event_arguments(made.span), context)
+                unknown = Unknown("an event is only known when it happens", made.span)
+                value = self.files.call(value, [unknown, unknown], context)
             if isinstance(value, Unknown) and name in ("on_stdout", "on_stderr", "on_stdin"):
                 continue
             self.do_later(value, later)
@@ -106,10 +107,6 @@ def _made_in(value: Value) -> Iterator[Value]:
             yield from _made_in(item)
     elif value is not None:
         yield value
-
-
-def _event_arguments(span: Span) -> list[Value]:
-    return [Unknown("an event is only known when it happens", span) for _ in range(2)]
 
 
 _PASSED_OVER = (

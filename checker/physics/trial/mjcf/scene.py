@@ -219,14 +219,10 @@ def carriers_of(scene: Scene) -> dict[str, str]:
     What is fixed to the world is carried by the first such link. Nothing of a robot with more than
     `TRACKED` moving links.
     """
-    fixed = next((name for name, base in scene.welded.items() if _stays(name, base)), WORLD)
+    fixed = next((name for name, base in scene.welded.items() if base == WORLD != name), WORLD)
     carriers = {
         name: fixed if base == WORLD else base
         for name, base in scene.welded.items()
         if name != WORLD
     }
     return carriers if len(set(carriers.values())) <= TRACKED else {}
-
-
-def _stays(name: str, base: str) -> bool:
-    return base == WORLD and name != WORLD

@@ -36,7 +36,7 @@ class Admission:
         self.uploads_per_minute = 0 if config.only_here else config.uploads_per_minute
         self._rate = Rate(self.uploads_per_minute)
         self._guesses = Rate(GUESSES_PER_MINUTE)
-        self._uploads = _slots(config.uploads_at_once)
+        self._uploads = Slots(config.uploads_at_once, ceil(config.uploads_at_once / _SHARE))
         each = config.streams if config.only_here else config.streams_per_client
         self._streams = Slots(config.streams, each)
 
@@ -125,10 +125,6 @@ def bearer(request: HTTPConnection) -> str:
 def too_many(seconds: float) -> Refused:
     """Return the refusal of an upload that is allowed in some seconds."""
     return _later(429, "Too many uploads come from this address.", ceil(seconds), "rate")
-
-
-def _slots(places: int) -> Slots:
-    return Slots(places, ceil(places / _SHARE))
 
 
 def _later(status: int, error: str, seconds: int, cause: str) -> Refused:
