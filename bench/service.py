@@ -93,8 +93,8 @@ class Client:
         status, said = self._ask("GET", path)
         if status != http.client.OK:
             raise SystemExit(f"{path} answers {status}: {said[:300]!r}")
-        told: Mapping[str, Any] = json.loads(said)
-        return told
+        answer: Mapping[str, Any] = json.loads(said)
+        return answer
 
     def _ask(self, method: str, path: str, body: Sequence[bytes] = ()) -> tuple[int, bytes]:
         headers = {"Content-Length": str(sum(map(len, body)))}

@@ -34,12 +34,12 @@ def start(data: Path, variables: Mapping[str, str], package: bytes) -> tuple[flo
     """
     began = perf_counter()
     with service(data, variables, workers=2) as address:
-        told = perf_counter() - began
+        ready = perf_counter() - began
         upload = Client(address).upload("robot.zip", package)
         taken = perf_counter() - began
         if upload.status != CREATED:
             raise SystemExit(f"the first upload is answered {upload.status}")
-        return told, taken, processor_seconds(web_process())
+        return ready, taken, processor_seconds(web_process())
 
 
 def main() -> None:
@@ -55,8 +55,8 @@ def main() -> None:
         for number in range(REPEATS):
             url = variables_of(server)
             times.append(start(folder / f"data{number}", url, package))
-        told, taken, work = map(statistics.median, zip(*times, strict=True))
-        show("the address is told", told, "s")
+        ready, taken, work = map(statistics.median, zip(*times, strict=True))
+        show("the address is printed", ready, "s")
         show("a first upload is taken", taken, "s", LIMIT)
         show("  slowest", max(each[1] for each in times), "s")
         show("  processor time of the web process", work, "s")

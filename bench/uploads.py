@@ -71,23 +71,23 @@ def all_at_once(client: Client, packages: Sequence[bytes]) -> list[Upload]:
 
 def faults(client: Client, number: int, id: str) -> Iterator[str]:
     """Yield what is wrong with a check that is over; nothing should be."""
-    told = list(client.events(id))
-    numbers = [each["number"] for each in told]
+    events = list(client.events(id))
+    numbers = [each["number"] for each in events]
     if numbers != sorted(set(numbers)):
         yield "events doubled or in disorder"
-    if sum(each["stage"] in ENDS for each in told) != 1:
+    if sum(each["stage"] in ENDS for each in events) != 1:
         yield "ended more or less than once"
-    if told[-1]["stage"] != "done":
-        yield f"{told[-1]['stage']}: {told[-1]['words']}"
+    if events[-1]["stage"] != "done":
+        yield f"{events[-1]['stage']}: {events[-1]['words']}"
     elif name_of(number) not in client.report(id)["packages"][0]["path"]:
         yield "report of another package"
 
 
 def first_static(client: Client, ids: Sequence[str]) -> float:
     """Return how long after the first order the first static findings were there, seconds."""
-    told = [event for id in ids for event in client.events(id)]
-    found = [event["time"] for event in told if event["data"].get("result")]
-    return float(min(found) - min(event["time"] for event in told))
+    events = [event for id in ids for event in client.events(id)]
+    found = [event["time"] for event in events if event["data"].get("result")]
+    return float(min(found) - min(event["time"] for event in events))
 
 
 def show_answers(times: Sequence[Sequence[Upload]]) -> None:

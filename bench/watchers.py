@@ -81,9 +81,9 @@ async def watch(address: str, number: int, followed: Followed, late: list[float]
     """Follow one of the checks for ever, and note how late each event is."""
     id = followed.ids[number % len(followed.ids)]
     async for line in answered(address, f"/api/checks/{id}/events?after=1", number):
-        told = time()
+        received = time()
         if line.startswith(b"id: "):
-            late.append(told - followed.happened[id, int(line[4:])])
+            late.append(received - followed.happened[id, int(line[4:])])
 
 
 async def look(address: str, id: str, number: int, watchers: int) -> None:
@@ -135,10 +135,10 @@ async def measured(address: str, watchers: int, followed: Followed | str) -> lis
 
 def show_late(late: list[float], watchers: int) -> None:
     """Print how late events were."""
-    show("an event is told, median", statistics.median(late), "s")
+    show("an event is received, median", statistics.median(late), "s")
     show("  99th percentile", statistics.quantiles(late, n=100)[98], "s", LATE_LIMIT)
     show("  slowest", max(late), "s")
-    print(f"  events told to {watchers} watchers: {len(late)}")
+    print(f"  events received to {watchers} watchers: {len(late)}")
 
 
 @contextmanager

@@ -126,13 +126,13 @@ class Settings(Record):
         if is_chosen and self.profile != ROS_2:
             return self
         wanted = usual if usual == MODEL or not is_chosen else ROS_2
-        told = replace(self, profile=wanted)
+        settings = replace(self, profile=wanted)
         whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
         if whole is not None:
-            told = told._told_by(whole)
-        return replace(told, profile=told._of_model) if wanted == MODEL else told
+            settings = settings._with_package(whole)
+        return replace(settings, profile=settings._of_model) if wanted == MODEL else settings
 
-    def _told_by(self, package: Package) -> Settings:
+    def _with_package(self, package: Package) -> Settings:
         """Return the settings with the target detected from the content of a ROS 2 package."""
         target = detect_target(package, self.distro)
         profile = CLASSIC_ROS_2 if target.is_classic else self.profile

@@ -20,17 +20,17 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
         numbers: The numbers of the signals.
         do: The actions, in this order; further signals do nothing.
     """
-    heard, told = os.pipe()  # open until the process ends
-    os.set_blocking(told, False)
+    reader, writer = os.pipe()  # open until the process ends
+    os.set_blocking(writer, False)
 
     def in_turn() -> None:
         for action in do:
-            while os.read(heard, 1)[0] not in numbers:
+            while os.read(reader, 1)[0] not in numbers:
                 pass  # a signal that other code handles
             action()
 
     threading.Thread(target=in_turn, daemon=True, name="requests to end").start()
-    signal.set_wakeup_fd(told, warn_on_full_buffer=False)
+    signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
     for number in numbers:
         signal.signal(number, _do_nothing)
 

@@ -59,10 +59,10 @@ def hover(
     pages = [rule_page_markdown(rule) for rule in _rules_at(state, document, path, offset)]
     # Offsets of a text that is no XML just now are not those of its last good one.
     legible = session.legible(checked) is checked.subject
-    told = hover_at(checked.subject, path, offset, target_of(checked)) if legible else None
-    if told is not None:
-        pages.append(told.markdown)
-        where = columns.range(document.source, told.start, told.end)
+    found = hover_at(checked.subject, path, offset, target_of(checked)) if legible else None
+    if found is not None:
+        pages.append(found.markdown)
+        where = columns.range(document.source, found.start, found.end)
     if not pages:
         return None
     return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, "\n\n---\n\n".join(pages)), where)

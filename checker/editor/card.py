@@ -36,8 +36,8 @@ def card(title: str, rows: Iterable[tuple[str, str]], note: str = "") -> str:
         rows: Each a label and what it states, in Markdown; those that state nothing are left out.
         note: A paragraph below, in Markdown.
     """
-    told = [f"- {label}: {text}" for label, text in rows if text]
-    return "\n\n".join(filter(None, (title, "\n".join(told), note)))
+    items = [f"- {label}: {text}" for label, text in rows if text]
+    return "\n\n".join(filter(None, (title, "\n".join(items), note)))
 
 
 def names(items: Sequence[str]) -> str:

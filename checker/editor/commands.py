@@ -55,9 +55,9 @@ def register(server: Server) -> None:
         report = await measure(server, uri)
         if report is None:
             return None
-        told = " ".join(_drives(report))
-        server.window_show_message(lsp.ShowMessageParams(lsp.MessageType.Info, told))
-        return told
+        result = " ".join(_drives(report))
+        server.window_show_message(lsp.ShowMessageParams(lsp.MessageType.Info, result))
+        return result
 
 
 async def measure(server: Server, uri: str, *, display: bool = False) -> PackageReport | None:

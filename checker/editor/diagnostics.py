@@ -101,8 +101,8 @@ def _blind_spots(state: State) -> Iterator[lsp.Diagnostic]:
         more = (
             f", and {len(reasons) - _REASONS_SHOWN} more" if len(reasons) > _REASONS_SHOWN else ""
         )
-        told = "; ".join(list(reasons)[:_REASONS_SHOWN])
-        yield _at_top(f"{rules} could not run: {told}{more}", lsp.DiagnosticSeverity.Hint)
+        joined = "; ".join(list(reasons)[:_REASONS_SHOWN])
+        yield _at_top(f"{rules} could not run: {joined}{more}", lsp.DiagnosticSeverity.Hint)
 
 
 def _problem(state: State, document: Document) -> Iterator[lsp.Diagnostic]:

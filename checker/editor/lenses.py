@@ -56,5 +56,5 @@ def _verdict(state: State) -> str:
     report = PackageReport(
         package.name, str(package.root), str(package.kind), state.findings, outcome.not_checked
     )
-    told = sentence(report)
-    return f"{told.lead}: {told.rest}"
+    verdict = sentence(report)
+    return f"{verdict.lead}: {verdict.rest}"

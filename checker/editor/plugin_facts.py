@@ -21,7 +21,7 @@ from checker.model.plugin_library import (
 )
 from checker.rule import Context
 
-_TOLD = re.compile(r"([\w/]+) \((.+)\)")
+_NAME_AND_TYPE = re.compile(r"([\w/]+) \((.+)\)")
 _ROS2_CONTROL = ("gz_ros2_control-system", "ign_ros2_control-system", "gazebo_ros2_control")
 
 
@@ -196,5 +196,5 @@ def _ros2_control(stem: str, target: Context) -> PluginFacts:
 
 
 def _parameter(text: str) -> Parameter:
-    match = _TOLD.fullmatch(text)
+    match = _NAME_AND_TYPE.fullmatch(text)
     return Parameter(match[1], match[2]) if match else Parameter(text)

@@ -143,15 +143,15 @@ class Server(LanguageServer):
     async def publish(self) -> None:
         """Tell the editor what is found in the open files."""
 
-        def told() -> list[tuple[Document, list[lsp.Diagnostic] | None]]:
+        def compute() -> list[tuple[Document, list[lsp.Diagnostic] | None]]:
             every = self.session.documents.values()
             return [(document, self._diagnostics(document)) for document in list(every)]
 
-        for document, diagnostics in await self.read(told):
+        for document, diagnostics in await self.read(compute):
             # The next check reports on a text that has changed meanwhile.
             if diagnostics is not None and self.session.documents.get(document.uri) is document:
-                told_of = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
-                self.text_document_publish_diagnostics(told_of)
+                params = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
+                self.text_document_publish_diagnostics(params)
 
     def _diagnostics(self, document: Document) -> list[lsp.Diagnostic] | None:
         """Return what is found in a file; None if another text of it was checked."""

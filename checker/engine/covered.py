@@ -71,10 +71,10 @@ class _ReportedPlaces:
         self._main: dict[tuple[str, int, str], GradedFinding] = {}
         self._around: dict[tuple[str, str], GradedFinding] = {}
         for finding in findings:
-            _keep_gravest(self._main, _key(finding.places[0]), finding)
+            _keep_worst(self._main, _key(finding.places[0]), finding)
             for place in finding.places:
                 for element in _around(place.element):
-                    _keep_gravest(self._around, (place.file, element), finding)
+                    _keep_worst(self._around, (place.file, element), finding)
 
     def cover(self, finding: GradedFinding) -> GradedFinding | None:
         """Return the finding, at least as severe, that has the places of another rule's."""
@@ -85,11 +85,11 @@ class _ReportedPlaces:
         around = [
             self._around.get((place.file, place.element)) for place in suspects if place.element
         ]
-        told = [each for each in around if each and each.severity.rank <= finding.severity.rank]
-        return told[0] if told and len(told) == len(suspects) else None
+        reported = [each for each in around if each and each.severity.rank <= finding.severity.rank]
+        return reported[0] if reported and len(reported) == len(suspects) else None
 
 
-def _keep_gravest(kept: dict[K, GradedFinding], at: K, finding: GradedFinding) -> None:
+def _keep_worst(kept: dict[K, GradedFinding], at: K, finding: GradedFinding) -> None:
     kept[at] = min(finding, kept.get(at, finding), key=attrgetter("severity.rank"))
 
 

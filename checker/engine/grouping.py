@@ -34,11 +34,11 @@ def group_findings(findings: Iterable[GradedFinding]) -> list[list[GradedFinding
     for group in faults.values():
         alike.setdefault(_said(group[0]), []).append(group)
     together = {said for said, groups in alike.items() if _have_one_cause(groups)}
-    told: dict[tuple[Severity, str], list[GradedFinding]] = {}
+    grouped: dict[tuple[Severity, str], list[GradedFinding]] = {}
     for fault, group in faults.items():
         said = _said(group[0])
-        told.setdefault(said if said in together else fault, []).extend(group)
-    return list(told.values())
+        grouped.setdefault(said if said in together else fault, []).extend(group)
+    return list(grouped.values())
 
 
 def _said(finding: GradedFinding) -> tuple[Severity, str]:

@@ -68,8 +68,8 @@ def new_findings(added: Outcome, known: Outcome, description: UrdfDescription) -
         description: The description of the robot.
     """
     findings = (*known.findings, *(it.finding for it in known.suppressed), *known.covered)
-    told = {_spot(finding, place) for finding in findings for place in finding.places}
-    new = partial(_untold, told, description)
+    reported = {_spot(finding, place) for finding in findings for place in finding.places}
+    new = partial(_unreported, reported, description)
     aside = ((it, new(it.finding)) for it in added.suppressed)
     return Outcome(
         tuple(filter(None, map(new, added.findings))),
@@ -85,14 +85,14 @@ def _spot(finding: ReportedFinding, place: Place) -> _Spot:
     return finding.rule, place.file, place.line, place.column
 
 
-def _untold(
-    told: set[_Spot], description: UrdfDescription, finding: ReportedFinding
+def _unreported(
+    reported: set[_Spot], description: UrdfDescription, finding: ReportedFinding
 ) -> ReportedFinding | None:
     """Return a finding with the places that are new; None if its rule reports all of them."""
     source = description.document.source
     read = source.read if isinstance(source, ExpandedText) else ()
     files = {document.source.file for document in read}
-    places = [it for it in finding.places if it.note or _spot(finding, it) not in told]
+    places = [it for it in finding.places if it.note or _spot(finding, it) not in reported]
     main = next((place for place in places if not place.note), None)
     if main is None or main.file not in files:
         return None

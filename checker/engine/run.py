@@ -135,14 +135,14 @@ def _repeats(shares: Sequence[SplitFindings]) -> dict[Cover, list[Repeat]]:
     repeats: dict[Cover, list[Repeat]] = {}
     for each in shares:
         for found, cover in each.covered:
-            told = cover
-            while told in covers:
-                told = covers[told]
+            kept = cover
+            while kept in covers:
+                kept = covers[kept]
             message = shortened(found.message, TEXT_LIMIT)
             repeat = Repeat(
                 each.rule.id, each.rule.name, found.severity, message, bounded_places(found.places)
             )
-            repeats.setdefault(told, []).append(repeat)
+            repeats.setdefault(kept, []).append(repeat)
     return repeats
 
 

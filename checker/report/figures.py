@@ -66,7 +66,7 @@ def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
     return [_row(name, figures) for name, figures in by_name.items()]
 
 
-def gravest_verdict(verdicts: Iterable[str]) -> str:
+def worst_verdict(verdicts: Iterable[str]) -> str:
     """Return the most severe of some verdicts; `not judged` of none."""
     return min(verdicts, key=_GRAVITY.index, default=NOT_JUDGED)
 
@@ -78,7 +78,7 @@ def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     unit = "°" if first["unit"] == "rad" else first["unit"] if first["unit"] not in _UNNAMED else ""
     joint = "" if unit in ("", "°") else " "
     verdicts = [str(figure["verdict"]) for figure in figures]
-    verdict = gravest_verdict(verdicts)
+    verdict = worst_verdict(verdicts)
     if verdict == "ok" and NOT_JUDGED in verdicts:
         verdict = NOT_JUDGED
     return Row(

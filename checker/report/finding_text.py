@@ -57,11 +57,11 @@ def where_text(place: Place, package: PackageReport) -> str:
 
 def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
     own = [(place, place.note or place.message) for place in places]
-    told = [(place, words) for place, words in own if words]
+    noted = [(place, words) for place, words in own if words]
     named = [where_text(place, package) for place, words in own if not words][:MORE_PLACES]
-    for other, words in told[:MORE_PLACES]:
+    for other, words in noted[:MORE_PLACES]:
         yield f"    {where_text(other, package)}: {plain(shortened(words, MESSAGE_LIMIT))}"
-    more = len(places) - len(told[:MORE_PLACES]) - len(named)
+    more = len(places) - len(noted[:MORE_PLACES]) - len(named)
     parts = [f"also {', '.join(named)}"] if named else []
     parts += [f"and {count(more, 'more place')}"] if more else []
     if parts:

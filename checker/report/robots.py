@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from checker.base.record import Record
-from checker.report.figures import gravest_verdict, rows_of
+from checker.report.figures import rows_of, worst_verdict
 from checker.report.report import PackageReport
 
 
@@ -57,7 +57,7 @@ class ReportedRobot(Record):
             return TrialVerdict("not driven" if why_not else "", why_not)
         if self.trial["refused"]:
             return TrialVerdict("error", "MuJoCo refuses the model")
-        word = gravest_verdict(row.verdict for row in rows_of(self.trial["measurements"]))
+        word = worst_verdict(row.verdict for row in rows_of(self.trial["measurements"]))
         why_not = str(self.trial.get("not_driven", ""))
         faultless = word in ("ok", "not judged")
         return TrialVerdict("not driven", why_not) if why_not and faultless else TrialVerdict(word)

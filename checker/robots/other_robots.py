@@ -62,10 +62,10 @@ def other_robots(
         if isinstance(outcome, XacroFault) and outcome.kind not in _OF_THE_USER:
             yield replace(outcome, message=f"{outcome.message} (with {values})")
         elif isinstance(outcome, XmlDocument) and outcome.root.child("link"):
-            told = wish.path, outcome.source.text
-            if told in known:
+            key = wish.path, outcome.source.text
+            if key in known:
                 continue
-            known.add(told)
+            known.add(key)
             yield replace(read_description(outcome, wish.path, for_rviz=False), values=values)
 
 

@@ -116,8 +116,8 @@ def _others_name_it(
     for mention in mentioned:
         file = mention.source.file if own else f"../{holder.name}/{mention.source.file}"
         if file in launched:
-            told = (c.span for c in changes if c.span.source.file == file)
-            if not any(span.start <= mention.start < span.end for span in told):
+            changed = (c.span for c in changes if c.span.source.file == file)
+            if not any(span.start <= mention.start < span.end for span in changed):
                 return True
         elif mention.source.file not in others:
             return True

@@ -35,7 +35,7 @@ _ONE_MORE = re.compile(
 )
 
 
-class _Told(Record):
+class _Mention(Record):
     """A kind of sensor that a clause names, and how many; None if it states no number."""
 
     kind: SensorKind
@@ -61,22 +61,22 @@ _OF_DEVICES = {
 @rule("PKG005", "description-disagrees", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, paperwork: Paperwork, devices: KnownDevices) -> Findings:
     """Compare kinds and numbers of sensors."""
-    told = [
+    mentioned = [
         list(_described_sensors(paper.description, devices))
         for paper in (paperwork.config, paperwork.manifest)
         if paper is not None and paper.description.stated
     ]
-    if any(told) and robot.missing_parts:
+    if any(mentioned) and robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
     present = Counter(sensor.type.value for sensor in robot.sensors)
-    for mentions in told:
+    for mentions in mentioned:
         yield from _compare(mentions, present)
 
 
-def _compare(mentions: Sequence[_Told], present: Counter[str]) -> Iterator[Finding]:
+def _compare(mentions: Sequence[_Mention], present: Counter[str]) -> Iterator[Finding]:
     """Compare what one text names with what there is."""
-    families: dict[frozenset[str], list[_Told]] = defaultdict(list)
+    families: dict[frozenset[str], list[_Mention]] = defaultdict(list)
     for mention in mentions:
         families[TYPES[mention.kind]].append(mention)
     for types, items in families.items():
@@ -99,7 +99,7 @@ def _compare(mentions: Sequence[_Told], present: Counter[str]) -> Iterator[Findi
             )
 
 
-def _described_sensors(description: Located[str], devices: KnownDevices) -> Iterator[_Told]:
+def _described_sensors(description: Located[str], devices: KnownDevices) -> Iterator[_Mention]:
     """Yield the sensors that the clauses of a description name, the first of each clause."""
     text = description.span.text
     further = 0
@@ -119,7 +119,7 @@ def _described_sensors(description: Located[str], devices: KnownDevices) -> Iter
                 description.span.start + clause.end(),
             )
             count = None if _is_several(words, device) else stated_count(words)
-            yield _Told(kind, count + further if count else count, span)
+            yield _Mention(kind, count + further if count else count, span)
             further = 0
 
 
@@ -147,7 +147,7 @@ def _amounts(
     return own, substitutes, own + substitutes
 
 
-def _total(items: Sequence[_Told]) -> int | None:
+def _total(items: Sequence[_Mention]) -> int | None:
     counts = [item.count for item in items]
     return sum(count for count in counts if count) if all(counts) else None
 

@@ -50,7 +50,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
     suggestions = Suggestions(sorted(known))
     for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
-        if stem in ("", _NONE) or stem in known or _is_told_elsewhere(stem, context):
+        if stem in ("", _NONE) or stem in known or _is_reported_elsewhere(stem, context):
             continue
         if not context.is_subt and newer_name(stem) in known:
             continue  # PLG010 says so.
@@ -103,7 +103,7 @@ def _elsewhere(stem: str, context: Context) -> str:
     return "".join(f"; {label} is the first that has it" for label in releases_with(stem)[:1])
 
 
-def _is_told_elsewhere(stem: str, context: Context) -> bool:
+def _is_reported_elsewhere(stem: str, context: Context) -> bool:
     """Return whether PLG001 reports the library, or PLG012 as one of ROS 1."""
     if context.is_classic:
         return stem in table("gazebo_classic_ros2")["ros_1"]["libraries"]

@@ -48,9 +48,9 @@ def _unread(tag: GazeboTag, robot: Robot, version: str) -> Iterator[Finding]:
         return
     kind = "link" if is_link else "joint"
     known = _known_elements(kind, version)
-    told_elsewhere = OF_LINKS | OF_JOINTS | {"plugin"}
+    checked_elsewhere = OF_LINKS | OF_JOINTS | {"plugin"}
     for child in tag.element.children:
-        if child.tag in known or child.tag in told_elsewhere or ":" in child.tag:
+        if child.tag in known or child.tag in checked_elsewhere or ":" in child.tag:
             continue
         advice = _ADVICE.get(child.tag, "")
         hint = f": {advice}" if advice else Suggestions(sorted(known)).hint(child.tag)

@@ -115,7 +115,7 @@ def tags(request: Request) -> Iterator[Completion]:
         text = f"{PREFIX}{name}{first}{inside}"
         yield request.element(PREFIX + name, text, detail="xacro", rank=8)
     for macro in request.names.macros.values():
-        told = "\n".join(
+        documentation = "\n".join(
             f"- {code(it.name)}: {escaped_words(it.requirement)}" for it in macro.parameters
         )
         yield request.element(
@@ -123,7 +123,7 @@ def tags(request: Request) -> Iterator[Completion]:
             _call(macro),
             kind=CompletionKind.MACRO,
             detail=macro.element.source.file,
-            documentation=told,
+            documentation=documentation,
             rank=6,
         )
 

@@ -20,8 +20,8 @@ def _blocks(rule: Rule) -> Iterator[str]:
     yield f"**{rule.id} {rule.name}**: {escaped(page.title)}."
     for label, text in (("", page.why), ("Fix: ", page.fix), ("Source: ", page.source)):
         if text:
-            told = "\n\n".join(map(_paragraph, text.split("\n\n")))
-            yield f"**{label.strip()}** {told}" if label else told
+            paragraphs = "\n\n".join(map(_paragraph, text.split("\n\n")))
+            yield f"**{label.strip()}** {paragraphs}" if label else paragraphs
     options = options_of(rule)
     if options:
         lines = (f"- `{it.name}` = `{it.default}`: {escaped(it.words)}" for it in options)

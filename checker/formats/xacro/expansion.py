@@ -32,9 +32,9 @@ def is_answer(data: Any) -> bool:
         case {"xml": str(), "origins": list(origins), "files": list(files)}:
             return all(map(_is_place, origins)) and all(isinstance(file, str) for file in files)
         case {"kind": str(kind), "message": str()}:
-            return kind in _KINDS and _is_told(data.get("at"), data.get("through"))
+            return kind in _KINDS and _is_location(data.get("at"), data.get("through"))
         case {"refused": str(), "expression": str()}:
-            return _is_told(data.get("at"), None)
+            return _is_location(data.get("at"), None)
         case {"missing": str()} | {"unread": str()}:
             return True
     return False
@@ -47,7 +47,7 @@ def _is_place(data: Any) -> bool:
     return False
 
 
-def _is_told(at: Any, through: Any) -> bool:
+def _is_location(at: Any, through: Any) -> bool:
     """Return whether a fault reports its place and macros, if it has any."""
     match at:
         case None | [str(), int()]:

@@ -40,7 +40,7 @@ from checker.launch.ros2.values import (
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 
-_Told = TypeVar("_Told", LaunchFault, Unread)
+_Item = TypeVar("_Item", LaunchFault, Unread)
 
 FILES_LIMIT = 60
 """Launch files and modules that one launch file may include."""
@@ -231,8 +231,8 @@ def _as_late(fault: LaunchFault, context: Context) -> LaunchFault:
     return fault
 
 
-def _each_once(items: Iterable[_Told]) -> tuple[_Told, ...]:
-    by_place: dict[object, _Told] = {}
+def _each_once(items: Iterable[_Item]) -> tuple[_Item, ...]:
+    by_place: dict[object, _Item] = {}
     for item in items:
         words = item.message if isinstance(item, LaunchFault) else item.reason
         by_place.setdefault((item.span.source.file, item.span.start, words), item)

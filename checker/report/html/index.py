@@ -105,6 +105,6 @@ def common_problems(packages: Sequence[PackageReport], links: Sequence[str]) -> 
 
 
 def _common(rule: str, found: list[tuple[ReportedFinding, Found]]) -> Common:
-    gravest = min((finding for finding, _ in found), key=lambda each: each.severity.rank)
-    title = plain(gravest.title or gravest.name).rstrip(".")
-    return Common(plain(rule), title, str(gravest.severity), tuple(each for _, each in found))
+    worst = min((finding for finding, _ in found), key=lambda each: each.severity.rank)
+    title = plain(worst.title or worst.name).rstrip(".")
+    return Common(plain(rule), title, str(worst.severity), tuple(each for _, each in found))

@@ -86,7 +86,7 @@ def trial_sentences(
     open_ones = [row for row in rows if row.rule.startswith("TRI") and row.verdict == NOT_JUDGED]
     # A trial without a verdict shows what is wrong with the model, not how the robot drives.
     unjudged = bool(unseen and open_ones)
-    done = [] if unjudged else list(_done(_Told(trial)))
+    done = [] if unjudged else list(_done(_TrialFigures(trial)))
     sentences = [f"In MuJoCo {name} {and_list(done)}."] if done else []
     if trial.get("not_driven"):
         why = plain(shortened(trial["not_driven"], _TEXT_LIMIT))
@@ -98,7 +98,7 @@ def trial_sentences(
     return [*sentences, *_judged(rows)]
 
 
-class _Told(Record):
+class _TrialFigures(Record):
     """A trial with access to its figures."""
 
     trial: Mapping[str, Any]
@@ -111,31 +111,31 @@ class _Told(Record):
         return next((leg for leg in self.trial["course"] if leg["name"] == name), {})
 
 
-def _done(told: _Told) -> Iterator[str]:
-    yield from _driven(told)
-    yield from _flown(told)
-    if told.leg("hold"):
-        sag, tilt = told.value("hold_sag"), told.value("hold_tilt")
+def _done(figures: _TrialFigures) -> Iterator[str]:
+    yield from _driven(figures)
+    yield from _flown(figures)
+    if figures.leg("hold"):
+        sag, tilt = figures.value("hold_sag"), figures.value("hold_tilt")
         yield "stands" if sag is None and tilt is not None else "holds its pose"
 
 
-def _driven(told: _Told) -> Iterator[str]:
-    share, speed = told.value("speed_ratio"), told.leg("drive").get("linear", 0.0)
+def _driven(figures: _TrialFigures) -> Iterator[str]:
+    share, speed = figures.value("speed_ratio"), figures.leg("drive").get("linear", 0.0)
     if share is not None:
         yield f"drives at {_figure(share * speed)} m/s ({speed:.3g} commanded)"
-    way = told.value("stop_distance")
+    way = figures.value("stop_distance")
     if way is not None:
         yield f"stops within {_figure(way)} m"
-    turned, rate = told.value("yaw_rate"), told.leg("turn").get("angular", 0.0)
+    turned, rate = figures.value("yaw_rate"), figures.leg("turn").get("angular", 0.0)
     if turned is not None:
         yield f"turns at {_figure(turned)} rad/s ({rate:.3g} commanded)"
-    fastest = told.value("full_speed")
+    fastest = figures.value("full_speed")
     if fastest is not None:
         yield f"reaches {_figure(fastest)} m/s at full speed"
 
 
-def _flown(told: _Told) -> Iterator[str]:
-    effort, climbed = told.value("hover_effort"), told.value("climbed")
+def _flown(figures: _TrialFigures) -> Iterator[str]:
+    effort, climbed = figures.value("hover_effort"), figures.value("climbed")
     if effort is not None:
         yield f"hovers with {effort:.0%} of its rotors' greatest thrust"
     if climbed is not None:
@@ -156,8 +156,8 @@ def _judged(rows: list[Row]) -> Iterator[str]:
             for row in faults[:_ROWS_SHOWN]
         ]
         more = f"; and {len(faults) - _ROWS_SHOWN} more" if len(faults) > _ROWS_SHOWN else ""
-        told = "; ".join(named)
-        yield f"Outside their limits, {len(faults)} of {len(judged)} figures: {told}{more}."
+        figures = "; ".join(named)
+        yield f"Outside their limits, {len(faults)} of {len(judged)} figures: {figures}{more}."
     elif judged:
         all_of_them = f"All {len(judged)} figures that rules judge are within their limits."
         one = "The one figure that a rule judges is within its limits."

@@ -107,10 +107,10 @@ class DurableJobs(Record):
         keys = {key_of_check(id): id for id in after}
         with reachable():
             found = self.checks.rows(keys)
-        told = {keys[key]: events_of(rows) for key, rows in found.items()}
+        by_check = {keys[key]: events_of(rows) for key, rows in found.items()}
         return {
             id: [event for event in events if event.number > after[id]]
-            for id, events in told.items()
+            for id, events in by_check.items()
             if events
         }
 

@@ -181,11 +181,11 @@ def work(options: WorkerOptions) -> None:
     os._exit(0)
 
 
-def _once(told: threading.Event, seconds: float, do: Callable[[], None]) -> None:
+def _once(ended: threading.Event, seconds: float, do: Callable[[], None]) -> None:
     """Do something so long after an event."""
 
     def wait() -> None:
-        told.wait()
+        ended.wait()
         time.sleep(seconds)
         do()
 

@@ -183,7 +183,7 @@ class _Pages(Record):
         done = state.stage is Stage.DONE
         packages = progress.package_lines(state, names if done else ())
         ended_early = state.stage.is_final and not done
-        told = self.services.jobs.events({state.id: 0}) if ended_early else {}
+        events = self.services.jobs.events({state.id: 0}) if ended_early else {}
         return html(
             "check.html.j2",
             id=state.id,
@@ -192,7 +192,7 @@ class _Pages(Record):
             final=state.stage.is_final,
             mine=bool(receipts.stored_secret(request)),
             headline=progress.headline(state, packages),
-            steps=progress.steps_of(state, told.get(state.id, ())),
+            steps=progress.steps_of(state, events.get(state.id, ())),
             packages=packages,
             main=progress.main_package(packages),
             shown=_PACKAGES_SHOWN,
