@@ -7,7 +7,8 @@ import math
 import pytest
 
 from checker.model.robot import Robot
-from tests.model.robots import sdf
+from checker.physics.trial.drivers.plans import plan_of
+from tests.model.robots import sdf, urdf
 from tests.trial.machines import box_inertia, chassis, sound, value
 
 WEIGHT = 2 * 9.81 * 0.3
@@ -44,6 +45,47 @@ def test_a_motor_bears_what_a_stop_would_otherwise(low: float, high: float, angl
 def test_a_joint_starts_where_the_file_says() -> None:
     trial = sound(arm(-1.0, 1.0, "<initial_position>0.8</initial_position>"))
     assert trial.series["joint:shoulder"][0] == pytest.approx(0.8)
+
+
+CONTROL = """<ros2_control name="c" type="system"><joint name="shoulder">
+  <command_interface name="position"/>
+  <state_interface name="{}"><param name="initial_value">{}</param></state_interface>
+</joint></ros2_control>"""
+
+
+def controlled(interface: str, start: str, kind: str = "revolute") -> Robot:
+    return urdf(f"""
+<link name="base"/><link name="arm"><inertial><origin xyz="0.3 0 0"/><mass value="2"/>
+  <inertia ixx="0.01" iyy="0.06" izz="0.06" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="shoulder" type="{kind}"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="90" velocity="1"/></joint>
+{CONTROL.format(interface, start)}""")
+
+
+def test_a_joint_starts_where_its_hardware_says() -> None:
+    plan = plan_of(controlled("position", "0.8"))
+    assert plan.starts == {"shoulder": 0.8}
+    assert plan.places["shoulder"][0] == (0.0, 0.8)
+    (note,) = plan.notes
+    assert "initial positions" in note
+    assert "shoulder 0.8" in note
+
+
+def test_hardware_does_not_move_a_joint_beyond_its_limits() -> None:
+    assert plan_of(controlled("position", "3")).starts == {"shoulder": 0.99}
+
+
+def test_a_joint_without_limits_starts_there_too() -> None:
+    robot = controlled("position", "3", "continuous")
+    assert plan_of(robot).starts == {"shoulder": 3.0}
+
+
+@pytest.mark.parametrize(
+    ("interface", "start"),
+    [("velocity", "0.8"), ("position", "inf"), ("position", "home"), ("position", "")],
+)
+def test_other_states_of_the_hardware_are_no_place(interface: str, start: str) -> None:
+    assert plan_of(controlled(interface, start)).starts == {}
 
 
 def test_what_is_fixed_to_the_world_stays_there() -> None:

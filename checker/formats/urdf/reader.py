@@ -26,7 +26,7 @@ from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
 from checker.model.robot import Robot
-from checker.model.values import ValueReader
+from checker.model.values import ValueReader, parse_number
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -157,7 +157,8 @@ def read_urdf(document: XmlDocument) -> Robot:
     root = document.root
     values, graph = ValueReader(), FrameGraph()
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), root.span, "the model"))
-    joints = tuple(_read_joint(element, values) for element in root.all("joint"))
+    starts = _starts(root)
+    joints = tuple(_read_joint(element, values, starts) for element in root.all("joint"))
     sensors, gravity = _sensors(root, values, graph), _gravity(root, values)
     links = tuple(
         _extended(read_link(element, values), sensors, gravity) for element in root.all("link")
@@ -183,7 +184,23 @@ def read_urdf(document: XmlDocument) -> Robot:
     )
 
 
-def _read_joint(element: Element, values: ValueReader) -> Joint:
+def _starts(root: Element) -> dict[str, Located[float]]:
+    """Return where joints start by their names, as hardware of ros2_control sets them."""
+    starts: dict[str, Located[float]] = {}
+    for joint in (joint for control in root.all("ros2_control") for joint in control.all("joint")):
+        for state in joint.all("state_interface"):
+            for param in state.all("param") if state.get("name") == "position" else ():
+                value = parse_number(param.text.value)
+                if param.get("name") != "initial_value" or value is None:
+                    continue
+                if math.isfinite(value):
+                    starts.setdefault(joint.get("name") or "", Located(value, param.text.span))
+    return starts
+
+
+def _read_joint(
+    element: Element, values: ValueReader, starts: Mapping[str, Located[float]]
+) -> Joint:
     name = values.name(element)
     return Joint(
         name,
@@ -194,7 +211,7 @@ def _read_joint(element: Element, values: ValueReader) -> Joint:
         _end(element, "parent"),
         _end(element, "child"),
         read_origin(element, values),
-        tuple(_read_axis(element, values)),
+        tuple(_read_axis(element, values, starts.get(name.value))),
     )
 
 
@@ -205,7 +222,7 @@ def _end(joint: Element, tag: str) -> Located[str]:
     return end.attribute("link") or Located("", end.span, stated=False)
 
 
-def _read_axis(joint: Element, values: ValueReader) -> Iterator[Axis]:
+def _read_axis(joint: Element, values: ValueReader, start: Located[float] | None) -> Iterator[Axis]:
     """Yield the axis of a joint that moves; URDF's default is x."""
     if joint.get("type") in ("fixed", "floating"):
         return
@@ -230,7 +247,7 @@ def _read_axis(joint: Element, values: ValueReader) -> Iterator[Axis]:
         number(dynamics, "damping", 0.0),
         number(dynamics, "friction", 0.0),
         Located(0.0, axis.span, stated=False),
-        Located(0.0, axis.span, stated=False),
+        start or Located(0.0, axis.span, stated=False),
         axis.span,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -217,10 +217,12 @@ the stop would carry what the motor has to."""
 
 def start_of(joint: Joint, *, held: bool) -> float:
     """Return where a joint starts, rad or m: its initial position, or the nearest within limits."""
-    if joint.type.value == "continuous" or not joint.axes:
+    if not joint.axes:
         return 0.0
     axis = joint.axes[0]
     low, high = axis.lower.value, axis.upper.value
+    if joint.type.value == "continuous":
+        low, high = -math.inf, math.inf
     if not low < high:
         return 0.0
     most, share = _FROM_STOPS
@@ -249,14 +251,33 @@ def plan_of(robot: Robot) -> Plan:
         name: places[name][0][1] if name in places else start_of(joint, held=False)
         for name, joint in robot.joints_by_name.items()
     }
+    elsewhere = {name: start for name, start in starts.items() if start}
     return replace(
         plan,
         speeds=speeds,
         places=places,
-        starts={name: start for name, start in starts.items() if start},
+        starts=elsewhere,
         efforts=efforts,
         limits_act=limits_act,
+        notes=(*plan.notes, *_stated_starts(robot, elsewhere)),
     )
+
+
+def _stated_starts(robot: Robot, starts: Mapping[str, float]) -> Iterator[str]:
+    """Yield a sentence about the joints that start where the file states."""
+    stated = [
+        f"{joint.name.value} {starts[name]:g}"
+        for name, joint in robot.joints_by_name.items()
+        if name in starts and joint.axes[0].initial_position.stated
+    ]
+    if stated:
+        rest = f", and {len(stated) - _NAMED} more" if len(stated) > _NAMED else ""
+        named = ", ".join(stated[:_NAMED]) + rest
+        yield f"Joints start at the file's initial positions, within limits (rad or m): {named}."
+
+
+_NAMED = 8
+"""Joints in a sentence, at most."""
 
 
 def _within(robot: Robot, name: str, speeds: Knots) -> Knots:
