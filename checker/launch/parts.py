@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from checker.base.files import NotReadable
 from checker.base.parts import NotAvailable, part
 from checker.launch.ros1.graph import LaunchGraph
@@ -35,7 +37,7 @@ def spawner(package: Package) -> Spawner | NotAvailable:
 @part
 def spawned_xml(spawner: Spawner) -> SpawnedXml | NotAvailable:
     """Return what the function `spawner` emits."""
-    return emitted_xml(SpawnedXml, "spawner", spawner.spawn)
+    return emitted_xml(partial(SpawnedXml, spawner=spawner), "spawner", spawner.spawn)
 
 
 @part

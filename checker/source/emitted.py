@@ -12,8 +12,6 @@ from checker.base.record import Record
 from checker.finding import Place
 from checker.source.text import SourceText, Span
 
-NO_PARAMETERS: frozenset[str] = frozenset()
-
 
 class Piece(Record):
     r"""A stretch of text with one origin.
@@ -23,13 +21,11 @@ class Piece(Record):
         span: What it came from; None for an argument that is not written anywhere yet.
         literal: The text is in the source as it is, or as an escape such as `\n`;
             otherwise it was computed by the expression at `span`.
-        parameters: Parameters of the called function, and globals, that influenced it.
     """
 
     text: str
     span: Span | None = None
     literal: bool = False
-    parameters: frozenset[str] = NO_PARAMETERS
 
     @property
     def exact(self) -> bool:
@@ -46,12 +42,6 @@ class Piece(Record):
         if span is not None and self.exact:
             span = Span(span.source, span.start + start, span.start + end, span.holder)
         return replace(self, text=self.text[start:end], span=span)
-
-    def with_influence(self, parameters: frozenset[str]) -> Piece:
-        """Return the piece as also influenced by `parameters`."""
-        if parameters <= self.parameters:
-            return self
-        return replace(self, parameters=self.parameters | parameters)
 
     def with_origin(self, span: Span) -> Piece:
         """Return the piece with `span` as its origin, when it has none."""
@@ -120,14 +110,8 @@ class EmittedText(SourceText, dict=True, kw_only=True):
         origin = self.origin_of(start, end)
         return origin.source.place(origin.start, origin.end)
 
-    def parameters_in(self, start: int, end: int) -> frozenset[str]:
-        """Return the parameters and globals that influenced the characters.
-
-        Args:
-            start: Offset in the emitted text.
-            end: Offset behind the last character.
-        """
+    def pieces_in(self, start: int, end: int) -> range:
+        """Return the numbers of the pieces that the characters from `start` up to `end` are in."""
         if not self.pieces or end <= start:
-            return NO_PARAMETERS
-        pieces = self.pieces[self._index(start) : self._index(end - 1) + 1]
-        return NO_PARAMETERS.union(*(piece.parameters for piece in pieces))
+            return range(0)
+        return range(self._index(start), self._index(end - 1) + 1)

@@ -80,6 +80,11 @@ end
 GOOD = [{"launch/spawner.rb": _spawner("<topic>/model/#{_name}/cmd_vel_relay</topic>")}]
 BAD = [
     {"launch/spawner.rb": _spawner("<topic>/model/rover/cmd_vel_relay</topic>  <!-- ^ PLG008 -->")},
+    {
+        "launch/spawner.rb": _spawner(
+            "<topic>#{'/cmd_vel' unless _name.empty?}</topic>  <!-- ^ PLG008 -->"
+        )
+    },
     """
 <plugin filename="libignition-gazebo-diff-drive-system.so"
         name="ignition::gazebo::systems::DiffDrive">

@@ -32,8 +32,3 @@ def test_globals_have_the_values_that_a_launcher_gives(emit, text, emitted):
     program = f'def g\n  1\nend\ndef f\n  "#{{{text}}}"\nend\n'
     result = emit(program, files={"robot/launch/example.ign": EXAMPLE})
     assert result.text == emitted
-
-
-def test_the_world_is_the_launchers(emit):
-    result = emit('def f\n  "<world>#{$worldName}</world>"\nend\n')
-    assert result.parameters_in(7, 17) == {"$worldName"}

@@ -2,7 +2,6 @@
 
 import pytest
 
-from checker.launch.spawner.reader import Unread
 from checker.source.text import Span
 from checker.source.xml import XmlDocument, parse_xml
 
@@ -94,55 +93,3 @@ def test_an_empty_text_points_at_the_function(emit, text):
     assert emitted.text == ""
     assert emitted.place(0, 0).line == 1
     assert Span(emitted, 0, 0).line == 1
-
-
-def influences(emitted, part):
-    assert not isinstance(emitted, Unread), emitted.reason
-    at = emitted.text.index(part)
-    return set(emitted.parameters_in(at, at + len(part)))
-
-
-def test_parameters_that_influenced_a_text(emit):
-    text = 'def f(name, x, y)\n  z = x * 2 + 1\n  s = name.upcase\n  "<#{z}|#{y}|#{s}>"\nend'
-    emitted = emit(text, "bob", 1, 5)
-    assert influences(emitted, "3") == {"x"}
-    assert influences(emitted, "5") == {"y"}
-    assert influences(emitted, "BOB") == {"name"}
-    assert influences(emitted, "3|5") == {"x", "y"}
-    assert influences(emitted, "<") == set()
-
-
-@pytest.mark.parametrize("truth", [True, False])
-@pytest.mark.parametrize(
-    "choice",
-    [
-        "n = 'no'\n  if $enableGroundTruth\n    n = 'yes'\n  end",
-        "n = $enableGroundTruth ? 'yes' : 'no'",
-        "if $enableGroundTruth then n = true else n = false end",
-        "n = 'no'\n  n = 'yes' if $enableGroundTruth",
-        "n = case $enableGroundTruth when true then 1 else 0 end",
-        "n = 1\n  n = 2 unless !$enableGroundTruth",
-        "n = $enableGroundTruth && 1",
-        "n = {true => 'a', false => 'b'}[$enableGroundTruth]",
-    ],
-)
-def test_a_choice_by_ground_truth_is_an_influence(emit, choice, truth):
-    emitted = emit(f'def f\n  {choice}\n  "<a>#{{n}}</a>"\nend', ground_truth=truth)
-    value = emitted.text.removeprefix("<a>").removesuffix("</a>")
-    assert influences(emitted, f">{value}<") == {"$enableGroundTruth"}
-    assert influences(emitted, "<a") == set()
-
-
-def test_text_added_by_choice_does_not_influence_the_text_around_it(emit):
-    branch = 'if $enableGroundTruth\n    s += "b"\n    s << "c"\n  end'
-    text = f'def f\n  s = "a"\n  {branch}\n  s + "d"\nend'
-    emitted = emit(text, ground_truth=True)
-    assert influences(emitted, "b") == influences(emitted, "c") == {"$enableGroundTruth"}
-    assert influences(emitted, "a") == influences(emitted, "d") == set()
-
-
-def test_influences_pass_through_functions_and_arrays(emit):
-    text = 'def g(v)\n  [v, 1]\nend\ndef f(x)\n  a = g(x)\n  "#{a[0]}|#{a[1]}"\nend'
-    emitted = emit(text, 8)
-    assert influences(emitted, "8") == {"x"}
-    assert influences(emitted, "1") == set()

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import posixpath
 import re
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterator
 from functools import cached_property
 from typing import TypeVar
 
 from checker.base.files import NotReadable
 from checker.base.parts import NotAvailable
 from checker.base.record import Record
+from checker.launch.spawner.reader import Spawner
 from checker.launch.spawner.signals import Unread
 from checker.package.inheritance import SPAWNER
 from checker.package.package import Package
@@ -65,11 +68,6 @@ class EmittedXml(Record, eq=False):
     text: EmittedText
     document: XmlDocument
 
-    def parameters_of(self, span: Span) -> frozenset[str]:
-        """Return the function's parameters and the globals that made a stretch of the text."""
-        start, end = unwrapped(span)
-        return self.text.parameters_in(start, end)
-
     def words_of(self, span: Span) -> list[Span]:
         """Return the words of a stretch, as blanks part them."""
         words = re.finditer(r"\S+", span.text)
@@ -77,7 +75,31 @@ class EmittedXml(Record, eq=False):
 
 
 class SpawnedXml(EmittedXml, dict=True):
-    """XML that `spawner` emits: the robot and the plugins that it gets."""
+    """XML that `spawner` emits: the robot and the plugins that it gets.
+
+    Attributes:
+        spawner: The spawner that emits it.
+    """
+
+    spawner: Spawner
+
+    def parameters_of(self, span: Span) -> frozenset[str]:
+        """Return the function's parameters and the globals that a stretch of the text depends on.
+
+        It depends on those whose other value changes one of its pieces, or leaves it out.
+        """
+        return frozenset().union(
+            *(self._parameters[at] for at in self.text.pieces_in(*unwrapped(span)))
+        )
+
+    @cached_property
+    def _parameters(self) -> list[frozenset[str]]:
+        """The parameters and globals that each piece of the text depends on."""
+        variants = [(name, set(_numbered(other))) for name, other in self.spawner.variants()]
+        return [
+            frozenset(name for name, others in variants if piece not in others)
+            for piece in _numbered(self.text)
+        ]
 
     @cached_property
     def spawns(self) -> list[Element]:
@@ -101,6 +123,18 @@ class SpawnedXml(EmittedXml, dict=True):
         """The plugins that `spawner` adds to the robot."""
         models = [model for spawn in self.spawns for model in models_of(spawn)]
         return [plugin for model in models for plugin in model.all("plugin")]
+
+
+def _numbered(emitted: EmittedText | Unread) -> Iterator[Hashable]:
+    """Yield what tells each piece from others: its text, origin, and number among that one's."""
+    counts: Counter[Hashable] = Counter()
+    if isinstance(emitted, Unread):
+        return
+    for piece in emitted.pieces:
+        span = piece.span or emitted.origin
+        origin = (span.source.file, span.start, span.end)
+        yield piece.text, origin, counts[origin]
+        counts[origin] += 1
 
 
 def _spawns_in(factory: Element) -> list[Element]:
@@ -130,7 +164,9 @@ Emitted = TypeVar("Emitted", bound=EmittedXml)
 
 
 def emitted_xml(
-    kind: type[Emitted], function: str, emitted: EmittedText | Unread
+    kind: Callable[[EmittedText, XmlDocument], Emitted],
+    function: str,
+    emitted: EmittedText | Unread,
 ) -> Emitted | NotAvailable:
     """Parse what a function of the spawner emits; what cannot be read is not available."""
     if isinstance(emitted, Unread):

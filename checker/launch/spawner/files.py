@@ -87,34 +87,34 @@ def _join(call: Call, first: Value, *others: Value) -> Value:
             path += part.lstrip("/")
         else:
             path += part if part.startswith("/") else f"/{part}"
-    return call.run.computed(path, call.span, first, *others)
+    return call.run.computed(path, call.span)
 
 
 def _dirname(call: Call, path: Value) -> Value:
-    return call.run.computed(folder_of(call.text(path)), call.span, path)
+    return call.run.computed(folder_of(call.text(path)), call.span)
 
 
 def _basename(call: Call, path: Value) -> Value:
     name = posixpath.basename(call.text(path).rstrip("/"))
-    return call.run.computed(name, call.span, path)
+    return call.run.computed(name, call.span)
 
 
-def _expand_path(call: Call, path: Value, folder: Value | None = None) -> Value:
+def _expand_path(call: Call, path: Value, folder: Value = None) -> Value:
     text = call.text(path)
     if folder is not None and not text.startswith(("/", "~")):
         text = f"{call.text(folder)}/{text}"
     if not text.startswith("/"):
         raise call.refuse("with a path relative to where Ruby runs")
-    return call.run.computed("/" + posixpath.normpath(text).lstrip("/"), call.span, path)
+    return call.run.computed("/" + posixpath.normpath(text).lstrip("/"), call.span)
 
 
 def _exist(call: Call, path: Value) -> Value:
-    return call.value(call.run.files.exists(resolve(call, path)), path)
+    return call.run.files.exists(resolve(call, path))
 
 
 def _read(call: Call, path: Value) -> Value:
     source = call.run.read(resolve(call, path), call.span)
-    return call.run.string(computed_string(source.text, source.whole(), call.run.influences))
+    return call.run.string(computed_string(source.text, source.whole()))
 
 
 FILE: Methods = {
@@ -159,7 +159,7 @@ def _parsed(call: Call, source: SourceText, span: Span | None = None) -> Value:
         _check_events(call, source, yaml.parse(source.text, Loader=loader))
         node = yaml.compose(source.text, Loader=loader)
         if node is None:
-            return call.run.value(False)
+            return False
         return _yaml_value(call, node, source, span, yaml.SafeLoader(""))
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         where = getattr(error, "problem_mark", None)
@@ -189,26 +189,24 @@ def _yaml_value(
     call.run.budget.spend()
     if isinstance(node, yaml.SequenceNode):
         items = [_yaml_value(call, item, source, span, maker) for item in node.value]
-        return Value(RubyArray(items), call.run.influences)
+        return RubyArray(items)
     if isinstance(node, yaml.MappingNode):
         result = RubyHash()
         for pair in node.value:
             key, value = (_yaml_value(call, part, source, span, maker) for part in pair)
             result.entries[key_of(key, call.run.budget)] = (key, value)
-        return Value(result, call.run.influences)
+        return result
     if len(node.value) > MAX_NUMBER_LENGTH and not node.tag.endswith(":str"):
         raise call.refuse(f"but {source.file} contains a number that is too long")
     data = maker.construct_object(node)
     if isinstance(data, str):
         here = span or Span(source, node.start_mark.index, node.end_mark.index)
-        return Value(
-            RubyString(computed_string(data, here, call.run.influences)), call.run.influences
-        )
+        return RubyString(computed_string(data, here))
     if isinstance(data, int) and data.bit_length() > MAX_INTEGER_BITS:
         raise call.refuse(f"but {source.file} contains an integer that is too large")
     if data is not None and not isinstance(data, (bool, int, float)):
         raise call.refuse(f"but {source.file} contains a value of the type {node.tag}")
-    return Value(data, call.run.influences)
+    return data
 
 
 YAML: Methods = {

@@ -8,6 +8,8 @@ MAX_FILE_LENGTH = 60_000
 """Characters of one Ruby or YAML file."""
 MAX_STEPS = 100_000
 """Nodes evaluated in one call; what makes, reads or compares much costs several steps."""
+MAX_STEPS_OF_VARIANTS = 2 * MAX_STEPS
+"""The same in all calls with other arguments, of which there are about 20."""
 MAX_TEXT_LENGTH = 500_000
 """Characters of one string."""
 MAX_DEPTH = 110

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.launch.spawner.signals import Unreadable
-from checker.source.emitted import NO_PARAMETERS, Piece
+from checker.source.emitted import Piece
 from checker.source.ruby import RubyNode
 from checker.source.text import SourceText, Span
 
@@ -22,11 +22,6 @@ class TracedString(Record, eq=False, dict=True):
     def text(self) -> str:
         """All characters."""
         return "".join([piece.text for piece in self.pieces])
-
-    @cached_property
-    def parameters(self) -> frozenset[str]:
-        """Parameters that influenced any piece."""
-        return NO_PARAMETERS.union(*(piece.parameters for piece in self.pieces))
 
     def cut(self, start: int, end: int) -> TracedString:
         """Return the part from `start` up to `end`."""
@@ -48,12 +43,6 @@ class TracedString(Record, eq=False, dict=True):
             parts.append(TracedString(tuple(kept) if end > start else ()))
         return parts
 
-    def with_influence(self, parameters: frozenset[str]) -> TracedString:
-        """Return the text as also influenced by `parameters`."""
-        if not parameters:
-            return self
-        return TracedString(tuple(piece.with_influence(parameters) for piece in self.pieces))
-
     def with_origin(self, span: Span) -> TracedString:
         """Return the text with `span` as the origin of what has none."""
         return TracedString(tuple([piece.with_origin(span) for piece in self.pieces]))
@@ -68,9 +57,9 @@ def join_strings(parts: Iterable[TracedString]) -> TracedString:
     return TracedString(tuple(piece for part in parts for piece in part.pieces))
 
 
-def computed_string(text: str, span: Span | None, parameters: frozenset[str]) -> TracedString:
+def computed_string(text: str, span: Span | None) -> TracedString:
     """Return a text that the expression at `span` computed."""
-    return TracedString((Piece(text, span, False, parameters),) if text else ())
+    return TracedString((Piece(text, span),) if text else ())
 
 
 # Ruby's string literals: escapes, and the lines of heredocs without their indentation.
@@ -96,10 +85,7 @@ def single_quoted(quotes: str) -> re.Pattern[str]:
 
 
 def decode_literal(
-    source: SourceText,
-    ranges: Iterable[Range],
-    escapes: re.Pattern[str],
-    parameters: frozenset[str],
+    source: SourceText, ranges: Iterable[Range], escapes: re.Pattern[str]
 ) -> TracedString:
     """Read stretches of a literal.
 
@@ -107,7 +93,7 @@ def decode_literal(
         Unreadable: An escape of a character's number, or of a control character.
     """
     pieces = [
-        Piece(text, Span(source, start, end), True, parameters)
+        Piece(text, Span(source, start, end), True)
         for first, last in ranges
         for text, start, end in _stretches(source, first, last, escapes)
         if text

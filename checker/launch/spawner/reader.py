@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.launch.spawner.evaluator.calls import CALLS, entry_call
+from checker.launch.spawner.evaluator.calls import CALLS, call_function
 from checker.launch.spawner.evaluator.expressions import EXPRESSIONS
 from checker.launch.spawner.evaluator.interpreter import Handler, Interpreter
 from checker.launch.spawner.evaluator.operators import OPERATORS
@@ -15,13 +15,24 @@ from checker.launch.spawner.evaluator.statements import STATEMENTS, function_of
 from checker.launch.spawner.evaluator.variables import VARIABLES
 from checker.launch.spawner.files import SpawnerFiles
 from checker.launch.spawner.launcher import (
+    EXECUTABLES_ARGUMENTS,
     GROUND_TRUTH,
+    NO_CHANGES,
     SAMPLE_NAME,
     SAMPLE_WORLD,
+    SPAWNER_ARGUMENTS,
+    Argument,
+    changes,
     launcher_globals,
+    ruby_value,
 )
-from checker.launch.spawner.limits import MAX_FILE_LENGTH, LimitReached
-from checker.launch.spawner.literals import computed_string
+from checker.launch.spawner.limits import (
+    MAX_FILE_LENGTH,
+    MAX_STEPS_OF_VARIANTS,
+    Budget,
+    LimitReached,
+)
+from checker.launch.spawner.methods.call import Call
 from checker.launch.spawner.scope import Function, Scope
 from checker.launch.spawner.signals import (
     Broken,
@@ -31,23 +42,12 @@ from checker.launch.spawner.signals import (
     Unread,
     Unreadable,
 )
-from checker.launch.spawner.values import RubyString, Value, class_name
+from checker.launch.spawner.values import RubyString, class_name
 from checker.source.emitted import EmittedText
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.ruby_repairs import SyntaxFault
 from checker.source.ruby_syntax import not_understood, syntax_faults
 from checker.source.text import SourceText, Span
-
-Argument = str | int | float | bool | None
-
-SPAWNER_ARGUMENTS: tuple[Argument, ...] = (
-    *(SAMPLE_NAME, "model://robot_model", SAMPLE_WORLD),
-    *(1.25, 2.5, 3.75),
-    *(0.125, 0.25, 0.5),
-)
-"""`_name _modelURI _worldName _x _y _z _roll _pitch _yaw`; exact in binary, in m and rad."""
-EXECUTABLES_ARGUMENTS: tuple[Argument, ...] = (SAMPLE_NAME, SAMPLE_WORLD)
-"""`_name _worldName`."""
 
 _HANDLERS: Mapping[str, Handler] = {
     **EXPRESSIONS,
@@ -109,7 +109,17 @@ class Spawner(Record, eq=False):
             arguments: Positional arguments.
             ground_truth: Value of `$enableGroundTruth`.
         """
-        return self._program.call(function, arguments, ground_truth=ground_truth)
+        return self._program.call(function, arguments, {GROUND_TRUTH: ground_truth})
+
+    def variants(self) -> Iterator[tuple[str, EmittedText | Unread]]:
+        """Yield what `spawner` emits when one parameter or global of the launcher changes.
+
+        All these runs share their steps.
+        """
+        function, budget = self.functions.get("spawner"), Budget(MAX_STEPS_OF_VARIANTS)
+        names = [parameter.name for parameter in function.parameters] if function else []
+        for name, arguments, changed in changes(names):
+            yield name, self._program.call("spawner", arguments, changed, budget)
 
 
 _NO_FUNCTION = "defines no function {}"
@@ -173,14 +183,25 @@ class _Program:
         return tree
 
     def call(
-        self, name: str, arguments: Sequence[Argument], *, ground_truth: bool = False
+        self,
+        name: str,
+        arguments: Sequence[Argument],
+        changed: Mapping[str, Argument] = NO_CHANGES,
+        budget: Budget | None = None,
     ) -> EmittedText | Unread:
-        """Run the file, then one of its functions, from a clean start."""
+        """Run the file, then one of its functions, from a clean start.
+
+        Args:
+            name: The function.
+            arguments: Its positional arguments.
+            changed: Globals of the launcher with other values than usual.
+            budget: The steps that it may take; without it, those of one call.
+        """
         whole = self.entry.whole()
         if isinstance(self._tree, str):
             return Unread(whole, self._tree)
-        run = Interpreter(self.files, _HANDLERS, self.trees)
-        run.globals.update(launcher_globals(self.files, self.path, ground_truth=ground_truth))
+        run = Interpreter(self.files, _HANDLERS, self.trees, budget or Budget())
+        run.globals.update(launcher_globals(self.files, self.path, changed))
         run.sources[self.path] = self.entry
         try:
             return self._emitted(run, name, arguments)
@@ -204,10 +225,11 @@ class _Program:
         span = function.span
         run.scope = Scope(self.path)
         # With a parameter too few, the rest of what it emits is still worth a look.
-        values = [_ruby(argument) for argument in arguments[: function.most]]
-        result = entry_call(run, function, values, span)
-        if not isinstance(result.data, RubyString):
-            return Unread(span, f"returns {class_name(result.data)} instead of a string")
+        values = [ruby_value(argument) for argument in arguments[: function.most]]
+        call = Call(run, function.node, name, None, values, at=span)
+        result = call_function(call, function)
+        if not isinstance(result, RubyString):
+            return Unread(span, f"returns {class_name(result)} instead of a string")
         traced = run.traced(result, span)
         pieces = tuple(piece.with_origin(span) for piece in traced.pieces)
         return EmittedText(span.source.file, traced.text, origin=span, pieces=pieces)
@@ -221,12 +243,6 @@ def _reason(stop: Exception) -> str:
         # The depth limit leaves most of Python's stack to the caller; it may have had less.
         return "is nested too deeply"
     return "leaves a loop or a function that it is not in"
-
-
-def _ruby(argument: Argument) -> Value:
-    if isinstance(argument, str):
-        return Value(RubyString(computed_string(argument, None, frozenset())))
-    return Value(argument)
 
 
 __all__ = [

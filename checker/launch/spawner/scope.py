@@ -74,24 +74,16 @@ class Scope:
     frame: Scope | None = None
     running: Block | None = None
 
-    def find(self, name: str) -> Value | None:
-        """Return a variable of this scope or of one around it."""
+    def holder(self, name: str) -> Scope | None:
+        """Return the scope, this one or one around it, that has a variable."""
         scope: Scope | None = self
-        while scope is not None:
-            if name in scope.variables:
-                return scope.variables[name]
+        while scope is not None and name not in scope.variables:
             scope = scope.parent
-        return None
+        return scope
 
     def assign(self, name: str, value: Value) -> None:
         """Set a variable where it is known, else here."""
-        scope: Scope | None = self
-        while scope is not None:
-            if name in scope.variables:
-                scope.variables[name] = value
-                return
-            scope = scope.parent
-        self.variables[name] = value
+        (self.holder(name) or self).variables[name] = value
 
     @property
     def call(self) -> Scope:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from checker.launch.spawner.limits import Budget
 from checker.launch.spawner.signals import RubyError
 from checker.launch.spawner.values import (
-    Data,
     ErrorValue,
     RubyArray,
     RubyRange,
@@ -55,7 +54,7 @@ def float_text(number: float) -> str:
     return f"{'-' * sign}{text[0]}.{text[1:] or '0'}e{mark}{abs(power):02d}"
 
 
-def interpolate(data: Data, budget: Budget) -> str:
+def interpolate(data: Value, budget: Budget) -> str:
     """Write a value as string interpolation does.
 
     Raises:
@@ -74,13 +73,13 @@ def interpolate(data: Data, budget: Budget) -> str:
     return _element_text(data, budget, 0)
 
 
-def _element_text(data: Data, budget: Budget, depth: int) -> str:
+def _element_text(data: Value, budget: Budget, depth: int) -> str:
     """Write a value as it is inside an array: numbers, as in a pose."""
     budget.spend()
     if depth > _MAX_NESTING:
         raise NotWritable("arrays nested too deeply")
     if isinstance(data, RubyArray):
-        elements = [_element_text(item.data, budget, depth + 1) for item in data.items]
+        elements = [_element_text(item, budget, depth + 1) for item in data.items]
         return f"[{', '.join(elements)}]"
     if data is None:
         return "nil"
@@ -106,7 +105,7 @@ def formatted(call: Call, template: Value, values: list[Value]) -> Value:
         at = match.end()
         call.run.budget.spend()
     parts.append(text[at:])
-    return call.run.computed("".join(parts), call.span, template, *values)
+    return call.run.computed("".join(parts), call.span)
 
 
 def _width(directive: re.Match[str]) -> int:
@@ -120,9 +119,10 @@ def _directive(call: Call, match: re.Match[str], waiting: Iterator[Value]) -> st
         return "%"
     if kind is None or kind not in "difegs":
         raise call.refuse(f"with the directive {match.group()[:20]}")
-    value = next(waiting, None)
-    if value is None:
-        raise RubyError("ArgumentError", "too few arguments", call.span)
+    try:
+        value = next(waiting)
+    except StopIteration:
+        raise RubyError("ArgumentError", "too few arguments", call.span) from None
     dot = f".{precision}" if precision is not None else ""
     if kind == "s":
         return f"%{flags.replace('0', '')}{width}{dot}s" % _text(call, value)
@@ -154,7 +154,7 @@ def _on_limit(number: float, kind: str, digits: int) -> bool:
 
 def _text(call: Call, value: Value) -> str:
     try:
-        text = interpolate(value.data, call.run.budget)
+        text = interpolate(value, call.run.budget)
     except NotWritable as error:
         raise call.refuse(f"with {error}") from None
     call.run.budget.spend_text(len(text))

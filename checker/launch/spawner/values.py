@@ -1,4 +1,4 @@
-"""Ruby's values, each with the parameters that influenced it.
+"""Ruby's values.
 
 Strings, arrays and hashes are shared by reference and can be changed, as in Ruby.
 """
@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeGuard
 
 from checker.base.record import Record
 from checker.launch.spawner.limits import CHARACTERS_PER_STEP, Budget
 from checker.launch.spawner.literals import TracedString
-from checker.source.emitted import NO_PARAMETERS
 from checker.source.ruby import RubyNode
 
 if TYPE_CHECKING:
@@ -102,7 +101,7 @@ class Block(Record, eq=False):
     method: str = ""
 
 
-Data: TypeAlias = (
+Value: TypeAlias = (
     bool
     | int
     | float
@@ -117,29 +116,10 @@ Data: TypeAlias = (
 )
 
 
-class Value(Record, eq=False):
-    """A value, and the parameters and globals that influenced which one it is.
+def truthy(value: Value) -> bool:
+    """Return whether a condition holds; it does for everything but nil and false."""
+    return value is not None and value is not False
 
-    A string's pieces also have their own parameters.
-    """
-
-    data: Data
-    parameters: frozenset[str] = NO_PARAMETERS
-
-    @property
-    def truthy(self) -> bool:
-        """Everything but nil and false is true."""
-        return self.data is not None and self.data is not False
-
-    @property
-    def influences(self) -> frozenset[str]:
-        """The parameters that influenced the value, with those of a string's pieces."""
-        if isinstance(self.data, RubyString):
-            return self.parameters | self.data.content.parameters
-        return self.parameters
-
-
-NIL = Value(None)
 
 _CLASSES: tuple[tuple[type, str], ...] = (
     (int, "Integer"),
@@ -154,18 +134,18 @@ _CLASSES: tuple[tuple[type, str], ...] = (
 )
 
 
-def class_name(data: Data) -> str:
+def class_name(value: Value) -> str:
     """Return the name of Ruby's class of a value."""
-    if data is None:
+    if value is None:
         return "NilClass"
-    if isinstance(data, bool):
-        return "TrueClass" if data else "FalseClass"
-    return next(name for kind, name in _CLASSES if isinstance(data, kind))
+    if isinstance(value, bool):
+        return "TrueClass" if value else "FalseClass"
+    return next(name for kind, name in _CLASSES if isinstance(value, kind))
 
 
-def is_number(value: Value) -> bool:
+def is_number(value: Value) -> TypeGuard[int | float]:
     """Return whether a value is an integer or a float; true and false are not numbers."""
-    return type(value.data) in {int, float}
+    return type(value) in {int, float}
 
 
 _SAFE_INTEGER = 2**60
@@ -179,19 +159,18 @@ def key_of(value: Value, budget: Budget) -> Hashable:
         LimitReached: No steps are left.
         ValueError: Arrays and hashes are no keys that spawners use.
     """
-    data = value.data
     budget.spend()
-    if isinstance(data, RubyString):
-        budget.spend_text(len(data.text))
-        return "String", data.text
-    if isinstance(data, (RubyArray, RubyHash)):
-        raise ValueError(class_name(data))
-    if isinstance(data, int) and abs(data) > _SAFE_INTEGER:
-        return class_name(data), hex(data)
-    return class_name(data), data
+    if isinstance(value, RubyString):
+        budget.spend_text(len(value.text))
+        return "String", value.text
+    if isinstance(value, (RubyArray, RubyHash)):
+        raise ValueError(class_name(value))
+    if isinstance(value, int) and abs(value) > _SAFE_INTEGER:
+        return class_name(value), hex(value)
+    return class_name(value), value
 
 
-def equal(left: Data, right: Data, budget: Budget) -> bool:
+def equal(left: Value, right: Value, budget: Budget) -> bool:
     """Compare as Ruby's `==` does.
 
     Raises:

@@ -7,16 +7,14 @@ from collections.abc import Mapping
 
 from checker.launch.spawner.evaluator.expressions import elements, string_content
 from checker.launch.spawner.evaluator.interpreter import Handler, Interpreter
-from checker.launch.spawner.evaluator.variables import variable
-from checker.launch.spawner.files import absolute
+from checker.launch.spawner.files import absolute, folder_of
 from checker.launch.spawner.limits import MAX_CALLS
 from checker.launch.spawner.methods.call import Call, check_arity
 from checker.launch.spawner.methods.classes import KERNEL, invoke_method
 from checker.launch.spawner.scope import Function, Parameter, Scope
 from checker.launch.spawner.signals import Broken, Returned, RubyError, Unreadable
-from checker.launch.spawner.values import NIL, Block, Value
+from checker.launch.spawner.values import Block, Value
 from checker.source.ruby import RubyNode
-from checker.source.text import Span
 
 _FIND = re.compile(r"\s*rospack find ([\w-]+)\s*")
 
@@ -28,12 +26,12 @@ def _call(run: Interpreter, node: RubyNode) -> Value:
     receiver_node = node.fields.get("receiver")
     receiver = run.evaluate(receiver_node) if receiver_node else None
     sign = node.fields.get("operator")
-    if receiver is not None and receiver.data is None and sign is not None and sign.text == "&.":
-        return receiver
-    call = Call(run, node, name.text, receiver or NIL)
+    if receiver_node and receiver is None and sign is not None and sign.text == "&.":
+        return None
+    call = Call(run, node, name.text, receiver)
     _read_arguments(call, node)
     try:
-        return _call_bare(call) if receiver is None else invoke_method(call)
+        return invoke_method(call) if receiver_node else _call_bare(call)
     except Broken as jump:
         if call.block is None or jump.block is not call.block:
             raise
@@ -72,15 +70,21 @@ def _block_argument(node: RubyNode) -> Block:
 
 
 def _identifier(run: Interpreter, node: RubyNode) -> Value:
-    value = variable(run, node)
-    return value if value is not None else _call_bare(Call(run, node, node.text, NIL))
+    holder = run.scope.holder(node.text)
+    if holder is not None:
+        return holder.variables[node.text]
+    if node.text == "__FILE__":
+        return run.computed(absolute(run.scope.path), node.span)
+    if node.text == "__dir__":
+        return run.computed(folder_of(absolute(run.scope.path)), node.span)
+    return _call_bare(Call(run, node, node.text, None))
 
 
 def _call_bare(call: Call) -> Value:
     """Call a function without receiver: the spawner's own, or one of Ruby's."""
     function = call.run.functions.get(call.name)
     if function is not None:
-        return _call_function(call, function)
+        return call_function(call, function)
     known = KERNEL.get(call.name)
     if known is None:
         raise Unreadable(call.span, f"calls {call.name}, which is not supported")
@@ -88,36 +92,25 @@ def _call_bare(call: Call) -> Value:
     return known(call, *call.arguments)
 
 
-def entry_call(run: Interpreter, function: Function, arguments: list[Value], span: Span) -> Value:
-    """Call `spawner` or another function from outside."""
-    call = Call(run, function.node, function.name, NIL, arguments, at=span)
-    return _call_function(call, function, entry=True)
-
-
-def _call_function(call: Call, function: Function, *, entry: bool = False) -> Value:
-    """Call a function of the spawner; `entry` notes the parameters' names on their values."""
+def call_function(call: Call, function: Function) -> Value:
+    """Call a function of the spawner."""
     run, node = call.run, function.node
     if node.broken:
         raise Unreadable(function.span, "contains Ruby that the parser does not understand")
     if run.calls >= MAX_CALLS:
         raise Unreadable(call.span, f"calls functions more than {MAX_CALLS} deep")
     scope = Scope(function.path)
-    before = run.influences
     run.calls += 1
     try:
         with run.inside(scope):
             _bind(call, function, scope)
-            if entry:
-                for name, value in scope.variables.items():
-                    scope.variables[name] = Value(value.data, value.parameters | {name})
             body = node.fields.get("body")
-            return run.evaluate(body) if body else NIL
+            return run.evaluate(body) if body else None
     except Returned as jump:
         if jump.frame is not scope:
             raise
         return jump.value
     finally:
-        run.influences = before
         run.calls -= 1
 
 
@@ -172,7 +165,7 @@ def _bind_named(call: Call, function: Function, scope: Scope) -> None:
 
 
 def _default(call: Call, parameter: Parameter) -> Value:
-    return call.run.evaluate(parameter.default) if parameter.default else NIL
+    return call.run.evaluate(parameter.default) if parameter.default else None
 
 
 def _subshell(run: Interpreter, node: RubyNode) -> Value:

@@ -29,17 +29,17 @@ from checker.launch.spawner.values import (
 from checker.source.ruby import RubyNode
 
 
-def _integer(run: Interpreter, node: RubyNode) -> Value:
+def _integer(_run: Interpreter, node: RubyNode) -> Value:
     digits = node.text.replace("_", "")
     if len(digits) > MAX_INTEGER_BITS // 4:
         raise Unreadable(node.span, "uses an integer that is too large")
     if not digits.isdigit() or (digits[0] == "0" and digits != "0"):
         raise Unreadable(node.span, f"uses the number {digits}, which is not decimal")
-    return run.value(int(digits))
+    return int(digits)
 
 
-def _float(run: Interpreter, node: RubyNode) -> Value:
-    return run.value(float(node.text.replace("_", "")))
+def _float(_run: Interpreter, node: RubyNode) -> Value:
+    return float(node.text.replace("_", ""))
 
 
 def _string(run: Interpreter, node: RubyNode) -> Value:
@@ -65,7 +65,7 @@ def string_content(run: Interpreter, node: RubyNode) -> TracedString:
     start, end = quotes[0].end, quotes[-1].start
     if opening.startswith(("'", "%q")):
         escapes = single_quoted(opening[-1] + closing)
-        return decode_literal(node.source, [(start, end)], escapes, run.influences)
+        return decode_literal(node.source, [(start, end)], escapes)
     parts: list[list[Range] | RubyNode] = []
     for hole in node.children:
         if hole.type == "interpolation":
@@ -85,7 +85,7 @@ def _assembled(
         *(
             _interpolation(run, part)
             if isinstance(part, RubyNode)
-            else decode_literal(node.source, part, escapes, run.influences)
+            else decode_literal(node.source, part, escapes)
             for part in parts
         )
     )
@@ -115,15 +115,12 @@ def _words(run: Interpreter, node: RubyNode) -> Value:
     if node.children[0].text.startswith("%W"):
         raise Unreadable(node.span, "uses %W, which is not supported")
     escapes = single_quoted(node.children[0].text[-1] + node.children[-1].text + " ")
-    words = [
-        decode_literal(part.source, [(part.start, part.end)], escapes, run.influences)
-        for part in node.parts
-    ]
+    words = [decode_literal(part.source, [(part.start, part.end)], escapes) for part in node.parts]
     return run.array([run.string(word) for word in words])
 
 
-def _symbol(run: Interpreter, node: RubyNode) -> Value:
-    return run.value(Symbol(node.text.lstrip(":")))
+def _symbol(_run: Interpreter, node: RubyNode) -> Value:
+    return Symbol(node.text.lstrip(":"))
 
 
 def _array(run: Interpreter, node: RubyNode) -> Value:
@@ -138,10 +135,10 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
             items.append(run.evaluate(node))
             continue
         value = run.run(node.parts)
-        if not isinstance(value.data, RubyArray):
+        if not isinstance(value, RubyArray):
             raise Unreadable(node.span, "unpacks a value that is not an array")
-        run.budget.spend_items(len(items) + len(value.data.items))
-        items += value.data.items
+        run.budget.spend_items(len(items) + len(value.items))
+        items += value.items
     return items
 
 
@@ -152,7 +149,7 @@ def _hash(run: Interpreter, node: RubyNode) -> Value:
         if pair.type != "pair" or value is None:
             raise Unreadable(pair.span, "contains a hash entry that is not supported")
         store(run, result, _pair_key(run, pair), run.evaluate(value), pair)
-    return Value(result, run.influences)
+    return result
 
 
 def _pair_key(run: Interpreter, pair: RubyNode) -> Value:
@@ -160,7 +157,7 @@ def _pair_key(run: Interpreter, pair: RubyNode) -> Value:
     if key.type == "hash_key_symbol":
         return _symbol(run, key)
     if key.type == "string" and any(part.type == ":" for part in pair.children):
-        return run.value(Symbol(string_content(run, key).text))
+        return Symbol(string_content(run, key).text)
     return run.evaluate(key)
 
 
@@ -170,8 +167,8 @@ def store(run: Interpreter, target: RubyHash, key: Value, value: Value, node: Ru
         identity = key_of(key, run.budget)
     except ValueError as error:
         raise Unreadable(node.span, f"uses {error} as the key of a hash") from None
-    if isinstance(key.data, RubyString):
-        key = Value(RubyString(key.data.content, frozen=True), key.parameters)
+    if isinstance(key, RubyString):
+        key = RubyString(key.content, frozen=True)
     previous = target.entries.get(identity)
     target.entries[identity] = (previous[0] if previous else key, value)
 
@@ -179,12 +176,11 @@ def store(run: Interpreter, target: RubyHash, key: Value, value: Value, node: Ru
 def _range(run: Interpreter, node: RubyNode) -> Value:
     ends = [node.fields.get("begin"), node.fields.get("end")]
     values = [run.evaluate(end) for end in ends if end is not None]
-    numbers = [value.data for value in values]
-    if len(numbers) == 2:
-        first, last = numbers
+    if len(values) == 2:
+        first, last = values
         if type(first) is int and type(last) is int:
             exclusive = node.fields["operator"].text == "..."
-            return run.value(RubyRange(first, last, exclusive), *values)
+            return RubyRange(first, last, exclusive)
     raise Unreadable(node.span, "uses a range that is not of integers")
 
 
@@ -199,7 +195,7 @@ EXPRESSIONS: Mapping[str, Handler] = {
     "array": _array,
     "hash": _hash,
     "range": _range,
-    "true": lambda run, _node: run.value(True),
-    "false": lambda run, _node: run.value(False),
-    "nil": lambda run, _node: run.value(None),
+    "true": lambda _run, _node: True,
+    "false": lambda _run, _node: False,
+    "nil": lambda _run, _node: None,
 }

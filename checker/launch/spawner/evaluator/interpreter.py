@@ -19,8 +19,7 @@ from checker.launch.spawner.literals import TracedString, computed_string, join_
 from checker.launch.spawner.scope import Function, Scope
 from checker.launch.spawner.signals import Unreadable
 from checker.launch.spawner.value_text import NotWritable, interpolate
-from checker.launch.spawner.values import NIL, Data, RubyArray, RubyString, Value, equal
-from checker.source.emitted import NO_PARAMETERS
+from checker.launch.spawner.values import RubyArray, RubyString, Value, equal
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.text import SourceText, Span
 
@@ -41,7 +40,6 @@ class Interpreter:
         constants: Constants of the spawner.
         loaded: Paths of the Ruby files run so far.
         sources: Texts read so far, by path.
-        influences: Parameters that decided that the present code runs at all.
         scope: Variables that the present code sees.
         depth: Evaluations that wait for each other.
         calls: Ruby functions that wait for each other.
@@ -56,7 +54,6 @@ class Interpreter:
     constants: dict[str, Value] = field(default_factory=dict)
     loaded: set[str] = field(default_factory=set)
     sources: dict[str, SourceText] = field(default_factory=dict)
-    influences: frozenset[str] = NO_PARAMETERS
     scope: Scope = field(init=False)
     depth: int = 0
     calls: int = 0
@@ -84,35 +81,26 @@ class Interpreter:
 
     def run(self, statements: Iterable[RubyNode]) -> Value:
         """Evaluate statements in order; the last one's value counts."""
-        value = NIL
+        value = None
         for node in statements:
             value = self.evaluate(node)
         return value
 
-    def value(self, data: Data, *origins: Value) -> Value:
-        """Make a value that `origins`, and the conditions around it, influenced."""
-        parameters = self.influences
-        for origin in origins:
-            if origin.parameters or isinstance(origin.data, RubyString):
-                parameters |= origin.influences
-        return Value(data, parameters)
-
     def string(self, content: TracedString, *, frozen: bool = False) -> Value:
-        """Make a string; its pieces carry what influenced it."""
+        """Make a string."""
         self.budget.spend_text(
             sum([len(piece.text) for piece in content.pieces]), len(content.pieces)
         )
-        return Value(RubyString(content, frozen))
+        return RubyString(content, frozen)
 
-    def array(self, items: list[Value], *origins: Value) -> Value:
+    def array(self, items: list[Value]) -> Value:
         """Make an array."""
         self.budget.spend_items(len(items))
-        parameters = self.influences.union(*(origin.parameters for origin in origins))
-        return Value(RubyArray(items), parameters)
+        return RubyArray(items)
 
-    def computed(self, text: str, span: Span, *origins: Value) -> Value:
-        """Make a string that the expression at `span` computed of `origins`."""
-        return self.string(computed_string(text, span, self.value(None, *origins).parameters))
+    def computed(self, text: str, span: Span) -> Value:
+        """Make a string that the expression at `span` computed."""
+        return self.string(computed_string(text, span))
 
     def joined(self, *parts: TracedString) -> TracedString:
         """Return the texts one behind the other, for what that costs."""
@@ -126,10 +114,10 @@ class Interpreter:
         Raises:
             Unreadable: The value is no string.
         """
-        if not isinstance(value.data, RubyString):
+        if not isinstance(value, RubyString):
             raise Unreadable(span, "needs a string here")
-        self.budget.spend(len(value.data.content.pieces) // ITEMS_PER_STEP)
-        return value.data.content.with_influence(value.parameters).with_origin(span)
+        self.budget.spend(len(value.content.pieces) // ITEMS_PER_STEP)
+        return value.content.with_origin(span)
 
     def written(self, value: Value, span: Span) -> TracedString:
         """Return the pieces of `to_s` of any value, computed at `span`.
@@ -137,15 +125,13 @@ class Interpreter:
         Raises:
             Unreadable: The value has no text form.
         """
-        if isinstance(value.data, RubyString):
+        if isinstance(value, RubyString):
             return self.traced(value, span)
         try:
-            text = interpolate(value.data, self.budget)
+            text = interpolate(value, self.budget)
         except NotWritable as error:
             raise Unreadable(span, f"writes out {error}, which is not supported") from None
-        items = value.data.items if isinstance(value.data, RubyArray) else []
-        parameters = value.parameters.union(*(item.influences for item in items))
-        return computed_string(text, span, parameters | self.influences)
+        return computed_string(text, span)
 
     def equal(self, left: Value, right: Value, span: Span) -> bool:
         """Compare two values as `==` does.
@@ -154,19 +140,9 @@ class Interpreter:
             Unreadable: They are arrays or hashes.
         """
         try:
-            return equal(left.data, right.data, self.budget)
+            return equal(left, right, self.budget)
         except ValueError as error:
             raise Unreadable(span, f"compares two values of the class {error}") from None
-
-    @contextmanager
-    def influenced_by(self, value: Value) -> Iterator[None]:
-        """Run code whose running depends on a value."""
-        before = self.influences
-        self.influences = before | value.influences
-        try:
-            yield
-        finally:
-            self.influences = before
 
     @contextmanager
     def inside(self, scope: Scope) -> Iterator[None]:

@@ -17,6 +17,7 @@ from checker.launch.spawner.values import (
     Value,
     class_name,
     is_number,
+    truthy,
 )
 from checker.source.ruby import RubyNode
 
@@ -49,11 +50,9 @@ def _binary(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _short(run: Interpreter, sign: str, left: Value, right: RubyNode) -> Value:
-    if left.truthy is (sign in {"||", "or"}):
+    if truthy(left) is (sign in {"||", "or"}):
         return left
-    with run.influenced_by(left):
-        value = run.evaluate(right)
-    return Value(value.data, value.parameters | left.influences)
+    return run.evaluate(right)
 
 
 def operate(run: Interpreter, node: RubyNode, sign: str, left: Value, right: Value) -> Value:
@@ -64,26 +63,23 @@ def operate(run: Interpreter, node: RubyNode, sign: str, left: Value, right: Val
         RubyError: Ruby refuses them.
     """
     if sign in {"==", "!="}:
-        return run.value(run.equal(left, right, node.span) is (sign == "=="), left, right)
-    if isinstance(left.data, (int, float)) and not isinstance(left.data, bool):
-        return _numeric(run, node, sign, left.data, left, right)
-    if isinstance(left.data, (RubyString, RubyArray)):
+        return run.equal(left, right, node.span) is (sign == "==")
+    if is_number(left):
+        return _numeric(node, sign, left, right)
+    if isinstance(left, (RubyString, RubyArray)):
         return invoke_method(Call(run, node, sign, left, [right]))
-    raise Unreadable(node.span, f"uses {sign} on {class_name(left.data)}")
+    raise Unreadable(node.span, f"uses {sign} on {class_name(left)}")
 
 
-def _numeric(
-    run: Interpreter, node: RubyNode, sign: str, a: int | float, left: Value, right: Value
-) -> Value:
-    b = right.data
-    if not is_number(right) or not isinstance(b, (int, float)):
+def _numeric(node: RubyNode, sign: str, a: int | float, b: Value) -> Value:
+    if not is_number(b):
         if sign in _COMPARISONS:
             message = f"comparison of {class_name(a)} with {class_name(b)} failed"
             raise RubyError("ArgumentError", message, node.span)
         name = "nil" if b is None else class_name(b)
         raise RubyError("TypeError", f"{name} can't be coerced into {class_name(a)}", node.span)
     if sign in _COMPARISONS:
-        return run.value(_COMPARISONS[sign](a, b), left, right)
+        return _COMPARISONS[sign](a, b)
     try:
         result = calculate(sign, a, b)
     except ZeroDivisionError:
@@ -92,7 +88,7 @@ def _numeric(
         raise Unreadable(node.span, f"computes something that is not supported: {error}") from None
     if result is None:
         raise Unreadable(node.span, f"uses {sign} on {class_name(a)}")
-    return run.value(result, left, right)
+    return result
 
 
 def _unary(run: Interpreter, node: RubyNode) -> Value:
@@ -101,10 +97,10 @@ def _unary(run: Interpreter, node: RubyNode) -> Value:
         return _defined(run, node, operand)
     value = run.evaluate(operand)
     if sign in {"!", "not"}:
-        return run.value(not value.truthy, value)
-    if is_number(value) and isinstance(value.data, (int, float)) and sign in {"-", "+"}:
-        return run.value(-value.data if sign == "-" else value.data, value)
-    raise Unreadable(node.span, f"uses {sign} on {class_name(value.data)}")
+        return not truthy(value)
+    if is_number(value) and sign in {"-", "+"}:
+        return -value if sign == "-" else value
+    raise Unreadable(node.span, f"uses {sign} on {class_name(value)}")
 
 
 def _defined(run: Interpreter, node: RubyNode, operand: RubyNode) -> Value:
@@ -113,16 +109,13 @@ def _defined(run: Interpreter, node: RubyNode, operand: RubyNode) -> Value:
         operand = operand.parts[0]
     name = operand.text
     if operand.type == "global_variable":
-        value = run.globals.get(name)
-        found = "global-variable" if value is not None else None
+        found = "global-variable" if name in run.globals else None
     elif operand.type == "identifier":
-        value = run.scope.find(name)
         function = "method" if name in run.functions else None
-        found = "local-variable" if value is not None else function
+        found = "local-variable" if run.scope.holder(name) else function
     else:
         raise Unreadable(node.span, "uses defined? on more than a name")
-    origins = () if value is None else (value,)
-    return run.value(None) if found is None else run.computed(found, node.span, *origins)
+    return None if found is None else run.computed(found, node.span)
 
 
 OPERATORS: Mapping[str, Handler] = {"binary": _binary, "unary": _unary}

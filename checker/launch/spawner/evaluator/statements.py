@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.launch.spawner.evaluator.expressions import elements
 from checker.launch.spawner.evaluator.interpreter import Handler, Interpreter
-from checker.launch.spawner.evaluator.variables import assign, mark_untaken
+from checker.launch.spawner.evaluator.variables import assign, define_untaken
 from checker.launch.spawner.methods.enumerable import items_of
 from checker.launch.spawner.scope import Function, parameters_of
 from checker.launch.spawner.signals import (
@@ -17,15 +17,14 @@ from checker.launch.spawner.signals import (
     Unreadable,
 )
 from checker.launch.spawner.values import (
-    NIL,
     Constant,
     ErrorValue,
     RubyRange,
     Symbol,
     Value,
     class_name,
+    truthy,
 )
-from checker.source.emitted import NO_PARAMETERS
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
 
@@ -46,7 +45,7 @@ def _body(run: Interpreter, node: RubyNode) -> Value:
     except RubyError as error:
         for clause in clauses:
             if clause.type == "rescue" and _catches(run, clause, error):
-                mark_untaken(run, node, NO_PARAMETERS)
+                define_untaken(run, node)
                 return _rescue(run, clause, error)
         raise
     for clause in clauses:
@@ -60,34 +59,32 @@ def _catches(run: Interpreter, clause: RubyNode, error: RubyError) -> bool:
     if exceptions is None:
         return error.is_a("StandardError")
     classes = elements(run, exceptions.parts)
-    return any(isinstance(c.data, Constant) and error.is_a(c.data.name) for c in classes)
+    return any(isinstance(c, Constant) and error.is_a(c.name) for c in classes)
 
 
 def _rescue(run: Interpreter, clause: RubyNode, error: RubyError) -> Value:
     variable, body = clause.fields.get("variable"), clause.fields.get("body")
     if variable is not None:
-        assign(run, variable.parts[0], run.value(ErrorValue(error.kind, error.message)))
-    return run.evaluate(body) if body else NIL
+        assign(run, variable.parts[0], ErrorValue(error.kind, error.message))
+    return run.evaluate(body) if body else None
 
 
 def _if(run: Interpreter, node: RubyNode) -> Value:
-    """Take one of two ways; what is set on the other one depends on the condition, too."""
+    """Take one of two ways."""
     condition = run.evaluate(node.fields["condition"])
     ways = [node.fields.get("consequence") or node.fields.get("body")]
     ways.append(node.fields.get("alternative"))
-    if condition.truthy is node.type.startswith("unless"):
+    if truthy(condition) is node.type.startswith("unless"):
         ways.reverse()
-    with run.influenced_by(condition):
-        result = run.evaluate(ways[0]) if ways[0] else NIL
-    if ways[1] is not None:
-        mark_untaken(run, ways[1], condition.influences)
-    return Value(result.data, result.parameters | condition.influences)
+    result = run.evaluate(ways[0]) if ways[0] else None
+    if ways[1]:
+        define_untaken(run, ways[1])
+    return result
 
 
 def _case(run: Interpreter, node: RubyNode) -> Value:
     subject = node.fields.get("value")
     value = run.evaluate(subject) if subject else None
-    deciding = value.influences if value else NO_PARAMETERS
     clauses = [part for part in node.parts if part.type in {"when", "else"}]
     taken = None
     for clause in clauses:
@@ -95,37 +92,32 @@ def _case(run: Interpreter, node: RubyNode) -> Value:
             taken = clause
             break
         patterns = elements(run, [p.parts[0] for p in clause.parts if p.type == "pattern"])
-        deciding = deciding.union(*(pattern.influences for pattern in patterns))
-        if any(_matches(run, pattern, value, clause) for pattern in patterns):
+        if any(
+            _matches(run, pattern, value, clause) if subject else truthy(pattern)
+            for pattern in patterns
+        ):
             taken = clause.fields.get("body")
             break
-    with run.influenced_by(Value(None, deciding)):
-        result = run.evaluate(taken) if taken else NIL
+    result = run.evaluate(taken) if taken else None
     for clause in clauses:
-        if clause is not taken and clause.fields.get("body") is not taken:
-            mark_untaken(run, clause, deciding)
-    return Value(result.data, result.parameters | deciding)
+        define_untaken(run, clause)
+    return result
 
 
-def _matches(run: Interpreter, pattern: Value, value: Value | None, node: RubyNode) -> bool:
-    """Compare as `pattern === value` does; without a value, the pattern is the condition."""
-    if value is None:
-        return pattern.truthy
-    if isinstance(pattern.data, (RubyRange, Constant)):
-        raise Unreadable(node.span, f"compares with a {class_name(pattern.data)} in a case")
+def _matches(run: Interpreter, pattern: Value, value: Value, node: RubyNode) -> bool:
+    """Compare as `pattern === value` does."""
+    if isinstance(pattern, (RubyRange, Constant)):
+        raise Unreadable(node.span, f"compares with a {class_name(pattern)} in a case")
     return run.equal(pattern, value, node.span)
 
 
 def _while(run: Interpreter, node: RubyNode) -> Value:
-    return _loop(run, node.fields["body"], _conditions(run, node), NIL)
+    return _loop(run, node.fields["body"], _conditions(run, node), None)
 
 
-def _conditions(run: Interpreter, node: RubyNode) -> Iterator[Value]:
-    while True:
-        condition = run.evaluate(node.fields["condition"])
-        if condition.truthy is not (node.type == "while"):
-            return
-        yield condition
+def _conditions(run: Interpreter, node: RubyNode) -> Iterator[None]:
+    while truthy(run.evaluate(node.fields["condition"])) is (node.type == "while"):
+        yield
 
 
 def _for(run: Interpreter, node: RubyNode) -> Value:
@@ -133,34 +125,33 @@ def _for(run: Interpreter, node: RubyNode) -> Value:
     return _loop(run, node.fields["body"], _assignments(run, node, collection), collection)
 
 
-def _assignments(run: Interpreter, node: RubyNode, collection: Value) -> Iterator[Value]:
+def _assignments(run: Interpreter, node: RubyNode, collection: Value) -> Iterator[None]:
     for item in items_of(run, collection, node):
         assign(run, node.fields["pattern"], item)
-        yield NIL
+        yield
 
 
-def _loop(run: Interpreter, body: RubyNode, rounds: Iterator[Value], result: Value) -> Value:
-    """Run the body of a loop once for each round, whose value decides that it runs."""
+def _loop(run: Interpreter, body: RubyNode, rounds: Iterator[None], result: Value) -> Value:
+    """Run the body of a loop once for each round."""
     scope, entered = run.scope, False
     try:
-        for deciding in rounds:
+        for _ in rounds:
             entered = True
             run.budget.spend()
-            _round(run, body, deciding)
+            _round(run, body)
     except Broken as jump:
         if jump.scope is not scope:
             raise
         return jump.value
     if not entered:
-        mark_untaken(run, body, NO_PARAMETERS)
+        define_untaken(run, body)
     return result
 
 
-def _round(run: Interpreter, body: RubyNode, deciding: Value) -> None:
+def _round(run: Interpreter, body: RubyNode) -> None:
     scope = run.scope
     try:
-        with run.influenced_by(deciding):
-            run.evaluate(body)
+        run.evaluate(body)
     except Continued as jump:
         if jump.scope is not scope:
             raise
@@ -170,7 +161,7 @@ def _argument(run: Interpreter, node: RubyNode) -> Value:
     """Return what a jump carries: nothing, one value, or an array of several."""
     values = elements(run, [value for part in node.parts for value in part.parts])
     if not values:
-        return NIL
+        return None
     return values[0] if len(values) == 1 else run.array(values)
 
 
@@ -197,7 +188,7 @@ def function_of(node: RubyNode, path: str) -> Function:
 def _define(run: Interpreter, node: RubyNode) -> Value:
     function = function_of(node, run.scope.path)
     run.functions[function.name] = function
-    return run.value(Symbol(function.name))
+    return Symbol(function.name)
 
 
 _HOLD_STATEMENTS = ("program", "then", "do", "else", "parenthesized_statements")

@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from checker.launch.spawner.evaluator.expressions import elements, store
 from checker.launch.spawner.evaluator.interpreter import Handler, Interpreter
 from checker.launch.spawner.evaluator.operators import operate
-from checker.launch.spawner.files import absolute, folder_of
 from checker.launch.spawner.methods.call import Call
 from checker.launch.spawner.methods.classes import invoke_method
 from checker.launch.spawner.signals import ERROR_CLASSES, RubyError, Unreadable
-from checker.launch.spawner.values import NIL, Constant, RubyArray, RubyHash, Value
+from checker.launch.spawner.values import Constant, RubyArray, RubyHash, Value, truthy
 from checker.source.ruby import RubyNode
 
 _CLASSES = ERROR_CLASSES | {
@@ -21,45 +20,19 @@ _CLASSES = ERROR_CLASSES | {
 _NUMBERS = {"Math::PI": math.pi, "Float::INFINITY": math.inf}
 
 
-def variable(run: Interpreter, node: RubyNode) -> Value | None:
-    """Return a local variable, `__FILE__` or `__dir__`; None if there is none of this name."""
-    value = run.scope.find(node.text)
-    if value is not None:
-        return _read(run, value)
-    if node.text == "__FILE__":
-        return run.computed(absolute(run.scope.path), node.span)
-    if node.text == "__dir__":
-        return run.computed(folder_of(absolute(run.scope.path)), node.span)
-    return None
-
-
-def _read(run: Interpreter, value: Value) -> Value:
-    if run.influences <= value.parameters:
-        return value
-    return Value(value.data, value.parameters | run.influences)
-
-
-def mark_untaken(run: Interpreter, branch: RubyNode, influences: frozenset[str]) -> None:
-    """Note that what a branch sets was left alone because of `influences`.
-
-    A variable that only the branch sets is nil. A branch that would have returned makes all that
-    follows depend on them.
-    """
+def define_untaken(run: Interpreter, branch: RubyNode) -> None:
+    """Set the variables that only an untaken branch sets to nil."""
     nodes = branch.walk()
     run.budget.spend_items(len(nodes))
     inner_end = 0
     for node in nodes:
-        if node.type == "return":
-            run.influences |= influences
         if node.type in _INNER_SCOPES:
             inner_end = max(inner_end, node.end)
         target = node.fields.get("left") if node.type in _ASSIGNMENTS else None
-        if target is None or target.type != "identifier":
+        if target is None or target.type != "identifier" or node.start < inner_end:
             continue
-        value = run.scope.find(target.text)
-        if value is not None or node.start >= inner_end:
-            value = value or NIL
-            run.scope.assign(target.text, Value(value.data, value.parameters | influences))
+        if run.scope.holder(target.text) is None:
+            run.scope.assign(target.text, None)
 
 
 _ASSIGNMENTS = frozenset({"assignment", "operator_assignment"})
@@ -69,16 +42,16 @@ _INNER_SCOPES = frozenset({"block", "do_block", "method"})
 def _global(run: Interpreter, node: RubyNode) -> Value:
     if node.text == "$0":
         return run.computed("/usr/bin/ruby", node.span)
-    return _read(run, run.globals.get(node.text, NIL))
+    return run.globals.get(node.text)
 
 
 def _constant(run: Interpreter, node: RubyNode) -> Value:
     if node.text in run.constants:
-        return _read(run, run.constants[node.text])
+        return run.constants[node.text]
     if node.text in _CLASSES:
-        return Value(Constant(node.text))
+        return Constant(node.text)
     if node.text in _NUMBERS:
-        return run.value(_NUMBERS[node.text])
+        return _NUMBERS[node.text]
     raise Unreadable(node.span, f"uses {node.text[:60]}, which is not supported")
 
 
@@ -97,10 +70,9 @@ def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
     elif target.type == "element_reference":
         _set_element(run, target, value)
     elif target.type == "left_assignment_list":
-        items = value.data.items if isinstance(value.data, RubyArray) else [value]
+        items = value.items if isinstance(value, RubyArray) else [value]
         for index, part in enumerate(target.parts):
-            item = items[index] if index < len(items) else NIL
-            assign(run, part, Value(item.data, item.parameters | value.parameters))
+            assign(run, part, items[index] if index < len(items) else None)
     else:
         raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")
 
@@ -108,18 +80,17 @@ def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
 def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
     holder = run.evaluate(target.fields["object"])
     keys = elements(run, target.parts[1:])
-    data = holder.data
-    if len(keys) != 1 or not isinstance(data, (RubyHash, RubyArray)):
+    if len(keys) != 1 or not isinstance(holder, (RubyHash, RubyArray)):
         raise Unreadable(target.span, "assigns to an element, which is not supported here")
-    if data.frozen:
+    if holder.frozen:
         raise RubyError("FrozenError", "can't modify frozen Array or Hash", target.span)
-    if isinstance(data, RubyHash):
-        store(run, data, keys[0], value, target)
+    if isinstance(holder, RubyHash):
+        store(run, holder, keys[0], value, target)
         return
-    index = keys[0].data
-    if type(index) is not int or not -len(data.items) <= index <= len(data.items):
+    index = keys[0]
+    if type(index) is not int or not -len(holder.items) <= index <= len(holder.items):
         raise Unreadable(target.span, "sets an element beyond the end of an array")
-    data.items[index : index + 1 or None] = [value]
+    holder.items[index : index + 1 or None] = [value]
 
 
 def _assignment(run: Interpreter, node: RubyNode) -> Value:
@@ -136,10 +107,9 @@ def _operator_assignment(run: Interpreter, node: RubyNode) -> Value:
     target, sign = node.fields["left"], node.fields["operator"].text[:-1]
     old = _old_value(run, target)
     if sign in {"||", "&&"}:
-        if old.truthy is (sign == "||"):
+        if truthy(old) is (sign == "||"):
             return old
-        with run.influenced_by(old):
-            value = run.evaluate(node.fields["right"])
+        value = run.evaluate(node.fields["right"])
     else:
         value = operate(run, node, sign, old, run.evaluate(node.fields["right"]))
     assign(run, target, value)
@@ -147,13 +117,14 @@ def _operator_assignment(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _old_value(run: Interpreter, target: RubyNode) -> Value:
-    """Read without noting why this code runs: `sdf += …` does not change what sdf held."""
+    """Read; a variable that is not set yet is nil."""
     if target.type == "identifier":
-        return run.scope.find(target.text) or NIL
+        holder = run.scope.holder(target.text)
+        return holder.variables[target.text] if holder else None
     if target.type == "global_variable":
-        return run.globals.get(target.text, NIL)
+        return run.globals.get(target.text)
     if target.type == "constant":
-        return run.constants.get(target.text, NIL)
+        return run.constants.get(target.text)
     if target.type == "element_reference":
         return run.evaluate(target)
     raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")

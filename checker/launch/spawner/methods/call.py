@@ -11,7 +11,6 @@ from checker.launch.spawner.literals import TracedString
 from checker.launch.spawner.scope import Scope
 from checker.launch.spawner.signals import Continued, RubyError, Unreadable
 from checker.launch.spawner.values import (
-    NIL,
     Block,
     Constant,
     RubyArray,
@@ -65,7 +64,7 @@ class Call:
     @property
     def title(self) -> str:
         """`String#chomp`, `File.write` for a class, or the bare name of a function."""
-        data = self.receiver.data
+        data = self.receiver
         if self.node.type in {"call", "identifier"} and "receiver" not in self.node.fields:
             return self.name
         if isinstance(data, Constant):
@@ -76,15 +75,11 @@ class Call:
         """Return the exception that states that this call is outside the subset."""
         return Unreadable(self.span, f"calls {self.title}, {why}")
 
-    def value(self, data: bool | int | float | None, *others: Value) -> Value:
-        """Answer with a plain value that the receiver influenced."""
-        return self.run.value(data, self.receiver, *others)
-
     def string(self, value: Value) -> RubyString:
         """Return an argument that has to be a string."""
-        if not isinstance(value.data, RubyString):
-            raise self.refuse(f"with {class_name(value.data)} instead of a string")
-        return value.data
+        if not isinstance(value, RubyString):
+            raise self.refuse(f"with {class_name(value)} instead of a string")
+        return value
 
     def text(self, value: Value) -> str:
         """Return the characters of an argument that has to be a string.
@@ -102,15 +97,15 @@ class Call:
 
     def integer(self, value: Value) -> int:
         """Return an argument that has to be an integer."""
-        if type(value.data) is not int:
-            raise self.refuse(f"with {class_name(value.data)} instead of an integer")
-        return value.data
+        if type(value) is not int:
+            raise self.refuse(f"with {class_name(value)} instead of an integer")
+        return value
 
     def number(self, value: Value) -> int | float:
         """Return an argument that has to be a number."""
-        if isinstance(value.data, bool) or not isinstance(value.data, (int, float)):
-            raise self.refuse(f"with {class_name(value.data)} instead of a number")
-        return value.data
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise self.refuse(f"with {class_name(value)} instead of a number")
+        return value
 
     def truncate(self, number: int | float) -> int:
         """Return a number without what is behind its point.
@@ -125,15 +120,15 @@ class Call:
 
     def array(self, value: Value) -> RubyArray:
         """Return an argument that has to be an array."""
-        if not isinstance(value.data, RubyArray):
-            raise self.refuse(f"with {class_name(value.data)} instead of an array")
-        return value.data
+        if not isinstance(value, RubyArray):
+            raise self.refuse(f"with {class_name(value)} instead of an array")
+        return value
 
     def hash(self, value: Value) -> RubyHash:
         """Return an argument that has to be a hash."""
-        if not isinstance(value.data, RubyHash):
-            raise self.refuse(f"with {class_name(value.data)} instead of a hash")
-        return value.data
+        if not isinstance(value, RubyHash):
+            raise self.refuse(f"with {class_name(value)} instead of a hash")
+        return value
 
     def changeable(self) -> None:
         """Make sure that the receiver may be changed.
@@ -141,7 +136,7 @@ class Call:
         Raises:
             RubyError: It is frozen.
         """
-        data = self.receiver.data
+        data = self.receiver
         if isinstance(data, (RubyString, RubyArray, RubyHash)) and data.frozen:
             raise RubyError("FrozenError", f"can't modify frozen {class_name(data)}", self.span)
 
@@ -191,7 +186,7 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
     body = block.node.fields.get("body")
     try:
         with run.inside(scope):
-            return run.evaluate(body) if body else NIL
+            return run.evaluate(body) if body else None
     except Continued as jump:
         if jump.scope is not scope:
             raise
@@ -199,18 +194,15 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
 
 
 def _bind(call: Call, scope: Scope, targets: list[RubyNode], arguments: list[Value]) -> None:
-    if len(arguments) == 1 and isinstance(arguments[0].data, RubyArray) and _several(targets):
-        whole = arguments[0]
-        call.run.budget.spend_items(len(arguments[0].data.items))
-        arguments = [
-            Value(item.data, item.parameters | whole.parameters) for item in arguments[0].data.items
-        ]
+    if len(arguments) == 1 and isinstance(arguments[0], RubyArray) and _several(targets):
+        call.run.budget.spend_items(len(arguments[0].items))
+        arguments = list(arguments[0].items)
     for index, target in enumerate(targets):
-        value = arguments[index] if index < len(arguments) else NIL
+        value = arguments[index] if index < len(arguments) else None
         if target.type == "identifier":
             scope.variables[target.text] = value
         elif target.type == "destructured_parameter":
-            items = value.data.items if isinstance(value.data, RubyArray) else [value]
+            items = value.items if isinstance(value, RubyArray) else [value]
             call.run.budget.spend_items(len(items))
             _bind(call, scope, target.parts, list(items))
         else:

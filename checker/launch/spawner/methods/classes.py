@@ -24,7 +24,6 @@ from checker.launch.spawner.methods.string import STRING
 from checker.launch.spawner.signals import ERROR_CLASSES, RubyError, Unreadable
 from checker.launch.spawner.value_text import formatted
 from checker.launch.spawner.values import (
-    NIL,
     Constant,
     RubyArray,
     RubyHash,
@@ -45,24 +44,24 @@ _LIBRARIES = frozenset(
 
 def _puts(_call: Call, *_values: Value) -> Value:
     """Ignore messages: they do not belong to what the spawner returns."""
-    return NIL
+    return None
 
 
-def _raise(call: Call, error: Value | None = None, message: Value | None = None) -> Value:
-    if error is None:
+def _raise(call: Call, error: Value = None, message: Value = None) -> Value:
+    if not call.arguments:
         raise RubyError("RuntimeError", "unhandled exception", call.span)
-    data = error.data
-    if isinstance(data, RubyString):
-        raise RubyError("RuntimeError", data.text, call.span)
-    if isinstance(data, Constant) and data.name in ERROR_CLASSES:
-        raise RubyError(data.name, call.text(message) if message else data.name, call.span)
+    if isinstance(error, RubyString):
+        raise RubyError("RuntimeError", error.text, call.span)
+    if isinstance(error, Constant) and error.name in ERROR_CLASSES:
+        text = call.text(message) if len(call.arguments) == 2 else error.name
+        raise RubyError(error.name, text, call.span)
     raise call.refuse()
 
 
 def _require(call: Call, name: Value) -> Value:
     text = call.text(name)
     if text in _LIBRARIES:
-        return call.run.value(True)
+        return True
     if text.startswith("/"):
         return _run_once(call, resolve(call, name))
     raise Unreadable(call.span, f"requires '{text[:60]}', which is not available")
@@ -81,7 +80,7 @@ def _run_once(call: Call, path: str) -> Value:
     if not path.endswith(".rb"):
         path += ".rb"
     if path in call.run.loaded:
-        return call.run.value(False)
+        return False
     return _run(call, path)
 
 
@@ -98,7 +97,7 @@ def _run(call: Call, path: str) -> Value:
             raise Unreadable(call.span, f"package {package} is not available")
         raise RubyError("LoadError", f"cannot load such file -- {absolute(path)}", call.span)
     run.run_file(path, call.span)
-    return run.value(True)
+    return True
 
 
 def _format(call: Call, template: Value, *values: Value) -> Value:
@@ -125,7 +124,7 @@ def invoke_method(call: Call) -> Value:
         Unreadable: The method is not in the whitelist.
         RubyError: Ruby refuses the call.
     """
-    data, tables = call.receiver.data, _METHODS if call.block is None else _WITH_BLOCK
+    data, tables = call.receiver, _METHODS if call.block is None else _WITH_BLOCK
     name = f"{data.name}." if isinstance(data, Constant) else class_name(data)
     common = () if call.block or isinstance(data, Constant) else (_COMMON,)
     for methods in (*tables.get(name, ()), *common):
@@ -137,42 +136,42 @@ def invoke_method(call: Call) -> Value:
 
 
 def _to_s(call: Call) -> Value:
-    if isinstance(call.receiver.data, RubyString):
+    if isinstance(call.receiver, RubyString):
         return call.receiver
     return call.run.string(call.run.written(call.receiver, call.span))
 
 
 def _dup(call: Call) -> Value:
-    data = call.receiver.data
+    data = call.receiver
     if isinstance(data, RubyString):
-        return Value(RubyString(data.content), call.receiver.parameters)
+        return RubyString(data.content)
     if isinstance(data, RubyArray):
-        return call.run.array(list(data.items), call.receiver)
+        return call.run.array(list(data.items))
     if isinstance(data, RubyHash):
         call.run.budget.spend_items(len(data.entries))
-        return Value(RubyHash(dict(data.entries), data.default), call.receiver.parameters)
+        return RubyHash(dict(data.entries), data.default)
     return call.receiver
 
 
 def _freeze(call: Call) -> Value:
-    data = call.receiver.data
+    data = call.receiver
     if isinstance(data, (RubyString, RubyArray, RubyHash)):
         data.frozen = True
     return call.receiver
 
 
 def _is_a(call: Call, wanted: Value) -> Value:
-    if not isinstance(wanted.data, Constant) or wanted.data.name in ERROR_CLASSES:
+    if not isinstance(wanted, Constant) or wanted.name in ERROR_CLASSES:
         raise call.refuse()
-    name, own = wanted.data.name, class_name(call.receiver.data)
-    return call.value(name == own or (name == "Numeric" and own in {"Integer", "Float"}))
+    name, own = wanted.name, class_name(call.receiver)
+    return name == own or (name == "Numeric" and own in {"Integer", "Float"})
 
 
 _COMMON: Methods = {
     "dup": _dup,
     "freeze": _freeze,
     "is_a?": _is_a,
-    "nil?": lambda call: call.value(call.receiver.data is None),
+    "nil?": lambda call: call.receiver is None,
     "to_s": _to_s,
 }
 
@@ -189,7 +188,7 @@ _METHODS: Mapping[str, tuple[Methods, ...]] = {
     "Math.": (MATH,),
     "String.": ({"new": lambda call: call.run.string(TracedString())},),
     "Array.": ({"new": lambda call: call.run.array([])},),
-    "Hash.": ({"new": lambda _call, default=None: Value(RubyHash(default=default))},),
+    "Hash.": ({"new": lambda _call, default=None: RubyHash(default=default)},),
 }
 """A class with a dot represents its own methods."""
 

@@ -8,14 +8,7 @@ from checker.launch.spawner.literals import TracedString, join_strings
 from checker.launch.spawner.methods.call import Call, Method, Methods
 from checker.launch.spawner.methods.enumerable import ENUMERABLE_WITH_BLOCK, last
 from checker.launch.spawner.signals import RubyError
-from checker.launch.spawner.values import (
-    NIL,
-    RubyArray,
-    RubyHash,
-    RubyRange,
-    Value,
-    key_of,
-)
+from checker.launch.spawner.values import RubyArray, RubyHash, RubyRange, Value, key_of, truthy
 
 _MAX_NESTING = 12
 
@@ -25,16 +18,15 @@ def _items(call: Call) -> list[Value]:
 
 
 def _at(call: Call, index: Value) -> Value:
-    items, number = _items(call), index.data
-    if isinstance(number, RubyRange):
-        bounds = number.bounds_in(len(items))
-        return call.run.array(items[slice(*bounds)], call.receiver, index) if bounds else NIL
-    if isinstance(number, float):
-        number = call.truncate(number)
-    if type(number) is not int:
+    items = _items(call)
+    if isinstance(index, RubyRange):
+        bounds = index.bounds_in(len(items))
+        return call.run.array(items[slice(*bounds)]) if bounds else None
+    if isinstance(index, float):
+        index = call.truncate(index)
+    if type(index) is not int:
         raise call.refuse("with something else than an integer")
-    chosen = items[number] if -len(items) <= number < len(items) else NIL
-    return Value(chosen.data, chosen.parameters | call.receiver.parameters | index.parameters)
+    return items[index] if -len(items) <= index < len(items) else None
 
 
 def _push(call: Call, *values: Value) -> Value:
@@ -55,7 +47,7 @@ def _removed(index: int) -> Method:
     def removed(call: Call) -> Value:
         call.changeable()
         call.run.budget.spend_items(len(_items(call)))
-        return _items(call).pop(index) if _items(call) else NIL
+        return _items(call).pop(index) if _items(call) else None
 
     return removed
 
@@ -65,7 +57,7 @@ def _times(call: Call, factor: Value) -> Value:
     if count < 0:
         raise call.refuse("with a negative number")
     call.run.budget.spend_items(len(_items(call)) * count)
-    return call.run.array(_items(call) * (count if _items(call) else 0), call.receiver, factor)
+    return call.run.array(_items(call) * (count if _items(call) else 0))
 
 
 def _flat(call: Call, items: list[Value], depth: int = 0) -> list[Value]:
@@ -74,43 +66,38 @@ def _flat(call: Call, items: list[Value], depth: int = 0) -> list[Value]:
     result: list[Value] = []
     for item in items:
         call.run.budget.spend()
-        inner = item.data
-        result += _flat(call, inner.items, depth + 1) if isinstance(inner, RubyArray) else [item]
+        result += _flat(call, item.items, depth + 1) if isinstance(item, RubyArray) else [item]
     return result
 
 
-def _join(call: Call, separator: Value | None = None) -> Value:
+def _join(call: Call, separator: Value = None) -> Value:
     between = call.traced(separator) if separator is not None else TracedString()
     parts: list[TracedString] = []
     for item in _flat(call, _items(call)):
         text = call.run.written(item, call.span)
         call.run.budget.spend_items(len(between.pieces))
         parts += [between, text] if parts else [text]
-    return call.run.string(join_strings(parts).with_influence(call.receiver.parameters))
+    return call.run.string(join_strings(parts))
 
 
 ARRAY: Methods = {
     "[]": _at,
     "<<": _push,
-    "+": lambda call, other: call.run.array(
-        _items(call) + call.array(other).items, call.receiver, other
-    ),
+    "+": lambda call, other: call.run.array(_items(call) + call.array(other).items),
     "*": _times,
-    "any?": lambda call: call.value(any(item.truthy for item in _items(call))),
-    "compact": lambda call: call.run.array(
-        [item for item in _items(call) if item.data is not None], call.receiver
-    ),
+    "any?": lambda call: any(truthy(item) for item in _items(call)),
+    "compact": lambda call: call.run.array([item for item in _items(call) if item is not None]),
     "concat": _concat,
-    "empty?": lambda call: call.value(not _items(call)),
-    "flatten": lambda call: call.run.array(_flat(call, _items(call)), call.receiver),
+    "empty?": lambda call: not _items(call),
+    "flatten": lambda call: call.run.array(_flat(call, _items(call))),
     "join": _join,
     "last": last,
-    "length": lambda call: call.value(len(_items(call))),
+    "length": lambda call: len(_items(call)),
     "pop": _removed(-1),
     "push": _push,
-    "reverse": lambda call: call.run.array(_items(call)[::-1], call.receiver),
+    "reverse": lambda call: call.run.array(_items(call)[::-1]),
     "shift": _removed(0),
-    "size": lambda call: call.value(len(_items(call))),
+    "size": lambda call: len(_items(call)),
 }
 
 
@@ -126,29 +113,27 @@ def _identity(call: Call, key: Value) -> Hashable:
 
 
 def _get(call: Call, key: Value) -> Value:
-    default = call.hash(call.receiver).default or NIL
-    return _fetch_or(call, key, default)
+    return _fetch_or(call, key, call.hash(call.receiver).default)
 
 
 def _fetch_or(call: Call, key: Value, default: Value) -> Value:
     entry = _entries(call).get(_identity(call, key))
-    value = entry[1] if entry else default
-    return Value(value.data, value.parameters | call.receiver.parameters | key.influences)
+    return entry[1] if entry else default
 
 
-def _fetch(call: Call, key: Value, default: Value | None = None) -> Value:
-    if default is None and _identity(call, key) not in _entries(call):
+def _fetch(call: Call, key: Value, default: Value = None) -> Value:
+    if len(call.arguments) == 1 and _identity(call, key) not in _entries(call):
         raise RubyError("KeyError", "key not found", call.span)
-    return _fetch_or(call, key, default or NIL)
+    return _fetch_or(call, key, default)
 
 
 def _dig(call: Call, *keys: Value) -> Value:
     value = call.receiver
     for key in keys:
-        if value.data is None:
+        if value is None:
             return value
         holder = Call(call.run, call.node, "dig", value)
-        value = _at(holder, key) if isinstance(value.data, RubyArray) else _get(holder, key)
+        value = _at(holder, key) if isinstance(value, RubyArray) else _get(holder, key)
     return value
 
 
@@ -157,7 +142,7 @@ def _merge(call: Call, *others: Value) -> Value:
     call.run.budget.spend_items(len(own.entries))
     result = RubyHash(dict(own.entries), own.default)
     _update(call, result, others)
-    return Value(result, call.receiver.parameters)
+    return result
 
 
 def _merge_in_place(call: Call, *others: Value) -> Value:
@@ -177,28 +162,28 @@ def _update(call: Call, target: RubyHash, others: tuple[Value, ...]) -> None:
 
 def _column(index: int) -> Method:
     def column(call: Call) -> Value:
-        return call.run.array([entry[index] for entry in _entries(call).values()], call.receiver)
+        return call.run.array([entry[index] for entry in _entries(call).values()])
 
     return column
 
 
 def _has_key(call: Call, key: Value) -> Value:
-    return call.value(_identity(call, key) in _entries(call), key)
+    return _identity(call, key) in _entries(call)
 
 
 HASH: Methods = {
     "[]": _get,
     "dig": _dig,
-    "empty?": lambda call: call.value(not _entries(call)),
+    "empty?": lambda call: not _entries(call),
     "fetch": _fetch,
     "has_key?": _has_key,
     "include?": _has_key,
     "key?": _has_key,
     "keys": _column(0),
-    "length": lambda call: call.value(len(_entries(call))),
+    "length": lambda call: len(_entries(call)),
     "merge": _merge,
     "merge!": _merge_in_place,
-    "size": lambda call: call.value(len(_entries(call))),
+    "size": lambda call: len(_entries(call)),
     "values": _column(1),
 }
 

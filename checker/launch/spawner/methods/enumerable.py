@@ -10,7 +10,6 @@ from checker.launch.spawner.methods.call import Call, Method, Methods
 from checker.launch.spawner.methods.number import calculate
 from checker.launch.spawner.signals import Unreadable
 from checker.launch.spawner.values import (
-    NIL,
     RubyArray,
     RubyHash,
     RubyRange,
@@ -18,6 +17,7 @@ from checker.launch.spawner.values import (
     Value,
     class_name,
     is_number,
+    truthy,
 )
 from checker.source.ruby import RubyNode
 
@@ -33,36 +33,32 @@ def items_of(run: Interpreter, collection: Value, node: RubyNode) -> Iterator[Va
     Raises:
         Unreadable: The value is no collection.
     """
-    data, parameters = collection.data, collection.parameters
-    if isinstance(data, RubyArray):
+    if isinstance(collection, RubyArray):
         at = 0
-        while at < len(data.items):
-            item = data.items[at]
-            yield Value(item.data, item.parameters | parameters) if parameters else item
+        while at < len(collection.items):
+            yield collection.items[at]
             at += 1
-    elif isinstance(data, RubyRange):
-        for number in data.numbers:
-            yield run.value(number, collection)
-    elif isinstance(data, RubyHash):
-        size = len(data.entries)
+    elif isinstance(collection, RubyRange):
+        yield from collection.numbers
+    elif isinstance(collection, RubyHash):
+        size = len(collection.entries)
         run.budget.spend_items(size)
-        for key, value in list(data.entries.values()):
-            yield run.array([key, value], collection)
-            if len(data.entries) > size:
+        for key, value in list(collection.entries.values()):
+            yield run.array([key, value])
+            if len(collection.entries) > size:
                 raise Unreadable(node.span, "adds to a hash while walking through it")
     else:
-        raise Unreadable(node.span, f"walks through {class_name(data)}")
+        raise Unreadable(node.span, f"walks through {class_name(collection)}")
 
 
 def _listed(call: Call, collection: Value) -> list[Value]:
     """Return all elements at once."""
-    data = collection.data
-    if isinstance(data, RubyRange):
-        call.run.budget.spend(data.count)
-    elif isinstance(data, RubyArray):
-        call.run.budget.spend_items(len(data.items))
-    elif isinstance(data, RubyHash):
-        call.run.budget.spend(len(data.entries))
+    if isinstance(collection, RubyRange):
+        call.run.budget.spend(collection.count)
+    elif isinstance(collection, RubyArray):
+        call.run.budget.spend_items(len(collection.items))
+    elif isinstance(collection, RubyHash):
+        call.run.budget.spend(len(collection.entries))
     return list(items_of(call.run, collection, call.node))
 
 
@@ -78,7 +74,7 @@ def _each(call: Call) -> Value:
 
 def _each_with_index(call: Call) -> Value:
     for index, item in enumerate(items_of(call.run, call.receiver, call.node)):
-        call.block_value(item, call.run.value(index))
+        call.block_value(item, index)
     return call.receiver
 
 
@@ -90,33 +86,33 @@ def _answers(call: Call) -> Iterator[tuple[Value, Value]]:
 
 def _filtered(wanted: bool) -> Method:
     def filtered(call: Call) -> Value:
-        if isinstance(call.receiver.data, RubyHash):
+        if isinstance(call.receiver, RubyHash):
             raise call.refuse()
-        kept = [item for item, value in _answers(call) if value.truthy is wanted]
-        return call.run.array(kept, call.receiver)
+        kept = [item for item, value in _answers(call) if truthy(value) is wanted]
+        return call.run.array(kept)
 
     return filtered
 
 
-def _first(call: Call, count: Value | None = None) -> Value:
+def _first(call: Call, count: Value = None) -> Value:
     items = _all(call)
-    if count is not None:
-        return call.run.array(items[: max(0, call.integer(count))], call.receiver)
-    return items[0] if items else NIL
+    if call.arguments:
+        return call.run.array(items[: max(0, call.integer(count))])
+    return items[0] if items else None
 
 
 def last(call: Call) -> Value:
     """Return the last element, nil when there is none."""
     items = _all(call)
-    return items[-1] if items else NIL
+    return items[-1] if items else None
 
 
 def _sum(call: Call) -> Value:
     items = _all(call)
     numbers = [call.number(item) for item in items]
     if any(isinstance(number, float) for number in numbers):
-        return call.value(_compensated(numbers), *items)
-    return call.value(calculate("+", 0, sum(numbers)), *items)
+        return _compensated(numbers)
+    return calculate("+", 0, sum(numbers))
 
 
 def _compensated(numbers: list[int | float]) -> float:
@@ -136,44 +132,43 @@ def _extreme(choose: Callable[..., Any]) -> Method:
     def extreme(call: Call) -> Value:
         items = _all(call)
         if not items:
-            return NIL
+            return None
         if not all(is_number(item) for item in items):
             raise call.refuse("with something other than numbers")
-        chosen: Value = choose(items, key=lambda item: item.data)
-        return call.value(call.number(chosen), *items)
+        chosen: Value = choose(items, key=lambda item: item)
+        return call.number(chosen)
 
     return extreme
 
 
 def _includes(call: Call, wanted: Value) -> Value:
-    contained = any(call.run.equal(item, wanted, call.span) for item in _all(call))
-    return call.value(contained, wanted)
+    return any(call.run.equal(item, wanted, call.span) for item in _all(call))
 
 
 def _sort(call: Call) -> Value:
     items = _all(call)
     call.run.budget.spend(len(items))
     if all(is_number(item) for item in items):
-        return call.run.array(sorted(items, key=call.number), call.receiver)
-    if not all(isinstance(item.data, RubyString) for item in items):
+        return call.run.array(sorted(items, key=call.number))
+    if not all(isinstance(item, RubyString) for item in items):
         raise call.refuse("with mixed values")
     texts = [call.text(item) for item in items]
     call.run.budget.spend(sum(map(len, texts)) // CHARACTERS_PER_STEP)
-    return call.run.array(sorted(items, key=lambda item: call.string(item).text), call.receiver)
+    return call.run.array(sorted(items, key=lambda item: call.string(item).text))
 
 
 def _zip(call: Call, *others: Value) -> Value:
     items, columns = _all(call), [_listed(call, other) for other in others]
     rows = [
-        call.run.array([item, *(col[i] if i < len(col) else NIL for col in columns)])
+        call.run.array([item, *(col[i] if i < len(col) else None for col in columns)])
         for i, item in enumerate(items)
     ]
-    return call.run.array(rows, call.receiver)
+    return call.run.array(rows)
 
 
 ENUMERABLE: Methods = {
-    "to_a": lambda call: call.run.array(_all(call), call.receiver),
-    "count": lambda call: call.value(len(_all(call))),
+    "to_a": lambda call: call.run.array(_all(call)),
+    "count": lambda call: len(_all(call)),
     "first": _first,
     "include?": _includes,
     "max": _extreme(max),
@@ -184,12 +179,12 @@ ENUMERABLE: Methods = {
 }
 
 ENUMERABLE_WITH_BLOCK: Methods = {
-    "all?": lambda call: call.value(all(value.truthy for _, value in _answers(call))),
-    "any?": lambda call: call.value(any(value.truthy for _, value in _answers(call))),
+    "all?": lambda call: all(truthy(value) for _, value in _answers(call)),
+    "any?": lambda call: any(truthy(value) for _, value in _answers(call)),
     "each": _each,
     "each_with_index": _each_with_index,
-    "find": lambda call: next((item for item, value in _answers(call) if value.truthy), NIL),
-    "map": lambda call: call.run.array([value for _, value in _answers(call)], call.receiver),
+    "find": lambda call: next((item for item, value in _answers(call) if truthy(value)), None),
+    "map": lambda call: call.run.array([value for _, value in _answers(call)]),
     "reject": _filtered(False),
     "select": _filtered(True),
 }

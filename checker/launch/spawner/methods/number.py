@@ -118,27 +118,27 @@ def _finite(call: Call) -> Number:
     return _receiver(call)
 
 
-def _round(call: Call, digits: Value | None = None) -> Value:
-    places, number = call.integer(digits) if digits else 0, _receiver(call)
+def _round(call: Call, digits: Value = None) -> Value:
+    places, number = call.integer(digits) if call.arguments else 0, _receiver(call)
     if not 0 <= places <= _MAX_ROUND_DIGITS:
         raise call.refuse(f"with more than {_MAX_ROUND_DIGITS} digits, or less than none")
     if isinstance(number, int):
-        return call.value(number)
+        return number
     if places:
-        return call.value(_rounded(number, places))
-    return call.value(int(math.copysign(_half_up(abs(_finite(call)), 1.0), number)))
+        return _rounded(number, places)
+    return int(math.copysign(_half_up(abs(_finite(call)), 1.0), number))
 
 
 def _whole(function: Callable[[Number], int]) -> Method:
     def whole(call: Call) -> Value:
-        return call.value(function(_finite(call)))
+        return function(_finite(call))
 
     return whole
 
 
 def _count(call: Call, numbers: Iterable[int]) -> Value:
     for number in numbers:
-        call.block_value(call.value(number))
+        call.block_value(number)
     return call.receiver
 
 
@@ -151,18 +151,18 @@ def _step(call: Call, last: Value, width: Value) -> Value:
 
 NUMBER: Methods = {
     "to_i": _whole(int),
-    "to_f": lambda call: call.value(float(_receiver(call))),
+    "to_f": lambda call: float(_receiver(call)),
     "round": _round,
     "floor": _whole(math.floor),
     "ceil": _whole(math.ceil),
-    "abs": lambda call: call.value(abs(_receiver(call))),
-    "zero?": lambda call: call.value(_receiver(call) == 0),
+    "abs": lambda call: abs(_receiver(call)),
+    "zero?": lambda call: _receiver(call) == 0,
 }
 
 INTEGER: Methods = {
     **NUMBER,
-    "even?": lambda call: call.value(call.integer(call.receiver) % 2 == 0),
-    "odd?": lambda call: call.value(call.integer(call.receiver) % 2 == 1),
+    "even?": lambda call: call.integer(call.receiver) % 2 == 0,
+    "odd?": lambda call: call.integer(call.receiver) % 2 == 1,
 }
 
 INTEGER_WITH_BLOCK: Methods = {
@@ -182,7 +182,7 @@ def _function(compute: Callable[..., float], parameters: int = 1) -> Method:
             result = compute(*(float(call.number(number)) for number in numbers))
         except (ValueError, OverflowError):
             raise call.refuse("outside the function's domain") from None
-        return call.value(result, *numbers)
+        return result
 
     return function
 

@@ -11,7 +11,6 @@ from checker.launch.spawner.methods.call import Call, Method, Methods
 from checker.launch.spawner.signals import RubyError
 from checker.launch.spawner.value_text import formatted
 from checker.launch.spawner.values import (
-    NIL,
     RubyArray,
     RubyRange,
     RubyString,
@@ -51,19 +50,19 @@ def _strip(call: Call) -> Value:
 
 def _at(call: Call, index: Value) -> Value:
     length = len(_text(call))
-    if isinstance(index.data, RubyRange):
-        bounds = index.data.bounds_in(length)
-        return _cut(call, *bounds) if bounds else NIL
+    if isinstance(index, RubyRange):
+        bounds = index.bounds_in(length)
+        return _cut(call, *bounds) if bounds else None
     start = call.integer(index)
     start += length if start < 0 else 0
-    return _cut(call, start, start + 1) if 0 <= start < length else NIL
+    return _cut(call, start, start + 1) if 0 <= start < length else None
 
 
 def _plus(call: Call, other: Value) -> Value:
-    if not isinstance(other.data, RubyString):
-        name = "nil" if other.data is None else class_name(other.data)
+    if not isinstance(other, RubyString):
+        name = "nil" if other is None else class_name(other)
         raise RubyError("TypeError", f"no implicit conversion of {name} into String", call.span)
-    return Value(RubyString(call.run.joined(_receiver(call), call.traced(other))))
+    return RubyString(call.run.joined(_receiver(call), call.traced(other)))
 
 
 def _append(call: Call, *others: Value) -> Value:
@@ -111,7 +110,7 @@ def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> 
     parts = [kept[0]]
     for part in kept[1:]:
         parts += [new, part]
-    return call.run.string(join_strings(parts).with_influence(wanted.influences))
+    return call.run.string(join_strings(parts))
 
 
 def _gsub(call: Call, wanted: Value, replacement: Value) -> Value:
@@ -122,7 +121,7 @@ def _sub(call: Call, wanted: Value, replacement: Value) -> Value:
     return _replaced(call, wanted, replacement, every=False)
 
 
-def _split(call: Call, separator: Value | None = None) -> Value:
+def _split(call: Call, separator: Value = None) -> Value:
     content, text = _receiver(call), _text(call)
     between = call.text(separator) if separator is not None else " "
     if between == "":
@@ -144,7 +143,7 @@ def _changed(change: Callable[[str], str]) -> Method:
     """Make a method that computes new characters, such as `upcase`."""
 
     def changed(call: Call) -> Value:
-        return call.run.computed(change(_text(call)), call.span, call.receiver)
+        return call.run.computed(change(_text(call)), call.span)
 
     return changed
 
@@ -152,7 +151,7 @@ def _changed(change: Callable[[str], str]) -> Method:
 def _tested(test: Callable[[str, str], bool]) -> Method:
     def tested(call: Call, *others: Value) -> Value:
         texts = [call.text(other) for other in others]
-        return call.value(any(test(_text(call), text) for text in texts), *others)
+        return any(test(_text(call), text) for text in texts)
 
     return tested
 
@@ -163,17 +162,17 @@ def _to_i(call: Call) -> Value:
     digits = match.group(1).replace("_", "") if match else "0"
     if len(digits) > _MAX_DIGITS:
         raise LimitReached(f"makes an integer of more than {_MAX_DIGITS} digits")
-    return call.value(int(digits))
+    return int(digits)
 
 
 def _to_f(call: Call) -> Value:
     """Read the number that leads the text, else 0.0."""
     match = _FLOAT.match(_text(call)[:2000])
-    return call.value(float(match.group(1).replace("_", "")) if match else 0.0)
+    return float(match.group(1).replace("_", "")) if match else 0.0
 
 
 def _format(call: Call, values: Value) -> Value:
-    items = values.data.items if isinstance(values.data, RubyArray) else [values]
+    items = values.items if isinstance(values, RubyArray) else [values]
     return formatted(call, call.receiver, list(items))
 
 
@@ -195,10 +194,10 @@ STRING: Methods = {
     "start_with?": _tested(str.startswith),
     "end_with?": _tested(str.endswith),
     "include?": _tested(lambda text, part: part in text),
-    "length": lambda call: call.value(len(_text(call))),
-    "size": lambda call: call.value(len(_text(call))),
-    "empty?": lambda call: call.value(not _text(call)),
-    "to_sym": lambda call: call.run.value(Symbol(_text(call)), call.receiver),
+    "length": lambda call: len(_text(call)),
+    "size": lambda call: len(_text(call)),
+    "empty?": lambda call: not _text(call),
+    "to_sym": lambda call: Symbol(_text(call)),
     "to_i": _to_i,
     "to_f": _to_f,
 }
