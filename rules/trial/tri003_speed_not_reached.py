@@ -64,7 +64,7 @@ def check(
     )
 
 
-_NOT_TRIED = (DriveKind.NONE, DriveKind.LEGGED, DriveKind.MECANUM, DriveKind.OMNI)
+_NOT_TRIED = (DriveKind.NONE, DriveKind.LEGGED)
 """Drives that no trial knows; a robot without one may fly or swim."""
 
 

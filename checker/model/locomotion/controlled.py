@@ -191,6 +191,8 @@ def _steered(named: _Named) -> WheelDrive:
     radius = named.first(*names(*_RADIUS))
     width = named.first(*names(*_TRACTION_WIDTH))
     span = named.controller.span
+    # One wheel that steers turns about the middle, as that of a tricycle.
+    pair = bool(width) and len(joints) > 1
     return WheelDrive(
         named.controller,
         tuple(replace(wheel, side=named.side_of(wheel.joint)) for wheel in wheels),
@@ -199,7 +201,7 @@ def _steered(named: _Named) -> WheelDrive:
         MotionLimits(span),
         MotionLimits(span),
         wheel_base=named.controller.number("wheelbase"),
-        kingpin_width=named.controller.number(*names(*_STEERING_WIDTH), width) if width else None,
+        kingpin_width=named.controller.number(*names(*_STEERING_WIDTH), width) if pair else None,
         steering=tuple((joint, named.side_of(joint)) for joint in joints),
         separation_tag=width,
         radius_tag=radius,
@@ -220,10 +222,20 @@ def _mecanum(named: _Named) -> WheelDrive:
     wheels = (
         wheel
         for corner, side in _CORNERS.items()
-        for wheel in named.wheels(side, f"{corner}_wheel_command_joint_name")
+        for wheel in named.wheels(side, *_corner_names(corner))
     )
-    tag = "kinematics.wheels_radius"
-    return _rolling(named, wheels, tag)
+    arm = named.controller.number("kinematics.sum_of_robot_center_projection_on_X_Y_axis")
+    base, width = (named.controller.number(name) for name in ("wheel_base", "wheel_separation"))
+    if arm is None and base is not None and width is not None:
+        arm = Located((base.value + width.value) / 2, width.span)
+    return _rolling(named, wheels, arm, "kinematics.wheels_radius", "wheel_radius")
+
+
+def _corner_names(corner: str) -> Iterator[str]:
+    """Yield the parameters of a wheel's joint; mecanum controllers of others have the last two."""
+    yield f"{corner}_wheel_command_joint_name"
+    yield f"{corner}_joint_name"
+    yield f"{corner.replace('rear', 'back')}_joint_name"
 
 
 def _omni(named: _Named) -> WheelDrive:
@@ -231,20 +243,24 @@ def _omni(named: _Named) -> WheelDrive:
         replace(wheel, side=named.side_of(wheel.joint))
         for wheel in named.wheels(Side.LEFT, "wheel_names")
     )
-    return _rolling(named, wheels, "wheel_radius")
+    return _rolling(named, wheels, named.controller.number("robot_radius"), "wheel_radius")
 
 
-def _rolling(named: _Named, wheels: Iterable[Wheel], radius: str) -> WheelDrive:
+def _rolling(
+    named: _Named, wheels: Iterable[Wheel], arm: Located[float] | None, *radius: str
+) -> WheelDrive:
     """Return a drive of wheels with rollers."""
+    tag = named.first(*radius) or radius[0]
     return WheelDrive(
         named.controller,
         tuple(wheels),
         named.number(""),
-        named.number(radius),
+        named.number(tag),
         named.limits("linear.x"),
         named.limits("angular.z"),
         separation_tag="",
-        radius_tag=radius,
+        radius_tag=tag,
+        turning_arm=arm,
     )
 
 

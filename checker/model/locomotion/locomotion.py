@@ -111,6 +111,8 @@ class WheelDrive(Record, eq=False):
         base_tag: Parameter of the wheel base.
         kingpin_tag: Parameter of the kingpin width; of all tags, empty if there is none.
         slips: Whether its wheels may slip sideways in a turn, so that the separation is raised.
+        turning_arm: Metres that a Mecanum or omni wheel rolls in a turn of one radian; None if
+            that is not stated.
     """
 
     plugin: Plugin | Controller
@@ -130,6 +132,7 @@ class WheelDrive(Record, eq=False):
     base_tag: str = "wheel_base"
     kingpin_tag: str = "kingpin_width"
     slips: bool = True
+    turning_arm: Located[float] | None = None
 
     @property
     def path(self) -> str:

@@ -184,7 +184,7 @@ def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
             read_limits(plugin.element, "angular_"),
             steering=tuple(steering.items()),
         )
-        yield replace(drive, **_ackermann(plugin))
+        yield replace(drive, **_ackermann(plugin), **_mecanum(plugin, drive))
 
 
 def _wheels(reader: WheelReader, plugin: Plugin, steering: dict[Joint, Side]) -> Iterator[Wheel]:
@@ -207,6 +207,13 @@ def _ackermann(plugin: Plugin) -> dict[str, Located[float]]:
         "kingpin_width": _number_or(plugin, "kingpin_width", _KINGPIN_WIDTH),
         "steering_limit": _number_or(plugin, "steering_limit", _STEERING_LIMIT),
     }
+
+
+def _mecanum(plugin: Plugin, drive: WheelDrive) -> dict[str, Located[float]]:
+    if plugin.class_name != _MECANUM:
+        return {}
+    base, separation = _number_or(plugin, "wheelbase", _WHEEL_BASE), drive.wheel_separation
+    return {"turning_arm": Located((separation.value + base.value) / 2, separation.span)}
 
 
 def _steering(robot: Robot, plugin: Plugin) -> Iterator[tuple[Joint, Side]]:

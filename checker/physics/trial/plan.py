@@ -21,12 +21,15 @@ class DrivenWheel(Record):
         radius: Metres, of its collisions; the plugin's where it has none.
         friction: Coefficients along its way and along its axle, where the file states them by
             direction; None if it is the same in all.
+        rollers: Angle from its way to the axes of the rollers that touch the ground, rad,
+            counter-clockwise from above: friction acts along them alone. None without rollers.
     """
 
     joint: str
     links: tuple[str, ...]
     radius: float
     friction: tuple[float, float] | None = None
+    rollers: float | None = None
 
 
 class Belt(Record):

@@ -34,6 +34,7 @@ from checker.physics.trial.course import (
     linear_command,
 )
 from checker.physics.trial.drivers.not_driven import reason_not_driven
+from checker.physics.trial.drivers.rollers import NOT_ROLLING, can_roll, plan_rollers
 from checker.physics.trial.drivers.wheels import (
     finite_limit,
     plan_ackermann,
@@ -313,6 +314,8 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
         return plan_ackermann(robot, locomotion)
     if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and has_wheels:
         return plan_wheels(robot, locomotion)
+    if kind in (DriveKind.MECANUM, DriveKind.OMNI) and can_roll(locomotion.wheel_drives[0]):
+        return plan_rollers(robot, locomotion)
     return _standing(robot, locomotion)
 
 
@@ -323,7 +326,7 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
         return replace(plan, not_driven=reason_not_driven(robot, locomotion))
     if kind in (DriveKind.MECANUM, DriveKind.OMNI):
-        return replace(plan, not_driven="its wheels roll on rollers, which are not simulated")
+        return replace(plan, not_driven=NOT_ROLLING)
     what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
     return replace(plan, not_driven=f"its plugins {what} no part of the model")
 

@@ -111,7 +111,10 @@ def measure_turn(motion: Motion) -> Iterator[Measurement]:
     yield Measurement("yaw_rate", rate)
     if abs(commanded) > _LEAST:
         yield Measurement("yaw_ratio", float(rate / commanded))
-    twist = predicted_twist(footing(motion, motion.touches(leg, _STEADY_TURN)))
+    rollers = any(wheel.rollers is not None for wheel in motion.plan.wheels)
+    # What rolls on rollers does not slip in a turn.
+    contacts = None if rollers else footing(motion, motion.touches(leg, _STEADY_TURN))
+    twist = None if contacts is None else predicted_twist(contacts)
     if twist is not None:
         yield Measurement("yaw_predicted", float(twist[2]))
         if abs(twist[2]) > _LEAST:

@@ -1,4 +1,4 @@
-"""Friction of wheels that differs along their way and along their axle."""
+"""Friction of wheels that differs along their way and along their axle, or acts along rollers."""
 
 from __future__ import annotations
 
@@ -41,11 +41,13 @@ class DirectedFriction:
         self._data = data
         self._joint = np.full(len(parts), -1)
         self._friction = np.zeros((len(parts), 2))
+        self._rollers = np.zeros(len(parts))
         directed = {link: wheel for wheel in wheels if wheel.friction for link in wheel.links}
         for geom, link in enumerate(parts):
             if (wheel := directed.get(link)) is not None:
                 self._joint[geom] = joints[wheel.joint]
                 self._friction[geom] = wheel.friction
+                self._rollers[geom] = wheel.rollers or 0.0
         self.needed = bool((self._joint >= 0).any())
 
     def apply(self) -> bool:
@@ -63,7 +65,8 @@ class DirectedFriction:
         rolls = length > _ACROSS
         touching, normal = touching[rolls], normal[rolls]
         axle = axle[rolls] / length[rolls, None]
-        contact.frame[touching, 3:6] = np.cross(axle, normal)
-        contact.frame[touching, 6:] = axle
+        way, angle = np.cross(axle, normal), self._rollers[geoms[touching], None]
+        contact.frame[touching, 3:6] = np.cos(angle) * way + np.sin(angle) * axle
+        contact.frame[touching, 6:] = np.cos(angle) * axle - np.sin(angle) * way
         contact.friction[touching, :2] = self._friction[geoms[touching]]
         return bool(touching.size)
