@@ -26,6 +26,7 @@ _KINDS = {
     CompletionKind.JOINT: lsp.CompletionItemKind.Reference,
     CompletionKind.FRAME: lsp.CompletionItemKind.Reference,
     CompletionKind.SENSOR: lsp.CompletionItemKind.Reference,
+    CompletionKind.MODEL: lsp.CompletionItemKind.Reference,
     CompletionKind.PLUGIN: lsp.CompletionItemKind.Module,
     CompletionKind.PARAMETER: lsp.CompletionItemKind.Field,
     CompletionKind.MACRO: lsp.CompletionItemKind.Function,

@@ -1,55 +1,61 @@
-"""Elements and attributes of XML that name a part of the robot: link, joint, frame, sensor."""
+"""Table of the elements and attributes of SDF, URDF and SRDF that name a part of the robot."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from enum import StrEnum
 
 from checker.base.resources import table
+from checker.editor.names.mention import FRAMES, JOINT_ONLY, LINK_ONLY, PARTS, NameKind
 from checker.editor.xacro_names import PREFIX
 
-
-class NameKind(StrEnum):
-    """Kind of thing that a name represents. A frame is a named frame or a nested model."""
-
-    LINK = "link"
-    JOINT = "joint"
-    FRAME = "frame"
-    SENSOR = "sensor"
-
-
-_LINK = (NameKind.LINK,)
-_JOINT = (NameKind.JOINT,)
-_ANY_FRAME = (NameKind.LINK, NameKind.FRAME, NameKind.JOINT)
-"""In SDF, links and joints are frames, too."""
-_END = (NameKind.LINK, NameKind.FRAME)
-
-_TEXTS: Mapping[tuple[str, str], tuple[NameKind, ...]] = {
-    ("joint", "parent"): _END,
-    ("joint", "child"): _END,
-    ("gripper", "gripper_link"): _LINK,
-    ("gripper", "palm_link"): _LINK,
-    ("joint", "gearbox_reference_body"): _LINK,
-    ("include", "placement_frame"): _ANY_FRAME,
+TEXTS: Mapping[tuple[str, str], tuple[NameKind, ...]] = {
+    ("joint", "parent"): PARTS,
+    ("joint", "child"): PARTS,
+    ("joint", "gearbox_reference_body"): LINK_ONLY,
+    ("gripper", "gripper_link"): LINK_ONLY,
+    ("gripper", "palm_link"): LINK_ONLY,
+    ("include", "placement_frame"): PARTS,
 }
-_ATTRIBUTES: Mapping[tuple[str, str], tuple[NameKind, ...]] = {
-    ("pose", "relative_to"): _ANY_FRAME,
-    ("pose", "frame"): _ANY_FRAME,
-    ("frame", "attached_to"): _ANY_FRAME,
-    ("xyz", "expressed_in"): _ANY_FRAME,
-    ("model", "canonical_link"): _LINK,
-    ("model", "placement_frame"): _ANY_FRAME,
-    ("mimic", "joint"): _JOINT,
-    ("parent", "link"): _LINK,
-    ("child", "link"): _LINK,
+"""Texts that name a part, by the tags of the parent and of the element."""
+ATTRIBUTES: Mapping[tuple[str, str], tuple[NameKind, ...]] = {
+    # SDF
+    ("pose", "relative_to"): PARTS,
+    ("pose", "frame"): PARTS,
+    ("frame", "attached_to"): PARTS,
+    ("xyz", "expressed_in"): PARTS,
+    ("model", "canonical_link"): LINK_ONLY,
+    ("model", "placement_frame"): PARTS,
+    # URDF
+    ("mimic", "joint"): JOINT_ONLY,
+    ("parent", "link"): LINK_ONLY,
+    ("child", "link"): LINK_ONLY,
     ("gazebo", "reference"): (NameKind.LINK, NameKind.JOINT),
-    ("disable_collisions", "link1"): _LINK,
-    ("disable_collisions", "link2"): _LINK,
+    # SRDF
+    ("virtual_joint", "child_link"): LINK_ONLY,
+    ("virtual_joint", "parent_frame"): FRAMES,
+    ("passive_joint", "name"): JOINT_ONLY,
+    ("chain", "base_link"): LINK_ONLY,
+    ("chain", "tip_link"): LINK_ONLY,
+    ("end_effector", "parent_link"): LINK_ONLY,
+    ("disable_collisions", "link1"): LINK_ONLY,
+    ("disable_collisions", "link2"): LINK_ONLY,
+    ("enable_collisions", "link1"): LINK_ONLY,
+    ("enable_collisions", "link2"): LINK_ONLY,
+    ("disable_default_collisions", "link"): LINK_ONLY,
+    ("link_sphere_approximation", "link"): LINK_ONLY,
 }
-_JOINT_HOLDERS = ("transmission", "ros2_control")
+"""Attributes that name a part, by tag."""
+BY_TAG = {"link": LINK_ONLY, "joint": JOINT_ONLY}
+ELSEWHERE = frozenset({"transmission", "ros2_control", "group", "group_state", "actuator"})
+"""Elements in which `<joint name="…">` or `<link name="…">` names one that is defined elsewhere."""
 _JOINT_TAG = re.compile(r"joint", re.IGNORECASE)
 _LINK_TAG = re.compile(r"link|frame|body", re.IGNORECASE)
+
+
+def is_srdf(path: str) -> bool:
+    """Return whether a file is an SRDF, which names the parts of a robot of another file."""
+    return path.lower().endswith((".srdf", ".srdf.xacro"))
 
 
 def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[NameKind, ...]:
@@ -67,12 +73,11 @@ def name_kinds(tags: Sequence[str], attribute: str, plugin: str = "") -> tuple[N
     if "plugin" in tags[:-1]:
         below = tags[len(tags) - list(reversed(tags)).index("plugin") :]
         return _of_plugin(below, attribute, plugin)
-    holder = tags[-2] if len(tags) > 1 else ""
     if not attribute:
-        return _TEXTS.get((holder, tags[-1]), ())
-    if attribute == "name" and tags[-1] == "joint" and holder in _JOINT_HOLDERS:
-        return _JOINT
-    return _ATTRIBUTES.get((tags[-1], attribute), ())
+        return TEXTS.get((tags[-2] if len(tags) > 1 else "", tags[-1]), ())
+    if attribute == "name" and ELSEWHERE.intersection(tags[:-1]):
+        return BY_TAG.get(tags[-1], ())
+    return ATTRIBUTES.get((tags[-1], attribute), ())
 
 
 def _of_plugin(below: Sequence[str], attribute: str, plugin: str) -> tuple[NameKind, ...]:
@@ -83,5 +88,5 @@ def _of_plugin(below: Sequence[str], attribute: str, plugin: str) -> tuple[NameK
         return (NameKind(known[path]),)
     last = attribute if attribute and attribute != "name" else below[-1]
     if _JOINT_TAG.search(last):
-        return _JOINT
-    return _END if _LINK_TAG.search(last) else ()
+        return JOINT_ONLY
+    return FRAMES if _LINK_TAG.search(last) else ()

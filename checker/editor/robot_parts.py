@@ -7,7 +7,8 @@ from functools import cached_property
 
 from checker.base.parts import NotAvailable
 from checker.base.record import Record
-from checker.editor.name_kinds import NameKind
+from checker.editor.name_kinds import is_srdf
+from checker.editor.names.mention import NameKind
 from checker.engine.subject import Subject
 from checker.formats.sdf.includes import ModelIncludes
 from checker.formats.sdf.reader import read_sdf
@@ -104,8 +105,11 @@ def _by_name(robot: Robot, kind: NameKind) -> Mapping[str, NamedPart]:
         case NameKind.SENSOR:
             return {sensor.name.value: sensor for sensor in reversed(robot.sensors)}
         case NameKind.FRAME:
-            others: tuple[Frame | Model, ...] = (*robot.models, *robot.frames)
-            return {part.scoped_name: part for part in others}
+            return {frame.scoped_name: frame for frame in robot.frames}
+        case NameKind.MODEL:
+            return {model.scoped_name: model for model in robot.models}
+        case _:
+            return {}
 
 
 def robot_parts(subject: Subject, path: str) -> RobotParts:
@@ -148,5 +152,6 @@ def _is_about(robot: Robot, document: XmlDocument) -> bool:
 def _robots(subject: Subject, document: XmlDocument) -> tuple[Robot, ...]:
     if document.root.tag == "sdf":
         return tuple(read_sdf(document, ModelIncludes(subject.package)))
-    is_xacro = "xmlns:xacro" in document.source.text
-    return (read_urdf(document),) if document.root.tag == "robot" and not is_xacro else ()
+    source = document.source
+    is_urdf = document.root.tag == "robot" and "xmlns:xacro" not in source.text
+    return (read_urdf(document),) if is_urdf and not is_srdf(source.file) else ()

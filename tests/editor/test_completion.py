@@ -178,6 +178,40 @@ def test_names_inside_a_nested_model_are_its_own(tmp_path: Path) -> None:
     assert "arm::wrist" not in items
 
 
+_ARM = """<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"/>
+  <link name="hand"/>
+  <joint name="wrist" type="revolute"><parent link="base"/><child link="hand"/></joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("written_there", "links", "joints"),
+    [
+        (f'<group name="g"><chain base_link="{CARET}"', True, False),
+        (f'<group name="g"><chain base_link="base" tip_link="{CARET}"', True, False),
+        (f'<group name="g"><link name="{CARET}"', True, False),
+        (f'<group name="g"><joint name="{CARET}"', False, True),
+        (f'<group name="{CARET}"', False, False),
+        (f'<group_state name="s" group="g"><joint name="{CARET}"', False, True),
+        (f'<passive_joint name="{CARET}"', False, True),
+        (f'<end_effector name="e" parent_link="{CARET}"', True, False),
+        (f'<virtual_joint name="v" type="fixed" child_link="{CARET}"', True, False),
+        (f'<enable_collisions link1="{CARET}"', True, False),
+        (f'<disable_default_collisions link="{CARET}"', True, False),
+    ],
+)
+def test_names_in_srdf(tmp_path: Path, written_there: str, links: bool, joints: bool) -> None:
+    srdf = "<robot name='arm'>{}</robot>"
+    files = {"package.xml": "<package><name>arm_config</name></package>", "urdf/arm.urdf": _ARM}
+    subject = written(tmp_path / "arm_config", {**files, "config/arm.srdf": srdf.format("")})
+    items = offered(subject, "config/arm.srdf", srdf.format(written_there + "/>"))
+    assert ({"base", "hand"} <= items.keys()) is links
+    assert ("wrist" in items) is joints
+
+
 # Plugins.
 
 

@@ -29,6 +29,7 @@ class CompletionKind(StrEnum):
     JOINT = "joint"
     FRAME = "frame"
     SENSOR = "sensor"
+    MODEL = "model"
     PLUGIN = "plugin"
     PARAMETER = "parameter"
     MACRO = "macro"

@@ -8,14 +8,14 @@ from itertools import islice
 
 from checker.editor.completion.item import Completion, CompletionKind, Request
 from checker.editor.figures import number
-from checker.editor.name_kinds import NameKind, name_kinds
+from checker.editor.name_kinds import name_kinds
+from checker.editor.names.mention import NameKind
 from checker.editor.robot_parts import RobotPart, robot_parts
 from checker.model.components import Joint, Link, Sensor
 
 _DECLARED = re.compile(
     r"""<(link|joint|frame|model|sensor)\s[^<>]*?\bname\s*=\s*(?:"([^"<]*)"|'([^'<]*)')"""
 )
-_KINDS = {"model": NameKind.FRAME}
 _SPECIAL = {"parent": ("world",), "relative_to": ("__model__",), "expressed_in": ("__model__",)}
 _LIMIT = 2000
 """Names of one kind that are offered."""
@@ -50,7 +50,7 @@ def _declared(text: str) -> Iterator[tuple[str, NameKind]]:
     """Yield the names that the text declares as it is."""
     for match in _DECLARED.finditer(text):
         name = match[2] if match[2] is not None else match[3]
-        yield name, _KINDS.get(match[1]) or NameKind(match[1])
+        yield name, NameKind(match[1])
 
 
 def _scope(request: Request) -> str:

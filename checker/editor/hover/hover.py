@@ -23,7 +23,8 @@ from checker.editor.hover.plugins import hardware_card, parameter_card, plugin_c
 from checker.editor.hover.pointed import Pointed, ancestry, pointed_at
 from checker.editor.hover.sensors import sensor_card
 from checker.editor.language import place_of
-from checker.editor.name_kinds import NameKind, name_kinds
+from checker.editor.name_kinds import name_kinds
+from checker.editor.names.mention import NameKind
 from checker.editor.robot_parts import RobotPart, RobotParts, robot_parts
 from checker.editor.target import schema_version, usual_target
 from checker.editor.xacro_names import PREFIX, XacroNames, xacro_names

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from checker.base.files import NotReadable
+from checker.editor.name_kinds import is_srdf
 from checker.editor.names.mention import FileNames
 from checker.editor.names.readers.launch_names import launch_names
 from checker.editor.names.readers.python_names import PythonNames
@@ -70,8 +71,8 @@ def _xml(document: XmlDocument | XmlFault | NotReadable, source: SourceText) -> 
         return FileNames(source, "launch", tuple(launch_names(document)))
     if tag not in ("sdf", "robot", "gazebo", "model", "world"):
         return FileNames(source, "other")
-    is_robot = tag == "robot"
-    sdf = None if is_robot else SdfNames(document)
+    sdf = None if tag == "robot" else SdfNames(document)
+    robot = "srdf" if is_srdf(source.file) else "robot"
     names = sdf.names if sdf else RobotNames(document).names
     included = sdf.included if sdf else []
     values: frozenset[str] = frozenset()
@@ -82,14 +83,10 @@ def _xml(document: XmlDocument | XmlFault | NotReadable, source: SourceText) -> 
         values, parameters = frozenset(xacro.values), frozenset(xacro.parameters)
     return FileNames(
         source,
-        _robot_format(source.file) if is_robot else "sdf",
+        "sdf" if sdf else robot,
         tuple(names),
         tuple(included),
         values,
         parameters,
         sdf.model if sdf else document.root.get("name") or "",
     )
-
-
-def _robot_format(path: str) -> str:
-    return "srdf" if path.lower().endswith((".srdf", ".srdf.xacro")) else "robot"

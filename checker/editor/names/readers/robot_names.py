@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
+from checker.editor.name_kinds import ATTRIBUTES, BY_TAG, ELSEWHERE, is_srdf
 from checker.editor.names.mention import (
-    FRAMES,
     JOINT_ONLY,
     LINK_ONLY,
     SENSOR_ONLY,
@@ -19,29 +19,6 @@ from checker.editor.names.readers.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
-_LINK_OR_JOINT = (NameKind.LINK, NameKind.JOINT)
-_REFERRING = {
-    ("parent", "link"): LINK_ONLY,
-    ("child", "link"): LINK_ONLY,
-    ("mimic", "joint"): JOINT_ONLY,
-    ("gazebo", "reference"): _LINK_OR_JOINT,
-    ("virtual_joint", "child_link"): LINK_ONLY,
-    ("virtual_joint", "parent_frame"): FRAMES,
-    ("passive_joint", "name"): JOINT_ONLY,
-    ("chain", "base_link"): LINK_ONLY,
-    ("chain", "tip_link"): LINK_ONLY,
-    ("end_effector", "parent_link"): LINK_ONLY,
-    ("disable_collisions", "link1"): LINK_ONLY,
-    ("disable_collisions", "link2"): LINK_ONLY,
-    ("enable_collisions", "link1"): LINK_ONLY,
-    ("enable_collisions", "link2"): LINK_ONLY,
-    ("disable_default_collisions", "link"): LINK_ONLY,
-    ("link_sphere_approximation", "link"): LINK_ONLY,
-}
-"""Attributes that name a link or joint, by tag."""
-_BY_TAG = {"link": NameKind.LINK, "joint": NameKind.JOINT}
-_ELSEWHERE = frozenset({"transmission", "ros2_control", "group", "group_state", "actuator"})
-"""Elements in which a `<joint name="…">` names one that is defined elsewhere."""
 _ROBOT = re.compile(rf"/?(?:{EXPRESSION.pattern})/(?=[^/]+\Z)")
 
 
@@ -55,7 +32,7 @@ class RobotNames:
     def __init__(self, document: XmlDocument) -> None:
         """Read all of it."""
         self.names: list[WrittenName] = []
-        self._is_srdf = document.source.file.lower().endswith((".srdf", ".srdf.xacro"))
+        self._is_srdf = is_srdf(document.source.file)
         self._walk(document.root, "", self._is_srdf)
 
     def _walk(self, element: Element, reference: str, elsewhere: bool) -> None:
@@ -76,7 +53,7 @@ class RobotNames:
             elif tag == "gazebo":
                 self._walk(child, child.get("reference") or "", True)
             elif child.children:
-                self._walk(child, reference, elsewhere or tag in _ELSEWHERE)
+                self._walk(child, reference, elsewhere or tag in ELSEWHERE)
             elif tag in ("parent", "child") and elsewhere:
                 self._end(child)
             elif tag == "param" and child.get("name") == "mimic":
@@ -85,12 +62,12 @@ class RobotNames:
     def _attributes(self, element: Element, reference: str, elsewhere: bool) -> None:
         tag = element.tag
         for name in element.attributes:
-            kinds = _REFERRING.get((tag, name))
+            kinds = ATTRIBUTES.get((tag, name))
             if kinds is not None:
                 self._name(verbatim(element.attribute(name)), kinds, Role.NAMES)
-            elif name == "name" and tag in _BY_TAG:
+            elif name == "name" and tag in BY_TAG:
                 role = Role.NAMES if elsewhere else Role.DEFINES
-                self._name(verbatim(element.attribute(name)), (_BY_TAG[tag],), role)
+                self._name(verbatim(element.attribute(name)), BY_TAG[tag], role)
             elif name == "name" and tag == "virtual_joint":
                 self._name(verbatim(element.attribute(name)), JOINT_ONLY, Role.DEFINES)
         if elsewhere and tag == "sensor" and not self._is_srdf:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from checker.editor.name_kinds import ATTRIBUTES, TEXTS
 from checker.editor.names.mention import (
-    JOINT_ONLY,
-    LINK_ONLY,
     MODEL_ONLY,
     PARTS,
     Included,
@@ -21,13 +20,6 @@ from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 _OWN = "::__model__"
-_REFERRING = ("relative_to", "attached_to", "expressed_in", "canonical_link", "placement_frame")
-_TEXTS = {
-    "placement_frame": PARTS,
-    "gripper_link": LINK_ONLY,
-    "palm_link": LINK_ONLY,
-    "gearbox_reference_body": LINK_ONLY,
-}
 _KINDS = {"link": NameKind.LINK, "joint": NameKind.JOINT, "frame": NameKind.FRAME}
 
 
@@ -133,18 +125,15 @@ class SdfNames:
 
     def _attributes(self, element: Element, prefix: str) -> None:
         for name in element.attributes:
-            if name in _REFERRING or (name == "frame" and element.tag == "pose"):
-                self._refer(verbatim(element.attribute(name)), prefix, PARTS)
-            elif name == "joint" and element.tag == "mimic":
-                self._refer(verbatim(element.attribute(name)), prefix, JOINT_ONLY)
+            kinds = ATTRIBUTES.get((element.tag, name))
+            if kinds is not None:
+                self._refer(verbatim(element.attribute(name)), prefix, kinds)
 
     def _text(self, element: Element, prefix: str) -> None:
-        kinds = _TEXTS.get(element.tag)
-        above = element.parent
-        if element.tag in ("parent", "child") and above is not None and above.tag == "joint":
-            kinds = PARTS
-        elif element.tag == "frame_id":
-            kinds = MODEL_ONLY if above is not None and above.tag == "include" else PARTS
+        above = element.parent.tag if element.parent is not None else ""
+        kinds = TEXTS.get((above, element.tag))
+        if element.tag == "frame_id":
+            kinds = MODEL_ONLY if above == "include" else PARTS
         if kinds is not None and not element.children:
             self._refer(verbatim(element.text), prefix, kinds)
 
