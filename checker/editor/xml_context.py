@@ -94,10 +94,14 @@ class Context(Record):
 
 
 @dataclass(slots=True)
-class _Markup:
-    """A start tag, an end tag (`/`), or another tag (`!`).
+class Markup:
+    """A piece of markup.
 
     Attributes:
+        kind: `<` for a start tag, `/` for an end tag, `!` for a comment, CDATA and the like.
+        name: Name of the tag.
+        start: Offset of its `<`.
+        end: Offset behind it.
         is_whole: Whether it ends with its own `>`.
         is_empty: Whether it is a start tag that ends with `/>`.
     """
@@ -112,7 +116,7 @@ class _Markup:
 
 @dataclass(slots=True)
 class _Open:
-    markup: _Markup
+    markup: Markup
     children: list[str] = field(default_factory=list)
 
 
@@ -126,7 +130,7 @@ def xml_context(text: str, offset: int) -> Context:
     offset = min(max(offset, 0), len(text))
     stack: list[_Open] = []
     end = 0
-    for markup in _markup(text, 0, offset):
+    for markup in markup_in(text, 0, offset):
         if offset < markup.end or not markup.is_whole:
             if offset <= markup.end and offset > markup.start and markup.kind != "<":
                 return _in_other(text, offset, markup, _frozen(text, stack))
@@ -140,7 +144,7 @@ def xml_context(text: str, offset: int) -> Context:
 def tags_behind(text: str, offset: int) -> Iterator[str]:
     """Yield the tags of the elements behind a caret that are in the same element as it."""
     depth = 0
-    for markup in _markup(text, offset, len(text)):
+    for markup in markup_in(text, offset, len(text)):
         if markup.kind == "/":
             depth -= 1
             if depth < 0:
@@ -151,7 +155,7 @@ def tags_behind(text: str, offset: int) -> Iterator[str]:
             depth += not markup.is_empty
 
 
-def _markup(text: str, at: int, stop: int) -> Iterator[_Markup]:
+def markup_in(text: str, at: int, stop: int) -> Iterator[Markup]:
     """Yield all markup that begins from one offset up to another, in order."""
     while (at := text.find("<", at, stop)) >= 0:
         markup = _markup_at(text, at)
@@ -159,23 +163,23 @@ def _markup(text: str, at: int, stop: int) -> Iterator[_Markup]:
         at = max(markup.end, at + 1)
 
 
-def _markup_at(text: str, at: int) -> _Markup:
+def _markup_at(text: str, at: int) -> Markup:
     following = text[at + 1 : at + 2]
     if following == "/" and (match := _END_TAG.match(text, at)):
-        return _Markup("/", match["name"], at, match.end(), match["end"] is not None)
+        return Markup("/", match["name"], at, match.end(), match["end"] is not None)
     if following in ("!", "?"):
         opening, closing = next(pair for pair in _OTHER if text.startswith(pair[0], at))
         end = text.find(closing, at + len(opening))
         found = end >= 0
-        return _Markup("!", "", at, end + len(closing) if found else len(text), found)
+        return Markup("!", "", at, end + len(closing) if found else len(text), found)
     if match := _TAG.match(text, at):
         whole = match["end"] is not None
         empty = whole and text[match.end() - 2] == "/"
-        return _Markup("<", match["name"], at, match.end(), whole, empty)
-    return _Markup("<", "", at, at + 1, False)
+        return Markup("<", match["name"], at, match.end(), whole, empty)
+    return Markup("<", "", at, at + 1, False)
 
 
-def _apply(markup: _Markup, stack: list[_Open]) -> None:
+def _apply(markup: Markup, stack: list[_Open]) -> None:
     """Open or close elements as markup in front of the caret does."""
     if markup.kind == "<" and markup.is_whole:
         if stack:
@@ -198,7 +202,7 @@ def _frozen(text: str, stack: list[_Open]) -> tuple[OpenElement, ...]:
     )
 
 
-def _attributes(text: str, tag: _Markup) -> dict[str, str]:
+def _attributes(text: str, tag: Markup) -> dict[str, str]:
     start = tag.start + 1 + len(tag.name)
     return {
         match[1]: match[3] if match[3] is not None else match[4] or ""
@@ -206,7 +210,7 @@ def _attributes(text: str, tag: _Markup) -> dict[str, str]:
     }
 
 
-def _in_other(text: str, offset: int, markup: _Markup, around: tuple[OpenElement, ...]) -> Context:
+def _in_other(text: str, offset: int, markup: Markup, around: tuple[OpenElement, ...]) -> Context:
     if markup.kind == "!":
         return Context(Where.OTHER, around, start=offset, end=offset)
     start = markup.start + 2
@@ -217,7 +221,7 @@ def _in_other(text: str, offset: int, markup: _Markup, around: tuple[OpenElement
     return Context(Where.CLOSING, around, markup.name, typed=typed, start=start, end=end)
 
 
-def _in_start_tag(text: str, offset: int, tag: _Markup, around: tuple[OpenElement, ...]) -> Context:
+def _in_start_tag(text: str, offset: int, tag: Markup, around: tuple[OpenElement, ...]) -> Context:
     start, end = tag.start + 1, tag.start + 1 + len(tag.name)
     if offset <= end:
         attributes = _attributes(text, tag)

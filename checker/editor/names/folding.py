@@ -5,21 +5,14 @@ The text is scanned as it is, so that folds stay while it is being written.
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterator
 from enum import StrEnum
 
 from checker.base.record import Record
+from checker.editor.xml_context import markup_in
 from checker.source.text import SourceText
 
-_MARKUP = re.compile(
-    r"<!--(?P<comment>)|<!\[CDATA\[(?P<data>)|<\?(?P<instruction>)"
-    # No value holds `<`, so that no tag is looked for beyond the next one.
-    r"""|<(?P<end>/?)(?P<name>[^\s<>/!?"'=]{1,200})"""
-    r"""(?:[^<>"']|"[^"<]*+"|'[^'<]*+')*+>"""
-)
-_CLOSING = {"comment": "-->", "data": "]]>", "instruction": "?>"}
 LIMIT = 50_000
 """Folds of one file."""
 
@@ -63,27 +56,24 @@ def _regions(text: str) -> Iterator[tuple[int, int, FoldKind]]:
     """
     open_tags: list[tuple[str, int]] = []
     names: Counter[str] = Counter()
-    at = 0
-    while match := _MARKUP.search(text, at):
-        at = match.end()
-        if match.lastgroup in _CLOSING:
-            end = text.find(_CLOSING[match.lastgroup], at)
-            at = len(text) if end < 0 else end + 1
-            if match.lastgroup == "comment" and end >= 0:
-                yield match.start(), end, FoldKind.COMMENT
-        elif not match["end"]:
-            name = match["name"]
-            if match.group().endswith("/>"):
-                yield match.start(), match.end() - 1, FoldKind.ELEMENT
-            else:
-                open_tags.append((name, match.start()))
-                names[name] += 1
-        elif names[match["name"]]:
-            start = _closed(open_tags, names, match["name"])
+    for markup in markup_in(text, 0, len(text)):
+        name, start = markup.name, markup.start
+        if not markup.is_whole:
+            continue
+        if markup.kind == "!":
+            if text.startswith("<!--", start):
+                yield start, markup.end - 1, FoldKind.COMMENT
+        elif markup.is_empty:
+            yield start, markup.end - 1, FoldKind.ELEMENT
+        elif markup.kind == "<":
+            open_tags.append((name, start))
+            names[name] += 1
+        elif names[name]:
             # The line in front of the end tag, unless something else is on the end tag's own.
-            line_start = text.rfind("\n", 0, match.start()) + 1
-            is_alone = not text[line_start : match.start()].strip()
-            yield start, line_start - 1 if is_alone else match.start(), FoldKind.ELEMENT
+            line_start = text.rfind("\n", 0, start) + 1
+            is_alone = not text[line_start:start].strip()
+            end = line_start - 1 if is_alone else start
+            yield _closed(open_tags, names, name), end, FoldKind.ELEMENT
 
 
 def _closed(open_tags: list[tuple[str, int]], names: Counter[str], name: str) -> int:
