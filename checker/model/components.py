@@ -253,6 +253,7 @@ class Axis(Record, eq=False):
         damping: N·s/m or N·m·s/rad.
         friction: N or N·m.
         stiffness: The stiffness of a spring in the joint, N/m or N·m/rad.
+        spring_reference: The position in which that spring exerts no force, metres or radians.
         initial_position: Metres or radians; 0 if the file states none.
     """
 
@@ -265,6 +266,7 @@ class Axis(Record, eq=False):
     damping: Located[float]
     friction: Located[float]
     stiffness: Located[float]
+    spring_reference: Located[float]
     initial_position: Located[float]
     span: Span
 

@@ -129,7 +129,10 @@ def why_not(content: str) -> str:
         (plugin("MulticopterMotorModel", tags(jointName="w_axle", linkName="w")), ""),
         (plugin("Hydrodynamics", ""), "swims"),
         (plugin("Thruster", ""), "swims"),
-        (plugin("MecanumDrive", tags(front_left_joint="w_axle")) + wheel("w"), "rollers"),
+        (
+            plugin("MecanumDrive", tags(front_left_joint="w_axle")) + wheel("w"),
+            "fewer than three of its wheels",
+        ),
         ("", ""),
     ],
 )

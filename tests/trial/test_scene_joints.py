@@ -114,6 +114,29 @@ def test_damping_friction_and_spring() -> None:
     assert model.qpos_spring[joint.qposadr[0]] == 0.4
 
 
+def test_springs_of_urdf_are_in_its_gazebo_tags_and_the_last_one_counts() -> None:
+    """The values are those that libsdformat 12 reads from the same file."""
+    bodies = "".join(
+        f'<link name="{name}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" '
+        'ixz="0" iyz="0"/></inertial>'
+        '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+        "</link>"
+        for name in "ab"
+    )
+    robot = urdf(
+        f'{bodies}<joint name="b_joint" type="continuous"><parent link="a"/><child link="b"/>'
+        '<axis xyz="0 0 1"/></joint>'
+        '<gazebo reference="b_joint"><springStiffness>5</springStiffness>'
+        "<springReference>0.3</springReference></gazebo>"
+        '<gazebo reference="b_joint"><springStiffness>9</springStiffness></gazebo>'
+        '<gazebo reference="b"><springStiffness>70</springStiffness></gazebo>'
+    )
+    model, _ = compiled(build_scene(robot))
+    joint = model.joint("j0")
+    assert model.jnt_stiffness[joint.id].flat[0] == 9.0
+    assert model.qpos_spring[joint.qposadr[0]] == 0.3
+
+
 @pytest.mark.parametrize("value", ["-1", "nan"])
 def test_dynamics_that_would_drive_the_joint_are_none(value: str) -> None:
     dynamics = f"<dynamics><damping>{value}</damping><friction>{value}</friction></dynamics>"

@@ -248,6 +248,7 @@ def _read_axis(element: Element, scope: Scope) -> Axis:
         values.number(dynamics, "damping", 0.0),
         values.number(dynamics, "friction", 0.0),
         values.number(dynamics, "spring_stiffness", 0.0),
+        values.number(dynamics, "spring_reference", 0.0),
         values.number(element, "initial_position", 0.0),
         element.span,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -157,8 +157,8 @@ def read_urdf(document: XmlDocument) -> Robot:
     root = document.root
     values, graph = ValueReader(), FrameGraph()
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), root.span, "the model"))
-    starts = _starts(root)
-    joints = tuple(_read_joint(element, values, starts) for element in root.all("joint"))
+    starts, tags = _starts(root), _tags_by_reference(root)
+    joints = tuple(_read_joint(element, values, starts, tags) for element in root.all("joint"))
     sensors, gravity = _sensors(root, values, graph), _gravity(root, values)
     links = tuple(
         _extended(read_link(element, values), sensors, gravity) for element in root.all("link")
@@ -198,8 +198,19 @@ def _starts(root: Element) -> dict[str, Located[float]]:
     return starts
 
 
+def _tags_by_reference(root: Element) -> Mapping[str, list[Element]]:
+    """Return the `<gazebo>` tags by the name of the link or joint that they refer to."""
+    tags: dict[str, list[Element]] = {}
+    for tag in root.all("gazebo"):
+        tags.setdefault(tag.get("reference") or "", []).append(tag)
+    return tags
+
+
 def _read_joint(
-    element: Element, values: ValueReader, starts: Mapping[str, Located[float]]
+    element: Element,
+    values: ValueReader,
+    starts: Mapping[str, Located[float]],
+    tags: Mapping[str, Sequence[Element]],
 ) -> Joint:
     name = values.name(element)
     return Joint(
@@ -211,7 +222,7 @@ def _read_joint(
         _end(element, "parent"),
         _end(element, "child"),
         read_origin(element, values),
-        tuple(_read_axis(element, values, starts.get(name.value))),
+        tuple(_read_axis(element, values, starts.get(name.value), tags.get(name.value, ()))),
     )
 
 
@@ -222,7 +233,9 @@ def _end(joint: Element, tag: str) -> Located[str]:
     return end.attribute("link") or Located("", end.span, stated=False)
 
 
-def _read_axis(joint: Element, values: ValueReader, start: Located[float] | None) -> Iterator[Axis]:
+def _read_axis(
+    joint: Element, values: ValueReader, start: Located[float] | None, tags: Sequence[Element]
+) -> Iterator[Axis]:
     """Yield the axis of a joint that moves; URDF's default is x."""
     if joint.get("type") in ("fixed", "floating"):
         return
@@ -236,6 +249,11 @@ def _read_axis(joint: Element, values: ValueReader, start: Located[float] | None
     def number(element: Element, name: str, default: float) -> Located[float]:
         return values.attribute_numbers(element, name, (default,))[0]
 
+    # libsdformat: the last <gazebo> of the joint that has the tag counts.
+    def spring(name: str) -> Located[float]:
+        stated = [tag for tag in tags if tag.child(name) is not None]
+        return values.number(stated[-1] if stated else axis, name, 0.0)
+
     yield Axis(
         # urdfdom: x without an <axis>, no direction with one that states none.
         values.attribute_numbers(axis, "xyz", (1.0, 0.0, 0.0) if axis is joint else _ZERO),
@@ -246,7 +264,8 @@ def _read_axis(joint: Element, values: ValueReader, start: Located[float] | None
         number(limit, "velocity", math.inf),
         number(dynamics, "damping", 0.0),
         number(dynamics, "friction", 0.0),
-        Located(0.0, axis.span, stated=False),
+        spring("springStiffness"),
+        spring("springReference"),
         start or Located(0.0, axis.span, stated=False),
         axis.span,
     )

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 from checker.base.record import Record
 from checker.model.components import Axis, Joint
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.values import parse_number
 from checker.physics.mass.mechanism import AXES, Freedom, Motion, motions_of
 from checker.physics.trial.mjcf.names import LARGEST, clamp, numbers
 from checker.physics.trial.mjcf.repairs import Ledger
@@ -99,7 +96,7 @@ def _degree(joint: Joint, motion: Motion, ledger: Ledger) -> Degree:
         damping,
         _resistance(axis.friction.value),
         _resistance(axis.stiffness.value),
-        _spring_reference(joint, motion.number),
+        clamp(axis.spring_reference.value, -_ENDLESS, _ENDLESS, 0.0),
     )
 
 
@@ -119,12 +116,3 @@ def _range(name: str, axis: Axis, ledger: Ledger) -> tuple[float, float] | None:
 def _resistance(value: float) -> float:
     """Return a coefficient that resists motion; one that would drive it counts as none."""
     return clamp(value, 0.0, LARGEST, 0.0)
-
-
-def _spring_reference(joint: Joint, number: int) -> float:
-    """Return where SDF states that the joint's spring rests, metres or radians."""
-    element = joint.element.child(("axis", "axis2")[number])
-    for tag in ("dynamics", "spring_reference"):
-        element = element.child(tag) if element is not None else None
-    value = parse_number(element.text.value.strip()) if element is not None else None
-    return clamp(math.nan if value is None else value, -_ENDLESS, _ENDLESS, 0.0)
