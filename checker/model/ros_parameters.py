@@ -132,7 +132,7 @@ def read_blocks(root: YamlNode) -> Iterator[NodeBlock]:
         node, above, span = waiting.pop()
         own = node.get(PARAMETERS)
         if own is not None and above:
-            yield NodeBlock(above, dict(_flat(own)), span)
+            yield NodeBlock(above, dict(flat_parameters(own)), span)
         below = [
             (value, f"{above}/{name.strip('/')}", key.span)
             for key, value in node.entries
@@ -176,7 +176,7 @@ def key_name(key: YamlNode) -> str:
     return str(key.scalar)[:300] if key.kind == "scalar" and key.scalar is not None else ""
 
 
-def _flat(root: YamlNode) -> Iterator[tuple[str, Parameter]]:
+def flat_parameters(root: YamlNode) -> Iterator[tuple[str, Parameter]]:
     """Yield what is at the ends of nested mappings, under names with dots."""
     waiting: list[tuple[YamlNode, str]] = [(root, "")]
     count = 0

@@ -14,6 +14,7 @@ from checker.package.package import Package
 from checker.robots.parts import ControlledRobot
 from checker.robots.urdf_files import UrdfFiles
 from checker.ros.control.controllers import ControlSystem
+from checker.ros.control.loaded_parameters import Parameters, controllers_for, loaded_parameters
 from checker.ros.ros2_control.launched import LaunchedControl, launched_files
 from checker.ros.ros2_control.launched import launched_controls as read_launched_controls
 from checker.ros.ros2_control.robot_control import (
@@ -55,15 +56,32 @@ def robot_controls(
 
 
 @part
+def parameters(package: Package, entries: LaunchEntries) -> Parameters:
+    """Return what configures controllers of ROS 1; each file is read once."""
+    return loaded_parameters(package, entries)
+
+
+@part
 def controlled_robots(
-    package: Package, controls: tuple[RobotControl, ...]
-) -> tuple[ControlledRobot, ...]:
-    """Return these robots with the controllers that may run."""
+    package: Package,
+    descriptions: tuple[UrdfDescription, ...],
+    controls: tuple[RobotControl, ...] | NotAvailable,
+    ask: Ask,
+) -> tuple[ControlledRobot, ...] | NotAvailable:
+    """Return robots with the controllers of ros2_control, or of ROS 1, that may run."""
     started = package.workspace.launch_words
-    return tuple(
-        ControlledRobot(control.robot, without_idle(control.controllers, started))
-        for control in controls
+    known = () if isinstance(controls, NotAvailable) else controls
+    found = {id(control.robot): (control.robot, control.controllers) for control in known}
+    others = [it.robot for it in descriptions if it.transmissions and id(it.robot) not in found]
+    # Files of parameters are read for those robots alone that need them.
+    loaded = ask.one(Parameters) if others else NotAvailable("no robot has a transmission")
+    if isinstance(loaded, Parameters):
+        found |= {id(it): (it, controllers_for(it, loaded.controllers)) for it in others}
+    robots = tuple(
+        ControlledRobot(robot, without_idle(controllers, started))
+        for robot, controllers in found.values()
     )
+    return robots or NotAvailable("no robot has a controller", applicable=False)
 
 
 @part
@@ -107,7 +125,7 @@ def wirings(
 
 @part
 def control_system(
-    package: Package, entries: LaunchEntries, ask: Ask
+    package: Package, entries: LaunchEntries, parameters: Parameters, ask: Ask
 ) -> ControlSystem | NotAvailable:
     """Return what controls the joints of a URDF package."""
     alone = package.only and isinstance(ask.one(UrdfFiles), UrdfFiles)
@@ -115,4 +133,5 @@ def control_system(
         return NotAvailable("the package is not a URDF package", applicable=False)
     from checker.ros.control.system import control_system as read_control_system
 
-    return read_control_system(package, entries, ask.all(Robot), ask.all(UrdfDescription))
+    robots, descriptions = ask.all(Robot), ask.all(UrdfDescription)
+    return read_control_system(package, entries, parameters, robots, descriptions)

@@ -131,7 +131,7 @@ def test_a_package_that_only_spawns_a_robot(part: Part) -> None:
 
 
 def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.ros.control.system.MAX_VALUES", 50)
+    monkeypatch.setattr("checker.ros.control.loaded_parameters.MAX_VALUES", 50)
     load = f'<rosparam ns="{{}}" file="$(find {URDF_NAME})/config/control.yaml"/>'
     text = "".join(load.format(f"r{number}") for number in range(20))
     control = part(ControlSystem, {"launch/all.launch": f"<launch>{text}</launch>"})

@@ -68,14 +68,16 @@ PLANAR = {"kinematics.wheels_radius": 0.1} | {
 }
 
 
+TRUNK = f"""<link name="trunk">{_INERTIAL.format(10, 0.15, 0.25, 0.35)}<collision><geometry>
+  <box size="0.3 0.3 0.1"/></geometry></collision></link>
+<joint name="trunk" type="fixed"><parent link="base_link"/><child link="trunk"/></joint>"""
+
+
 def robot(folder: Path, links: str, kind: str, parameters: dict[str, object]) -> Robot:
     lines = "".join(f"    {name}: {value}\n" for name, value in parameters.items())
-    body = _INERTIAL.format(10, 0.15, 0.25, 0.35)
     package = write_example(
         {
-            "@urdf": f"""<link name="trunk">{body}<collision><geometry><box size="0.3 0.3 0.1"/>
-</geometry></collision></link>
-<joint name="trunk" type="fixed"><parent link="base_link"/><child link="trunk"/></joint>{links}
+            "@urdf": f"""{TRUNK}{links}
 <ros2_control name="base" type="system">
   <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
 </ros2_control>
@@ -88,6 +90,10 @@ def robot(folder: Path, links: str, kind: str, parameters: dict[str, object]) ->
         },
         folder,
     )
+    return robot_in(package)
+
+
+def robot_in(package: Path) -> Robot:
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
         robots = subject.all(Robot)

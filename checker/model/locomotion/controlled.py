@@ -77,6 +77,11 @@ class _Named:
         self.robot, self.reader = robot, reader
         self.controller, self.followers = controller, followers
 
+    @property
+    def of_ros1(self) -> bool:
+        """True if it is a differential drive of ROS 1: it measures what is not stated."""
+        return "left_wheel" in self.controller.parameters
+
     def joints(self, *parameters: str) -> list[Joint]:
         """Return the joints that the first of these parameters names, and those that mimic them."""
         joints: dict[str, Joint] = {}
@@ -127,7 +132,8 @@ class _Named:
     def _ends(
         self, motion: str, quantity: str, *least: str
     ) -> tuple[Located[float] | None, Located[float] | None]:
-        if not self.controller.flag(f"{motion}.has_{quantity}_limits", default=True):
+        switch = f"{motion}.has_{quantity}_limits"
+        if not self.controller.flag(switch, default=not self.of_ros1):
             return None, None
         most = _finite(self.controller.number(f"{motion}.max_{quantity}"))
         lowest = _finite(self.controller.number(*(f"{motion}.{name}" for name in least)))
@@ -159,10 +165,14 @@ def _alike(multiplier: str) -> bool:
 
 
 def _differential(named: _Named) -> WheelDrive:
-    left = tuple(named.wheels(Side.LEFT, "left_wheel_names"))
-    right = tuple(named.wheels(Side.RIGHT, "right_wheel_names"))
+    left = tuple(named.wheels(Side.LEFT, "left_wheel_names", "left_wheel"))
+    right = tuple(named.wheels(Side.RIGHT, "right_wheel_names", "right_wheel"))
     slips = max(len(left), len(right)) > 1
     tag, separation = "wheel_separation", named.number("wheel_separation")
+    radius = named.number("wheel_radius")
+    if named.of_ros1 and left and right:
+        separation = separation if separation.stated else _distance(left[0], right[0], separation)
+        radius = radius if radius.stated else replace(radius, value=left[0].radius or 0.0)
     times = named.controller.number("wheel_separation_multiplier")
     if slips and times is not None and times.value != 1.0:
         tag = "wheel_separation × wheel_separation_multiplier"
@@ -171,12 +181,19 @@ def _differential(named: _Named) -> WheelDrive:
         named.controller,
         (*left, *right),
         separation,
-        named.number("wheel_radius"),
+        radius,
         named.limits("linear.x"),
         named.limits("angular.z"),
         separation_tag=tag,
         slips=slips,
     )
+
+
+def _distance(left: Wheel, right: Wheel, unstated: Located[float]) -> Located[float]:
+    """Return the distance of two wheels, which diff_drive_controller of ROS 1 takes itself."""
+    if left.centre is None or right.centre is None:
+        return unstated
+    return replace(unstated, value=math.dist(left.centre, right.centre))
 
 
 def _steered(named: _Named) -> WheelDrive:

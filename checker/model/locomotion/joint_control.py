@@ -1,7 +1,7 @@
-"""Wheels that an autopilot turns, joint by joint.
+"""Wheels that an autopilot, or a node beside controllers of single joints, turns joint by joint.
 
-The plugins that turn them know one joint each; which wheels belong together, and how far apart they
-are, only the autopilot knows. It is set up for the robot, so figures are those of the model, and a
+What turns them knows one joint each; which wheels belong together, and how far apart they are, only
+the autopilot knows. It is set up for the robot, so figures are those of the model, and a
 robot is driven where these leave no doubt: wheels in pairs whose axes point to the left.
 """
 
@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.model.components import Joint, Plugin
+from checker.model.controllers import Controller
 from checker.model.locomotion.locomotion import MotionLimits, Side, Wheel, WheelDrive
 from checker.model.locomotion.wheels import WheelReader
 from checker.source.text import Located
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 _TURNS, _PLACES = "JointController", "JointPositionController"
 _AUTOPILOT = "ArduPilotPlugin"
+_FORWARDS = "ForwardCommandController"
 _ALONG = math.cos(math.radians(1))
 """Cosine of the angle up to which an axis points as it should."""
 _NEAR = 0.1
@@ -57,25 +59,53 @@ def commanded_wheels(robot: Robot) -> CommandedWheels:
     reader = WheelReader(robot)
     knuckles = reader.knuckles(joint for joint, _ in _steering(robot))
     called = {link.scoped_name for link in robot.wheels}
-    named = ((plugin, reader.read(plugin, name, Side.LEFT, knuckles)) for plugin, name in commanded)
+    named = (
+        (it, reader.wheel_below(joint, Side.LEFT, knuckles, name)) for it, joint, name in commanded
+    )
     turned = {
-        wheel.joint: (plugin, wheel)
-        for plugin, wheel in named
+        wheel.joint: (mover, wheel)
+        for mover, wheel in named
         if wheel is not None and wheel.radius is not None and wheel.link.scoped_name in called
     }
     if not turned:
         return CommandedWheels()
-    plugin, _ = next(iter(turned.values()))
+    mover, _ = next(iter(turned.values()))
     wheels = [wheel for _, wheel in turned.values()]
     if doubt := _doubt(wheels):
         return CommandedWheels(doubt=doubt)
-    drive = _drive(robot, plugin, _sided(wheels))
+    drive = _drive(robot, mover, _sided(wheels))
     if drive.steering and drive.wheel_base is None:
         return CommandedWheels(doubt="its wheels do not form one steered and one fixed axle")
     return CommandedWheels(drive)
 
 
-def _commanded(robot: Robot, kind: str, control: str) -> Iterator[tuple[Plugin, Located[str]]]:
+def _commanded(
+    robot: Robot, kind: str, control: str
+) -> Iterator[tuple[Plugin | Controller, Joint, Located[str]]]:
+    """Yield what moves joints in a way, with the joint and its name there."""
+    movers: list[tuple[Plugin | Controller, Located[str]]] = [*_by_plugins(robot, kind, control)]
+    for mover, name in (*movers, *_by_controllers(robot, control)):
+        scoped = mover.scoped(name.value) if isinstance(mover, Plugin) else name.value
+        joint = robot.joints_by_name.get(scoped)
+        if joint is not None:
+            yield mover, joint, name
+
+
+def _by_controllers(robot: Robot, control: str) -> Iterator[tuple[Controller, Located[str]]]:
+    """Yield the joints that controllers of single joints, or of several alike, command."""
+    kinds = {
+        f"Joint{control.capitalize()}Controller",
+        f"JointGroup{control.capitalize()}Controller",
+    }
+    for controller in robot.controllers:
+        forwarded = (text.value.upper() for text in controller.texts("interface_name"))
+        if controller.class_name in kinds or (
+            controller.class_name == _FORWARDS and control in forwarded
+        ):
+            yield from ((controller, name) for name in controller.texts("joint", "joints"))
+
+
+def _by_plugins(robot: Robot, kind: str, control: str) -> Iterator[tuple[Plugin, Located[str]]]:
     """Yield the joints that plugins of a class move, and those of an autopilot's own plugin."""
     for plugin in robot.plugins:
         if plugin.class_name == kind:
@@ -89,10 +119,9 @@ def _commanded(robot: Robot, kind: str, control: str) -> Iterator[tuple[Plugin, 
 
 def _steering(robot: Robot) -> Iterator[tuple[Joint, Side]]:
     """Yield joints that are put in place and turn about an axis that points up."""
-    for plugin, name in _commanded(robot, _PLACES, "POSITION"):
-        joint = robot.joints_by_name.get(plugin.scoped(name.value))
-        axis = robot.axis_in_model(joint, joint.axes[0]) if joint and joint.axes else None
-        if joint is not None and axis is not None and axis[2] >= _ALONG:
+    for _, joint, _ in _commanded(robot, _PLACES, "POSITION"):
+        axis = robot.axis_in_model(joint, joint.axes[0]) if joint.axes else None
+        if axis is not None and axis[2] >= _ALONG:
             pose = robot.pose_of_joint(joint)
             right = pose is not None and pose.translation[1] < 0.0
             yield joint, Side.RIGHT if right else Side.LEFT
@@ -130,7 +159,7 @@ def _sided(wheels: Sequence[Wheel]) -> tuple[Wheel, ...]:
     )
 
 
-def _drive(robot: Robot, plugin: Plugin, wheels: tuple[Wheel, ...]) -> WheelDrive:
+def _drive(robot: Robot, mover: Plugin | Controller, wheels: tuple[Wheel, ...]) -> WheelDrive:
     """Return the drive of wheels in pairs; where some steer, all of a side turn alike."""
     centres = [wheel.centre for wheel in wheels if wheel.centre is not None]
     width = max(y for _, y, _ in centres) - min(y for _, y, _ in centres)
@@ -143,17 +172,17 @@ def _drive(robot: Robot, plugin: Plugin, wheels: tuple[Wheel, ...]) -> WheelDriv
     base = _middle(ahead) - _middle(behind) if on_one_axle else None
 
     def known(number: float) -> Located[float]:
-        return Located(number, plugin.span, stated=False)
+        return Located(number, mover.span, stated=False)
 
     return WheelDrive(
-        plugin,
+        mover,
         wheels,
         # One command steers all wheels, and one turns all of them: the inner wheel cannot be
         # distinguished from the outer one.
         known(0.0 if steering else width),
         known(_middle([wheel.radius for wheel in wheels if wheel.radius is not None])),
-        MotionLimits(plugin.span),
-        MotionLimits(plugin.span),
+        MotionLimits(mover.span),
+        MotionLimits(mover.span),
         wheel_base=None if base is None else known(base),
         kingpin_width=known(0.0) if steering else None,
         steering=steering,

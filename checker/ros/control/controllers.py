@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
+from msgspec import field
+
 from checker.base.record import Record
 from checker.formats.urdf.description import Transmission
 from checker.launch.ros1.graph import resolve_name
 from checker.model.components import Joint, Plugin
+from checker.model.ros_parameters import Parameter
 from checker.ros.control.nodes import Spawned, SpawnedModel, StateListener
 from checker.source.text import Located, Span
 
@@ -43,6 +46,7 @@ class Controller(Record, eq=False):
             absent.
         loaded_by: The `<rosparam>` that loads it; None if no launch file does.
         span: Its key.
+        parameters: All that is configured for it, under names with dots between their levels.
     """
 
     name: str
@@ -52,6 +56,7 @@ class Controller(Record, eq=False):
     gains: Mapping[str, Mapping[str, Gain]]
     span: Span
     loaded_by: Span | None = None
+    parameters: Mapping[str, Parameter] = field(default_factory=dict)
 
     @property
     def full_name(self) -> str:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.launch.ros1.graph import resolve_name
+from checker.model.ros_parameters import flat_parameters
 from checker.ros.control.controllers import Controller, Gain, SimulatorGains
 from checker.source.text import Located, Span
 
@@ -83,7 +84,16 @@ def _controller(full_name: str, span: Span, node: YamlNode, loaded_by: Span | No
     kind = Located(str(written.scalar), written.span) if written is not None else None
     above, _, name = full_name.rpartition("/")
     joints = tuple(_joints(node))
-    return Controller(name, above or "/", kind, joints, _gains(node, joints), span, loaded_by)
+    return Controller(
+        name,
+        above or "/",
+        kind,
+        joints,
+        _gains(node, joints),
+        span,
+        loaded_by,
+        dict(flat_parameters(node)),
+    )
 
 
 def _joints(node: YamlNode) -> Iterator[Located[str]]:

@@ -21,6 +21,9 @@ _BODY_MOVERS = {
 }
 """Libraries and classes of plugins that move a body without its joints."""
 
+_PUBLISHERS = ("Broadcaster", "JointStateController")
+"""Ends of the classes of controllers that move nothing."""
+
 _NAMED = 3
 """Names in a sentence, at most."""
 
@@ -42,7 +45,7 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
     for plugin in robot.all_plugins:
         names = (library_stem(plugin.filename.value), plugin.class_name)
         yield from (_BODY_MOVERS[name] for name in names if name in _BODY_MOVERS)
-    moving = [each for each in robot.controllers if not each.class_name.endswith("Broadcaster")]
+    moving = [each for each in robot.controllers if not each.class_name.endswith(_PUBLISHERS)]
     for controller in moving:
         if controller.class_name in DRIVING_CONTROLLERS:
             what = "names no wheel of the model, or gives its wheels no radius"
@@ -57,7 +60,7 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
         yield _moved_by(plugin.class_name for plugin in robot.driven_joints.values())
     if transmissions := len(robot.element.all("transmission")):
         has = f"it has {count(transmissions, 'transmission')}"
-        yield f"{has} for controllers of ROS 1, whose parameter files are not read"
+        yield f"{has} for controllers of ROS 1, and no file of the package configures one"
     wheels = [wheel.link.name.value for wheel in locomotion.undriven if wheel.steering is None]
     if wheels:
         named = f"its wheels {and_list(wheels)}" if len(wheels) <= _NAMED else "its wheels"

@@ -35,7 +35,9 @@ _NOTE = (
 )
 
 
-NOT_ROLLING = "fewer than three of its wheels, or not all, have a place, a level axis and a radius"
+NOT_ROLLING = (
+    "not all of its wheels with rollers, or fewer than three, have a place and a level axis"
+)
 _FEWEST = 3
 _LIES = 0.1
 """Cosine between an axis that lies and the vertical, at most."""
