@@ -8,6 +8,7 @@ import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -54,15 +55,15 @@ def imports_of(path: Path) -> Iterator[str]:
     return imported(ast.walk(ast.parse(path.read_text("utf-8"))))
 
 
-def imports_when_loaded(path: Path) -> Iterator[str]:
-    """Yield what a module imports as soon as it is imported itself."""
+def imports_when_loaded(path: Path, *, or_later: bool = False) -> Iterator[str]:
+    """Yield what a module imports as soon as it is imported itself, or in its functions too."""
     waiting: list[ast.AST] = [ast.parse(path.read_text("utf-8"))]
     while waiting:
         node = waiting.pop()
         yield from imported(iter([node]))
         if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
             continue
-        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+        if or_later or not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             waiting += ast.iter_child_nodes(node)
 
 
@@ -82,6 +83,18 @@ def test_imports_keep_to_the_layers() -> None:
     command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_modules_import_each_other_in_one_direction() -> None:
+    """Imports inside functions count; those for types alone do not."""
+    paths = {
+        ".".join(each.relative_to(ROOT).with_suffix("").parts): each for each in modules("checker")
+    }
+    graph = {}
+    for name, path in paths.items():
+        found = set(imports_when_loaded(path, or_later=True))
+        graph[name] = (found | {each.rpartition(".")[0] for each in found}) & paths.keys()
+    TopologicalSorter(graph).prepare()
 
 
 def test_rules_do_not_import_each_other() -> None:

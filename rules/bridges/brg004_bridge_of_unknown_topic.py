@@ -90,7 +90,7 @@ def _instead(simulation: Simulation, entry: BridgeEntry) -> str:
 def _other_name(
     simulation: Simulation, entry: BridgeEntry, behind: Iterable[SimulatedTopic]
 ) -> str:
-    """Return which name of a model or world is none; nothing if one of the topics fits."""
+    """Return the model or world that does not exist; nothing if one of the topics fits."""
     models, worlds = simulation.model_names, simulation.world_names
     fault = ""
     for topic in behind:

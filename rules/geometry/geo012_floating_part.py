@@ -31,7 +31,7 @@ def check(
         gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
             count as connected.
         gap_of_wheels: The same for a wheel: many models leave out its axle.
-        marker: Diagonal in metres of a box that only marks a frame; a group that is no larger is
+        marker: Diagonal in metres of a box that only marks a frame; a group that is not larger is
             not reported.
     """
     if robot.is_static:

@@ -26,7 +26,7 @@ def check(
     Options:
         least: Degrees; a smaller angle is not reported.
         most: Degrees; a larger angle is not reported.
-        step: Degrees, at least 1; an angle that is no multiple of it is not reported.
+        step: Degrees, at least 1; angles that are not multiples of it are not reported.
     """
 
     def is_in_degrees(angle: float) -> bool:

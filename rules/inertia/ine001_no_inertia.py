@@ -30,7 +30,7 @@ _FIRST_AUTOMATIC = (1, 11)
 def check(masses: MassProperties, context: Context) -> Findings:
     """Report moving links without inertial, without mass or without any moment of inertia.
 
-    Of an object that is no robot, such as a barrel, it is information.
+    For an object that is not a robot, such as a barrel, it is reported as info.
     """
     robot = masses.robot
     if robot.conventions.has_massless_links:

@@ -26,7 +26,7 @@ from checker.rule import Concern, Context, Finding, Findings, Severity, finding,
 from checker.source.text import Span
 
 _OF_A_BODY = 1e-4
-"""kg·m²: a link without mass that has a larger moment is no frame."""
+"""kg·m²: a link without mass but with a larger moment is not a mere frame."""
 
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)

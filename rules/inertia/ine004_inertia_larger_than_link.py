@@ -30,7 +30,7 @@ def check(
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
 
-    Of an object that is no robot, such as a barrel, it is information.
+    For an object that is not a robot, such as a barrel, it is reported as info.
 
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the

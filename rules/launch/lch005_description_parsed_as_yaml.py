@@ -26,7 +26,7 @@ _DECLARATION = '<?xml version="1.0" ?>\n'
 
 @rule("LCH005", "description-parsed-as-yaml", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, description: UrdfDescription) -> Findings:
-    """Report parameters without a type whose text is no YAML."""
+    """Report parameters without a type that have text which is not valid YAML."""
     text = _DECLARATION + description.document.source.text
     if len(text) > MAX_LENGTH or is_yaml(text):
         return

@@ -107,7 +107,7 @@ def _other_names(plugin: Located[str], package: Package) -> list[str]:
 def _foreign(
     plugin: Located[str], package: Package, papers: Paperwork, owner: str
 ) -> Iterator[Finding]:
-    """Look for the class of a package that is no part of ros2_control."""
+    """Look for the class of a package outside of ros2_control."""
     manifest = papers.manifest
     own = manifest is not None and manifest.name.value == owner
     holder = package if own else package.workspace.package(owner)

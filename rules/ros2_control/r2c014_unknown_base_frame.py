@@ -22,7 +22,7 @@ _STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNod
 
 @rule("R2C014", "unknown-base-frame", Severity.WARNING, Concern.INTERFACE)
 def check(control: RobotControl, launch: Ros2Launch) -> Findings:
-    """Report frames that are no link, unless a launch file publishes more transforms."""
+    """Report frames that are not links, unless a launch file publishes more transforms."""
     if control.robot.missing_parts:
         yield unchecked(control.robot.missing_parts)
         return

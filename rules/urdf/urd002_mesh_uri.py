@@ -31,7 +31,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 
     In a URDF package REF002 reports missing files. A model folder of Gazebo may have `model://` and
-    relative paths, and so may a folder that is no package of ROS: other readers take paths from the
+    relative paths, and so may a folder that is not a ROS package: other readers take paths from the
     file's own folder.
     """
     outside = package.exists("model.config") or not package.exists("package.xml")

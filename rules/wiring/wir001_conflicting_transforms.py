@@ -48,7 +48,7 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _cure(first: Transform, second: Transform) -> str:
-    """Return what to do; a joint itself is no fault, and its robot starts at its root."""
+    """Return what to do; a joint is never at fault, and its robot starts at its root."""
     repeats = isinstance(second.source, Joint) and first.parent == second.parent
     return first.cure if repeats or not second.cure else f"{first.cure}, or {second.cure}"
 

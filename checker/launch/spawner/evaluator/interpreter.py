@@ -16,6 +16,8 @@ from checker.launch.spawner.limits import (
     LimitReached,
 )
 from checker.launch.spawner.literals import TracedString, computed_string, join_strings
+from checker.launch.spawner.methods.call import Call
+from checker.launch.spawner.methods.classes import invoke_method
 from checker.launch.spawner.scope import Function, Scope
 from checker.launch.spawner.signals import Unreadable
 from checker.launch.spawner.value_text import NotWritable, interpolate
@@ -78,6 +80,15 @@ class Interpreter:
             raise Unreadable(node.span, str(limit)) from None
         finally:
             self.depth -= 1
+
+    def invoke(self, call: Call) -> Value:
+        """Return what a method of an object returns.
+
+        Raises:
+            Unreadable: The method is not in the whitelist.
+            RubyError: Ruby refuses the call.
+        """
+        return invoke_method(call)
 
     def run(self, statements: Iterable[RubyNode]) -> Value:
         """Evaluate statements in order; the last one's value counts."""

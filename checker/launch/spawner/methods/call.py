@@ -172,9 +172,7 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
         raise call.refuse("without a block")
     run.budget.spend()
     if block.scope is None:
-        from checker.launch.spawner.methods.classes import invoke_method
-
-        return invoke_method(Call(run, block.node, block.method, arguments[0], arguments[1:]))
+        return run.invoke(Call(run, block.node, block.method, arguments[0], arguments[1:]))
     if block.node.broken:
         raise Unreadable(block.node.span, "contains Ruby that the parser does not understand")
     around = block.scope
