@@ -54,7 +54,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             yield finding(
                 uri,
                 f"mesh {uri.value!r} does not start with package://, so it is "
-                "found on the author's machine at most",
+                "found only on the machine of its author",
                 key="no package",
             )
         elif description.for_rviz:
