@@ -63,7 +63,8 @@ class Robot(Part, dict=True):
         unread_plugins: The reasons why plugins that the spawner adds are not among these; else
             empty.
         meshes: The content of its mesh files.
-        controllers: The controllers of ros2_control, that move its joints.
+        controllers: The controllers of ros2_control or ROS 1, that move its joints.
+        driven_in: Path of the SDF file that describes the same robot with its drive; else empty.
     """
 
     document: XmlDocument
@@ -83,6 +84,7 @@ class Robot(Part, dict=True):
     unread_plugins: str = ""
     meshes: Meshes = NoMeshes()
     controllers: tuple[Controller, ...] = ()
+    driven_in: str = ""
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

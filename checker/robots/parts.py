@@ -25,6 +25,7 @@ from checker.package.formats import Format, format_of
 from checker.package.inheritance import Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.robots.driven_elsewhere import driving_file
 from checker.robots.expanded_sdf import expanded_model
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
@@ -141,7 +142,7 @@ def plugin_hosts(
 def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | NotAvailable:
     """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
     if model.format.is_grouped:
-        return _described(ask)
+        return _described(package, ask)
     read = ask.one(Content)
     if isinstance(read, NotAvailable):
         return read
@@ -158,7 +159,7 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
     return NotAvailable(reason, applicable=not read.worlds)
 
 
-def _described(ask: Ask) -> PlainRobots | NotAvailable:
+def _described(package: Package, ask: Ask) -> PlainRobots | NotAvailable:
     """Return the robots of URDF files with their controllers."""
     descriptions, controlled = ask.all(UrdfDescription), ask.all(ControlledRobot)
     if isinstance(descriptions, NotAvailable):
@@ -166,7 +167,13 @@ def _described(ask: Ask) -> PlainRobots | NotAvailable:
     robots = {id(it.robot): it.robot for it in descriptions}
     for each in () if isinstance(controlled, NotAvailable) else controlled:
         robots[id(each.robot)] = replace(each.robot, controllers=each.controllers)
-    return PlainRobots(tuple(robots.values()))
+    return PlainRobots(tuple(_with_driving_file(package, robot) for robot in robots.values()))
+
+
+def _with_driving_file(package: Package, robot: Robot) -> Robot:
+    if robot.driven_joints or robot.controllers or not robot.wheels or package.only:
+        return robot
+    return replace(robot, driven_in=driving_file(package, robot))
 
 
 def _with_spawned_plugins(robot: Robot, spawned: SpawnedXml | NotAvailable) -> Robot:

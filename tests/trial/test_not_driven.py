@@ -13,6 +13,7 @@ from checker.package.inputs import open_input
 from checker.physics.trial.drivers.plans import plan_of
 from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
+from checker.rule_testing import write_example
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 
@@ -49,6 +50,31 @@ def test_a_car_without_steering_joints(tmp_path: Path, new: str) -> None:
     report = driven(changed("subtcheck_buggy", tmp_path, *changes))
     assert report.verdict is VerdictKind.INCOMPLETE
     assert "steer no part of the model" in report.blind_spots[0].reason
+
+
+CART = """<link name="cart_wheel"><collision><geometry><sphere radius="0.1"/></geometry>
+</collision></link><joint name="cart_wheel" type="continuous"><parent link="base_link"/>
+<child link="cart_wheel"/><axis xyz="0 1 0"/></joint>"""
+MODEL = """<sdf version="1.9"><model name="{}"><plugin filename="p" name="gz::sim::systems::{}">
+<left_joint>{}</left_joint><joint_name>cart_wheel</joint_name></plugin></model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    ("name", "plugin", "joint", "named"),
+    [
+        ("arm", "DiffDrive", "cart_wheel", True),
+        ("arm", "JointStatePublisher", "cart_wheel", False),
+        ("arm", "DiffDrive", "other_wheel", False),
+        ("other", "DiffDrive", "cart_wheel", False),
+    ],
+)
+def test_the_reason_names_the_sdf_file_with_the_drive(
+    tmp_path: Path, name: str, plugin: str, joint: str, named: bool
+) -> None:
+    files = {"@urdf": CART, "models/cart/cart.sdf": MODEL.format(name, plugin, joint)}
+    with open_input(write_example(files, tmp_path)) as opened:
+        (robot,) = Subject(opened.packages[0]).all(Robot)
+    assert ("its drive is in models/cart/cart.sdf" in plan_of(robot).not_driven) is named
 
 
 @pytest.mark.parametrize("tag", ["max_velocity", "max_acceleration"])

@@ -61,6 +61,8 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
     if transmissions := len(robot.element.all("transmission")):
         has = f"it has {count(transmissions, 'transmission')}"
         yield f"{has} for controllers of ROS 1, and no file of the package configures one"
+    if robot.driven_in:
+        yield f"its drive is in {robot.driven_in}, which describes the same robot for Gazebo"
     wheels = [wheel.link.name.value for wheel in locomotion.undriven if wheel.steering is None]
     if wheels:
         named = f"its wheels {and_list(wheels)}" if len(wheels) <= _NAMED else "its wheels"
