@@ -131,7 +131,7 @@ def why_not(content: str) -> str:
         (plugin("Thruster", ""), "swims"),
         (
             plugin("MecanumDrive", tags(front_left_joint="w_axle")) + wheel("w"),
-            "fewer than three of its wheels",
+            "wheels with rollers",
         ),
         ("", ""),
     ],
