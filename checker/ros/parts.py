@@ -66,12 +66,15 @@ def controlled_robots(
     package: Package,
     descriptions: tuple[UrdfDescription, ...],
     controls: tuple[RobotControl, ...] | NotAvailable,
+    reader: ControlReader,
     ask: Ask,
 ) -> tuple[ControlledRobot, ...] | NotAvailable:
     """Return robots with the controllers of ros2_control, or of ROS 1, that may run."""
     started = package.workspace.launch_words
     known = () if isinstance(controls, NotAvailable) else controls
-    found = {id(control.robot): (control.robot, control.controllers) for control in known}
+    found = {
+        id(it.robot): (it.robot, it.controllers or reader.controllers_beside(it)) for it in known
+    }
     others = [it.robot for it in descriptions if it.transmissions and id(it.robot) not in found]
     # Files of parameters are read for those robots alone that need them.
     loaded = ask.one(Parameters) if others else NotAvailable("no robot has a transmission")

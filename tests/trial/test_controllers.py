@@ -195,3 +195,43 @@ def test_a_wheel_that_does_not_exist_leaves_a_robot_on_rollers_where_it_is(tmp_p
     links, kind, parameters, _ = CASES["omni"]
     plan = plan_of(robot(tmp_path, links, kind, {**parameters, "wheel_names": "[w0, w1]"}))
     assert "fewer than three" in plan.not_driven
+
+
+HARDWARE = """<ros2_control name="base" type="system">
+  <joint name="rear_left"><command_interface name="velocity"/></joint></ros2_control>"""
+
+
+def workspace(folder: Path, others: int, more: str = "") -> Path:
+    """Write a description and further packages that configure its drive."""
+    _, kind, parameters, _ = CASES["diff_drive"]
+    lines = "".join(f"    {name}: {text}\n" for name, text in parameters.items())
+    package = write_example({"@urdf": TRUNK + REAR + BALL + HARDWARE + more}, folder)
+    for number in range(others):
+        other = package.parent / f"acme_control_{number}"
+        (other / "config").mkdir(parents=True)
+        (other / "package.xml").write_text(f"<package><name>{other.name}</name></package>")
+        text = f"base:\n  ros__parameters:\n    type: {kind}\n{lines}"
+        (other / "config" / "base.yaml").write_text(text)
+    return package
+
+
+def test_the_package_beside_a_description_configures_its_drive(tmp_path: Path) -> None:
+    (drive,) = robot_in(workspace(tmp_path, 1)).locomotion.wheel_drives
+    assert drive.plugin.span.source.file == "../acme_control_0/config/base.yaml"
+
+
+@pytest.mark.parametrize(
+    ("others", "more"),
+    [
+        (2, ""),
+        (
+            1,
+            '<gazebo><plugin filename="gz_ros2_control-system" name="p">'
+            "<parameters>own.yaml</parameters></plugin></gazebo>",
+        ),
+    ],
+)
+def test_what_is_not_certain_to_be_its_own_drives_nothing(
+    tmp_path: Path, others: int, more: str
+) -> None:
+    assert not robot_in(workspace(tmp_path, others, more)).locomotion.wheel_drives

@@ -18,13 +18,14 @@ from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.ros_parameters import (
     MANAGER,
+    PARAMETERS,
     bare_managers,
     read_blocks,
     refused_value,
 )
 from checker.package.package import Package
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
-from checker.source.text import Located, Span
+from checker.source.text import Located, SourceText, Span
 
 if TYPE_CHECKING:
     from checker.source.yaml import YamlFault, YamlNode
@@ -208,6 +209,30 @@ class ControlReader:
         index = self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]
         paths = [entry.path for entry in index if not entry.is_of_tests]
         return launched or tuple(self._mentioning(paths, names))
+
+    def controllers_beside(self, control: RobotControl) -> tuple[Controller, ...]:
+        """Return the controllers of a robot that one other package configures; none if several do.
+
+        A robot whose description names its file of parameters has those alone.
+        """
+        if self.package.only or any(manager.files for manager in control.managers):
+            return ()
+        names = control.components
+        beside = (
+            tuple(self._mentioning(self._beside(other, names), names))
+            for other in self.package.other_packages
+        )
+        found = [files for files in beside if files]
+        return controllers_of(found[0]) if len(found) == 1 else ()
+
+    def _beside(self, other: Package, names: frozenset[str]) -> Iterator[str]:
+        """Yield the files of another package that may configure these joints."""
+        for entry in other.index.with_suffix(".yaml", ".yml")[:MAX_FILES]:
+            path = f"../{other.root.name}/{entry.path}"
+            source = None if entry.is_of_tests else self.package.read(path)
+            text = source.text if isinstance(source, SourceText) else ""
+            if PARAMETERS in text and any(name in text for name in names):
+                yield path
 
     def _mentioning(self, paths: Iterable[str], names: frozenset[str]) -> Iterator[ControllerFile]:
         """Yield those of the files that configure a controller of these joints."""
