@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from checker.base.words import Suggestions, and_list
 from checker.model.controllers import Controller
 from checker.model.ros_parameters import Parameter
+from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
     ControllerType,
     controller_types,
@@ -29,6 +30,7 @@ from checker.rule import (
     finding,
     replace_text,
     rule,
+    unchecked,
 )
 from checker.rulebook.example_parts import SHOULDER, ros2_control
 
@@ -36,10 +38,11 @@ _OF_ALL: Mapping[str, str] = {"update_rate": "int", "use_sim_time": "bool", "is_
 
 
 @rule("R2C010", "invalid-controller-parameter", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, context: Context) -> Findings:
+def check(control: RobotControl, context: Context, package: Package) -> Findings:
     """Report what keeps controllers of ros2_controllers from being configured.
 
-    A controller without any block may get its parameters from the spawner: it is a warning.
+    A controller without any block may get its parameters from the spawner: it is a warning. One
+    whose package is in the workspace is not checked, since it may be a changed copy.
     """
     distribution = distribution_of(context)
     for file in control.files:
@@ -53,6 +56,9 @@ def check(control: RobotControl, context: Context) -> Findings:
     for controller in control.controllers:
         known = controller_types().get(controller.type.value)
         if known is None or not known.exists_in(distribution):
+            continue
+        if package.workspace.package(known.package) is not None:
+            yield unchecked(f"{controller.label} is of a package in the workspace: it may differ")
             continue
         yield from _missing(controller, known, distribution, blocks)
         for name in sorted(controller.own):

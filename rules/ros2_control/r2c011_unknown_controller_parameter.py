@@ -11,6 +11,7 @@ Source: parameter files of ros2_controllers, by branch.
 """
 
 from checker.base.words import Suggestions
+from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
     COMMON_PARAMETERS,
     ControllerType,
@@ -18,7 +19,7 @@ from checker.ros.ros2_control.distributions import (
     distribution_of,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import SHOULDER, ros2_control
 
 _STAMPED = "use_stamped_vel"
@@ -27,20 +28,26 @@ _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinemati
 
 
 @rule("R2C011", "unknown-controller-parameter", Severity.WARNING, Concern.INTERFACE)
-def check(control: RobotControl, context: Context) -> Findings:
+def check(control: RobotControl, context: Context, package: Package) -> Findings:
     """Report parameters of ros2_controllers that have no effect.
 
     One that only other distributions know is information, except `use_stamped_vel: false`.
+    Controllers of packages in the workspace are not checked, since they may be changed copies.
     """
     distribution = distribution_of(context)
     for controller in control.controllers:
         known = controller_types().get(controller.type.value)
-        names = _known_parameters(known, distribution) if known is not None else ()
+        if known is None:
+            continue
+        if package.workspace.package(known.package) is not None:
+            yield unchecked(f"{controller.label} is of a package in the workspace: it may differ")
+            continue
+        names = _known_parameters(known, distribution)
         suggestions = Suggestions(names)
-        for name in sorted(controller.own) if known is not None and names else ():
+        for name in sorted(controller.own) if names else ():
             if name in COMMON_PARAMETERS or name.startswith(_READ_OTHERWISE):
                 continue
-            if known is None or known.known_in(name, distribution):
+            if known.known_in(name, distribution):
                 continue
             parameter = controller.parameters[name]
             elsewhere = known.parameter(name) is not None

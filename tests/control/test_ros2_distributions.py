@@ -125,3 +125,25 @@ def test_an_interface_matters_once_its_controller_is_started(
         if found.rule == "R2C009" and "'drive'" in found.message
     }
     assert drives == {severity}
+
+
+@pytest.mark.parametrize("rule", ["R2C010", "R2C011"])
+def test_a_changed_copy_of_a_controller_has_parameters_of_its_own(
+    rule: str, tmp_path: Path
+) -> None:
+    changed = CONTROLLERS.replace("wheel_radius: 0.1", "radius: 0.1")
+    example = {"@urdf": ARM.replace("@", "a/B"), "config/arm.yaml": changed}
+    package = write_example(example, tmp_path / "workspace")
+
+    def found() -> tuple[bool, bool]:
+        settings = Settings(profile="ros2", profile_chosen=True, distro="jazzy", trial=False)
+        (report,) = check_package(package, settings).packages
+        unchecked = [each for each in report.not_checked if "in the workspace" in each.reason]
+        of_drive = [each for each in report.findings if "'drive'" in each.message]
+        return rule in {each.rule for each in of_drive}, rule in {each.rule for each in unchecked}
+
+    assert found() == (True, False)
+    copy = package.parent / "diff_drive_controller"
+    copy.mkdir()
+    (copy / "package.xml").write_text("<package><name>diff_drive_controller</name></package>")
+    assert found() == (False, True)
