@@ -130,14 +130,15 @@ class TestManyChecks:
     def test_tell_how_long_they_take(self, site: Site) -> None:
         site.worker()
         assert site.jobs.stage_seconds() == {}
-        ids = [site.submit(f"static:0.5 trial:{seconds}") for seconds in (1, 1, 5)]
+        ids = [site.submit(f"static:2 trial:{seconds}") for seconds in (2, 2, 6)]
         assert {site.end(id).stage for id in ids} == {Stage.DONE}
         seconds = site.jobs.stage_seconds()
         times = [[event.time for event in site.events(id)] for id in ids]
         static = median(done - begun for _, begun, done, *_ in times)
         trial = median(done - begun for *_, begun, done in times)
-        assert 0.4 < seconds["static"] == pytest.approx(static, abs=0.2)
-        assert 0.9 < seconds["trial"] == pytest.approx(trial, abs=0.2)
+        # With SQLite, the engine's times are whole seconds.
+        assert seconds["static"] == pytest.approx(static, abs=1.0)
+        assert seconds["trial"] == pytest.approx(trial, abs=1.0)
         state = site.state(ids[0])
         for _ in range(3):  # what was in the store takes no time, and says nothing of others
             site.jobs.submit(state.order)
