@@ -6,13 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.parts import NotAvailable
-from checker.engine.subject import Subject
 from checker.model.locomotion.locomotion import DriveKind, Side
 from checker.model.locomotion.wheel_positions import counted_distances
 from checker.model.robot import Robot
-from checker.package.inputs import open_input
-from checker.rule_testing import write_example
+from tests.model.controlled import controlled
 
 PLACES = {"front_left": (0.5, 0.3), "front_right": (0.5, -0.3)} | {
     "rear_left": (-0.5, 0.3),
@@ -40,29 +37,7 @@ def wheel(name: str, more: str = "", axis: str = "0 1 0") -> str:
 
 
 def robot(folder: Path, kind: str, parameters: str, links: str = "") -> Robot:
-    links = links or "".join(map(wheel, PLACES))
-    package = write_example(
-        {
-            "@urdf": f"""{links}
-<ros2_control name="base" type="system">
-  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-  <joint name="rear_left"><command_interface name="velocity"/></joint>
-</ros2_control>
-<gazebo>
-  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
-    <parameters>$(find acme_arm_description)/config/base.yaml</parameters>
-  </plugin>
-</gazebo>""",
-            "config/base.yaml": f"base:\n  ros__parameters:\n    type: {kind}\n{parameters}",
-        },
-        folder,
-    )
-    with open_input(package) as opened:
-        subject = Subject(opened.packages[0])
-        robots = subject.all(Robot)
-        subject.close()
-    assert not isinstance(robots, NotAvailable)
-    return robots[0]
+    return controlled(folder, links or "".join(map(wheel, PLACES)), kind, parameters)
 
 
 DIFF = "diff_drive_controller/DiffDriveController"

@@ -7,13 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.parts import NotAvailable
-from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.inputs import open_input
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.trial import Trial
 from checker.rule_testing import write_example
+from tests.model.controlled import controlled, robot_in
 from tests.trial.machines import trial_in_child, value
 
 _INERTIAL = """<inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0"
@@ -75,31 +73,7 @@ TRUNK = f"""<link name="trunk">{_INERTIAL.format(10, 0.15, 0.25, 0.35)}<collisio
 
 def robot(folder: Path, links: str, kind: str, parameters: dict[str, object]) -> Robot:
     lines = "".join(f"    {name}: {value}\n" for name, value in parameters.items())
-    package = write_example(
-        {
-            "@urdf": f"""{TRUNK}{links}
-<ros2_control name="base" type="system">
-  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-</ros2_control>
-<gazebo>
-  <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
-    <parameters>$(find acme_arm_description)/config/base.yaml</parameters>
-  </plugin>
-</gazebo>""",
-            "config/base.yaml": f"base:\n  ros__parameters:\n    type: {kind}\n{lines}",
-        },
-        folder,
-    )
-    return robot_in(package)
-
-
-def robot_in(package: Path) -> Robot:
-    with open_input(package) as opened:
-        subject = Subject(opened.packages[0])
-        robots = subject.all(Robot)
-        subject.close()
-    assert not isinstance(robots, NotAvailable)
-    return robots[0]
+    return controlled(folder, TRUNK + links, kind, lines)
 
 
 def driven(folder: Path, links: str, kind: str, parameters: dict[str, object]) -> Trial:

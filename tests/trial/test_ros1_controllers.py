@@ -11,9 +11,10 @@ from checker.model.robot import Robot
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.trial import Trial
 from checker.rule_testing import write_example
+from tests.model.controlled import robot_in
 from tests.model.robots import urdf
 from tests.trial.machines import trial_in_child, value
-from tests.trial.test_controllers import BALL, CORNERS, FOUR, REAR, TRUNK, robot_in
+from tests.trial.test_controllers import BALL, CORNERS, FOUR, REAR, TRUNK
 
 TRANSMISSION = """<transmission name="{0}_motor">
   <type>transmission_interface/SimpleTransmission</type>
