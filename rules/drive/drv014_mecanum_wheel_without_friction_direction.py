@@ -1,0 +1,97 @@
+"""A Mecanum wheel that rolls like an ordinary wheel in Gazebo.
+
+Gazebo has no rollers: a Mecanum wheel without `<fdir1>` has equal friction in all directions, and
+the robot drives ahead but not sideways. It turns badly or not at all: one whose wheelbase is not
+shorter than its track turned at 0.000 rad/s in Gazebo Fortress, where about 1 rad/s was commanded. A
+friction direction at 45° in the base's frame, with two different coefficients, has the effect of
+rollers.
+
+Wheels with links below them are left out, since these may be rollers.
+
+Fix: give the wheel's collision
+`<fdir1 gz:expressed_in="base_link">1 -1 0</fdir1>`, `<mu>1</mu>` and `<mu2>0</mu2>` in
+`<surface><friction><ode>`; front right and rear left wheels have `1 1 0`.
+Source: Gazebo Sim's example of the MecanumDrive system; the turn was measured with
+ign-physics 5 (DART).
+"""
+
+from checker.formats.friction import FrictionReader
+from checker.model.locomotion.locomotion import DriveKind
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+
+
+@rule(
+    "DRV014",
+    "mecanum-wheel-without-friction-direction",
+    Severity.WARNING,
+    Concern.ROBOT,
+)
+def check(robot: Robot) -> Findings:
+    """Report wheels of a Mecanum drive whose collisions have no friction direction."""
+    if robot.locomotion.kind is not DriveKind.MECANUM or not robot.is_for_gazebo:
+        return
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    moved_by = {
+        name for p in robot.plugins for name in (p.class_name, library_stem(p.filename.value))
+    }
+    if moved_by & _MOVE_THE_BODY:
+        return
+    parents = {joint.scope + joint.parent.value for joint in robot.joints}
+    reader = FrictionReader(robot)
+    for wheel in (wheel for drive in robot.locomotion.wheel_drives for wheel in drive.wheels):
+        names = {link.scoped_name for link in wheel.body}
+        shapes = [(link, shape) for link in wheel.body for shape in link.collisions]
+        directed = any(reader.friction_of(*each).direction for each in shapes)
+        if shapes and not directed and not names & parents:
+            yield finding(
+                shapes[0][1],
+                f"wheel {wheel.link.name.value!r} of a Mecanum drive has no <fdir1>: in Gazebo it "
+                "rolls like an ordinary wheel, and the robot does not move sideways: add <fdir1> "
+                "and <mu2>0</mu2>",
+                key="rollers",
+            )
+
+
+_MOVE_THE_BODY = frozenset({"VelocityControl", "gazebo_ros_planar_move"})
+"""Classes and libraries of plugins that set the velocity of the whole robot."""
+
+
+def _robot(friction: str = "", below: str = "", plugin: str = "", mark: str = "") -> str:
+    joints = ("front_left", "front_right", "back_left", "back_right")
+    wheels = "".join(
+        f"""
+<link name="{name}">
+  <collision name="tread">{mark}
+    <geometry><sphere><radius>0.1</radius></sphere></geometry>{friction}
+  </collision>
+</link>
+<joint name="{name}_joint" type="revolute">
+  <parent>base_link</parent><child>{name}</child><axis><xyz>0 1 0</xyz></axis>
+</joint>"""
+        for name in joints
+    )
+    named = "".join(f"<{name}_joint>{name}_joint</{name}_joint>" for name in joints)
+    return f"""{wheels}{below}{plugin}
+<plugin filename="gz-sim-mecanum-drive-system" name="gz::sim::systems::MecanumDrive">
+  {named}
+</plugin>
+"""
+
+
+_ROLLERS = "".join(
+    f'<link name="{name}_roller"/><joint name="{name}_roller_joint" type="revolute">'
+    f"<parent>{name}</parent><child>{name}_roller</child><axis><xyz>1 1 0</xyz></axis></joint>"
+    for name in ("front_left", "front_right", "back_left", "back_right")
+)
+_DIRECTED = """
+    <surface><friction><ode>
+      <mu>1</mu><mu2>0</mu2><fdir1 gz:expressed_in="base_link">1 -1 0</fdir1>
+    </ode></friction></surface>"""
+_WHOLE = (
+    '<plugin filename="gz-sim-velocity-control-system" name="gz::sim::systems::VelocityControl"/>'
+)
+GOOD = [_robot(_DIRECTED), _robot(below=_ROLLERS), _robot(plugin=_WHOLE)]
+BAD = [_robot(mark="  <!-- ^ DRV014 -->")]
