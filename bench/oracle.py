@@ -1,5 +1,8 @@
 """Trials compared with Gazebo's physics: a line for each robot of some folders, and what agrees.
 
+Joints that are moved one by one are not compared: their line has the largest distance from their
+paths and the largest share of an effort limit. The last line counts the robots that are moved.
+
     python -m bench.oracle [FOLDER...]
 
 Without folders, SUBT_CHECK_CORPUS, SUBT_CHECK_MODERN and the samples. Debian's
@@ -18,9 +21,13 @@ from pathlib import Path
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
+from checker.model.locomotion.commanded_joints import moving_controllers
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.package.package import Package
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.trial import Trial
 from support.fortress import LIBRARIES, SOURCE, Refused
 from support.fortress.comparison import Comparison, Figures, compared
 from support.oracles import compiled, is_installed
@@ -45,11 +52,19 @@ def robots(folder: Path) -> Iterator[tuple[Package, Robot]]:
                 yield from ((package, robot) for robot in found)
 
 
-def line(robot: Robot, result: Comparison | str) -> str:
+def line(robot: Robot, result: Comparison | Trial | str) -> str:
     """Return a robot's line: what moved it, and each figure here / there."""
     name = f"{robot.name.value[:32]:32} "
     if isinstance(result, str):
         return name + result
+    if isinstance(result, Trial):
+        limits = {limit.part: limit.value for limit in result.all("torque_limit")}
+        shares = [
+            it.value / limits[it.part] for it in result.all("move_torque") if it.part in limits
+        ]
+        behind = max(error.value for error in result.all("move_error"))
+        share = f"  effort {max(shares):.0%}" if shares else ""
+        return f"{name}moved joint by joint: {result.moved}  behind {behind:.4f}{share}"
     pairs = [
         f"{label} {getattr(result.here, member):.3f}/{getattr(result.there, member):.3f}"
         for label, member in LABELS.items()
@@ -70,6 +85,15 @@ def summary(results: list[Comparison]) -> Iterator[str]:
             yield f"{label:5} median {statistics.median(known):.2%}  90 % within {least:.2%}"
 
 
+def is_moved(robot: Robot, result: Comparison | Trial | str) -> bool | None:
+    """Return whether a robot is moved; None for one without a drive or a controller."""
+    flies = plan_of(robot).rotors
+    if flies or not isinstance(result, str):
+        return True
+    has_drive = robot.locomotion.kind is not DriveKind.NONE
+    return False if has_drive or moving_controllers(robot) or robot.driven_joints else None
+
+
 def _apart(here: Figures, there: Figures, member: str) -> float:
     one, other = getattr(here, member), getattr(there, member)
     return float(abs(one - other) / max(abs(other), 1e-3))
@@ -79,19 +103,24 @@ def main() -> None:
     """Compare all robots."""
     if not is_installed(LIBRARIES):
         sys.exit("libignition-physics-dev and libsdformat-dev are not installed")
-    results = []
+    results: list[Comparison | Trial | str] = []
+    counted: list[bool | None] = []
     with tempfile.TemporaryDirectory() as work:
         program = compiled(SOURCE, LIBRARIES, Path(work))
         for folder in folders(sys.argv[1:]):
             for package, robot in robots(folder):
+                result: Comparison | Trial | str
                 try:
                     result = compared(program, package, robot)
                 except Refused as refusal:
                     result = f"Gazebo refuses it: {refusal}"
                 print(line(robot, result), flush=True)
                 results.append(result)
+                counted.append(is_moved(robot, result))
     for each in summary([result for result in results if isinstance(result, Comparison)]):
         print(each)
+    movable = [each for each in counted if each is not None]
+    print(f"{sum(movable)} of {len(movable)} robots with a drive or a controller are moved")
 
 
 if __name__ == "__main__":

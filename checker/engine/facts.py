@@ -62,9 +62,9 @@ def trial_facts(
         verdicts = _about(driven, verdicts)
     trial = driven.trial
     data = replace(trial, replay=None).as_json()
-    why_not = {"not_driven": trial.not_driven} if trial.not_driven else {}
+    said = {"not_driven": trial.not_driven, "moved": trial.moved}
     return {
-        **why_not,
+        **{name: text for name, text in said.items() if text},
         "drive": trial.drive,
         "versions": dict(trial.versions),
         "course": data["legs"],
@@ -154,7 +154,7 @@ def _verdict(
 
 def _is_excused(measurement: Measurement, driven: RobotTrial, options: Mapping[str, Any]) -> bool:
     """Return whether a torque exceeds its effort limit, so that a silent rule does not count."""
-    if measurement.name != "torque":
+    if measurement.name not in ("torque", "move_torque"):
         return False
     efforts = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     most: float = options.get("warning_above", 1.0) * efforts.get(measurement.part, math.inf)

@@ -20,6 +20,7 @@ HEADLINES = (
     *("load_share", "torque"),
     *("thrust_to_weight", "hover_effort", "climbed"),
     *("hold_sag", "hold_tilt"),
+    *("move_error", "move_torque"),
 )
 """Figures that are shown when all is well; others only when a rule objects."""
 
@@ -101,6 +102,7 @@ _SHARES = {
     "full_speed": "the velocity limit",
     "full_acceleration": "the acceleration limit",
     "torque": "the effort limit",
+    "move_torque": "the effort limit",
     "error_below_command": "the command",
 }
 """Figures, or limits, that are compared with another figure instead of a number."""

@@ -166,6 +166,15 @@ class TrialJson(TypedDict):
     not_driven: NotRequired[
         Annotated[str, Meta(description="Reason why a robot that can move was not driven.")]
     ]
+    moved: NotRequired[
+        Annotated[
+            str,
+            Meta(
+                description="What was moved joint by joint: `6 joints by"
+                " JointTrajectoryController 'arm'`."
+            ),
+        ]
+    ]
     drive: str
     versions: Annotated[Mapping[str, str], Meta(description="Of MuJoCo and of the course.")]
     course: Annotated[

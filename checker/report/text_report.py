@@ -74,7 +74,9 @@ def _table(rows: Sequence[Row], palette: Palette) -> Iterator[str]:
 def _course(trial: Mapping[str, Any]) -> str:
     seconds = max((leg["end"] for leg in trial["course"]), default=0.0)
     version = trial["versions"].get("mujoco", "")
-    return f"{trial['drive']}, {seconds:g} s in MuJoCo {version}".rstrip()
+    moved = trial.get("moved")
+    what = f"moved joint by joint: {_short(moved)}" if moved else trial["drive"]
+    return f"{what}, {seconds:g} s in MuJoCo {version}".rstrip()
 
 
 def _coloured(verdict: str, palette: Palette) -> str:

@@ -4,9 +4,14 @@ The simulated motor stops at its limit: the robot starts slower, does not reach 
 its load. The torque is that of servos without limits. A joint whose effort limit specifications.md
 explains is not checked.
 
+The joints of an arm, which controllers move, go a small step from their start and back, one by one
+and then together, within their velocity limits: where that needs more than the limit, the arm
+cannot follow its controller even near its start.
+
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
-the drive at full speed, compared with `<effort>`.
+the drive at full speed, and that of inverse dynamics on the paths of an arm's joints, compared with
+the effort limit.
 """
 
 import re
@@ -18,7 +23,13 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import rover
 
 
-@rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT, judges=("torque",))
+@rule(
+    "TRI009",
+    "effort-limit-exceeded",
+    Severity.WARNING,
+    Concern.ROBOT,
+    judges=("torque", "move_torque"),
+)
 def check(
     driven: SettledTrial, specification: Specification | None, *, warning_above: float = 1.0
 ) -> Findings:
@@ -29,19 +40,35 @@ def check(
             is reported.
     """
     limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
-    for torque in driven.trial.all("torque"):
+    needed = [(it, "") for it in driven.trial.all("torque")]
+    needed += [(it, _path(driven, it.part)) for it in driven.trial.all("move_torque")]
+    weak: set[str] = set()
+    for torque, path in needed:
         limit = limits.get(torque.part)
-        if limit is None or abs(torque.value) <= warning_above * limit:
+        if limit is None or abs(torque.value) <= warning_above * limit or torque.part in weak:
             continue
+        weak.add(torque.part)
         joint = driven.robot.joints_by_name.get(torque.part)
         if joint is None or not _is_explained(joint, specification):
             unit = _unit(driven, torque.part)
             yield finding(
                 driven.part(torque.part),
-                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}, but its effort "
+                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}{path}, but its effort "
                 f"limit is {limit:.3g} {unit}",
                 key="torque",
             )
+
+
+def _path(driven: SettledTrial, joint: str) -> str:
+    """Return where a joint is moved, and how far it stays behind within its effort limit."""
+    step, error = (driven.trial.value(name, joint) or 0.0 for name in ("move_step", "move_error"))
+    unit = "m" if _unit(driven, joint) == "N" else "rad"
+    behind = f" and stays {error:.2g} {unit} behind" if error > _BEHIND * step else ""
+    return f" for steps of {step:.2g} {unit} from its start{behind}"
+
+
+_BEHIND = 0.05
+"""Share of a joint's step by which it lags visibly."""
 
 
 _EFFORT = re.compile(
@@ -86,12 +113,43 @@ _SHEET = """# Acme Rover
 The effort limit of the wheels is low, so that they do not slip.
 """
 
+
+def _arm(effort: float, mark: str = "") -> str:
+    """A boom of 2 kg that hangs down from a heavy base: only away from there it has a load."""
+    return f"""
+<sdf version="1.6">
+<model name="acme_arm_sensor_config_1">
+<link name="base_link">
+  <pose>0 0 0.6 0 0 0</pose>
+  <inertial><mass>80</mass><inertia><ixx>5</ixx><iyy>5</iyy><izz>5</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>1 1 1.2</size></box></geometry></collision>
+</link>
+<link name="boom">
+  <pose>0 0.6 1.1 0 0 0</pose>
+  <inertial><pose>0 0 -0.4 0 0 0</pose><mass>2</mass>
+    <inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
+</link>
+<joint name="swing" type="revolute">{mark}
+  <parent>base_link</parent><child>boom</child>
+  <axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper><effort>{effort}</effort></limit>
+  </axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::JointPositionController">
+  <joint_name>swing</joint_name>
+</plugin>
+</model>
+</sdf>
+"""
+
+
 GOOD = [
     _rover(50.0),
     _rover(-1.0),
     {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
+    _arm(6.0),
 ]
 BAD = [
     _rover(0.1, _MARK),
+    _arm(1.5, _MARK),
     {"model.sdf": _rover(0.1, _MARK), "specifications.md": _REFERENCE},
 ]

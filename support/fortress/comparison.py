@@ -58,8 +58,10 @@ class Comparison:
     there: Figures
 
 
-def compared(program: Path, package: Package, robot: Robot) -> Comparison | str:
+def compared(program: Path, package: Package, robot: Robot) -> Comparison | Trial | str:
     """Drive a robot in both; else return why not, as the end of a sentence.
+
+    Of a robot whose joints are moved one by one, the trial in MuJoCo is returned.
 
     Args:
         program: The compiled program.
@@ -72,11 +74,11 @@ def compared(program: Path, package: Package, robot: Robot) -> Comparison | str:
     scene, plan = scene_of_trial(robot)
     if scene.unusable:
         return scene.unusable
-    if not plan.speeds:
+    if not plan.speeds and not plan.moved:
         return plan.not_driven or f"its motion is {plan.kind}"
     trial = run_trial(scene, plan, TIMESTEP)
-    if trial.refused:
-        return trial.refused
+    if trial.refused or plan.moved:
+        return trial.refused or trial
     source = robot.span.source
     with tempfile.TemporaryDirectory() as folder:
         model = Path(folder) / f"robot.{robot.format}"

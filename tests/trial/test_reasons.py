@@ -38,12 +38,12 @@ def test_what_moves_a_robot_of_urdf(content: str, reason: str) -> None:
     assert reason in why(urdf(BODY + content))
 
 
-def test_joints_that_a_plugin_moves() -> None:
+def test_joints_that_an_unknown_plugin_moves() -> None:
     moved = """<link name="base"/><link name="arm"/><joint name="j" type="revolute">
 <parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>
-<plugin filename="p" name="gz::sim::systems::JointPositionController">
-<joint_name>j</joint_name></plugin>"""
-    assert why(sdf(moved)).startswith("its joints are moved by JointPositionController; none")
+<plugin filename="p" name="acme::{}"><joint_name>j</joint_name></plugin>"""
+    assert why(sdf(moved.format("Hand"))).startswith("its joints are moved by Hand; none")
+    assert not why(sdf(moved.format("JointPositionController")))
 
 
 def test_a_body_whose_velocity_a_plugin_sets() -> None:
@@ -54,7 +54,10 @@ def test_a_body_whose_velocity_a_plugin_sets() -> None:
 @pytest.mark.parametrize(
     ("kind", "reason"),
     [
-        ("joint_trajectory_controller/JointTrajectoryController", "by JointTrajectoryController;"),
+        (
+            "joint_trajectory_controller/JointTrajectoryController",
+            "'base' names no joint of the model",
+        ),
         ("diff_drive_controller/DiffDriveController", "DiffDriveController 'base' names no wheel"),
         ("joint_state_broadcaster/JointStateBroadcaster", "configures no controller"),
     ],

@@ -14,6 +14,7 @@ VERSION = "1"
 SETTLE, DRIVE, STOP_DRIVE = "settle", "drive", "stop after drive"
 TURN, STOP_TURN, FULL = "turn", "stop after turn", "full speed"
 HOVER, CLIMB, HOLD = "hover", "climb", "hold"
+MOVE, TOGETHER = "joint by joint", "all joints"
 
 SETTLE_SECONDS = 2.0
 DRIVE_SECONDS = 4.0
@@ -23,6 +24,8 @@ HOLD_SECONDS = 4.0
 HOVER_SECONDS = 4.0
 CLIMB_SECONDS = 4.0
 CLIMB_METRES = 1.0
+CORNERS = 3
+"""Moves of the path on which all joints move, the last one back to the start."""
 
 _STEADY_SECONDS = 2.0
 """Time that a leg is driven at constant speed, after the ramp."""
@@ -97,7 +100,21 @@ def flying_legs() -> tuple[Leg, ...]:
 
 def holding_legs() -> tuple[Leg, ...]:
     """Return the legs of a robot that only stands."""
-    return _one_after_another(((SETTLE, SETTLE_SECONDS, 0.0, 0.0), (HOLD, HOLD_SECONDS, 0.0, 0.0)))
+    return _one_after_another(_HOLDING)
+
+
+_HOLDING = ((SETTLE, SETTLE_SECONDS, 0.0, 0.0), (HOLD, HOLD_SECONDS, 0.0, 0.0))
+
+
+def moving_legs(seconds: float, together: float) -> tuple[Leg, ...]:
+    """Return the legs of a robot whose joints are moved.
+
+    Args:
+        seconds: The time in which they move one by one.
+        together: The time in which all move at once.
+    """
+    moving = ((MOVE, seconds, 0.0, 0.0), (TOGETHER, together, 0.0, 0.0))
+    return _one_after_another((*_HOLDING, *moving))
 
 
 def _one_after_another(plan: Sequence[tuple[str, float, float, float]]) -> tuple[Leg, ...]:

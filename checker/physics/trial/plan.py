@@ -68,6 +68,20 @@ class PlannedRotor(Record):
     moment: float
 
 
+class Movement(Record):
+    """A joint that moves without jerks between the corners of its line in `Plan.places`.
+
+    Attributes:
+        leader: Scoped name of the joint that it copies; its own if it copies none.
+        step: How far it moves from its start when it moves alone, rad or m.
+        reach: How far at most when all joints move.
+    """
+
+    leader: str
+    step: float
+    reach: float
+
+
 class Plan(Record):
     """The commands of a trial.
 
@@ -78,6 +92,7 @@ class Plan(Record):
         angular: Commanded turn rate over time, rad/s.
         speeds: The speeds of joints by scoped name over time, rad/s.
         places: The places of joints that a stiff servo holds or steers, over time, rad or m.
+        moves: The joints among `places` that are moved for their own sake, not to steer wheels.
         starts: Positions in which joints start instead of 0, rad or m.
         wheels: The wheels among `speeds` that stand on the ground.
         belts: What a tracked robot stands on.
@@ -88,6 +103,7 @@ class Plan(Record):
         acceleration_limit: m/s²; None without.
         turns_in_place: Whether the turn is one in place, not a circle.
         notes: What could not be driven and why, as sentences.
+        moved: What moves and by what, as in `Trial`.
         not_driven: The reason why it is not driven, as in `Trial`.
     """
 
@@ -97,6 +113,7 @@ class Plan(Record):
     angular: Knots = ()
     speeds: Mapping[str, Knots] = field(default_factory=dict)
     places: Mapping[str, Knots] = field(default_factory=dict)
+    moves: Mapping[str, Movement] = field(default_factory=dict)
     starts: Mapping[str, float] = field(default_factory=dict)
     wheels: tuple[DrivenWheel, ...] = ()
     belts: tuple[Belt, ...] = ()
@@ -107,6 +124,7 @@ class Plan(Record):
     acceleration_limit: float | None = None
     turns_in_place: bool = True
     notes: tuple[str, ...] = ()
+    moved: str = ""
     not_driven: str = ""
 
     @property

@@ -5,10 +5,17 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.model.locomotion.locomotion import MotionLimits
 from checker.source.text import Located
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 Knots = tuple[tuple[float, float], ...]
 """Corners of a line over time: seconds, and a value in the unit of what it commands."""
@@ -129,3 +136,25 @@ def mix_lines(lines: Sequence[Knots], mix: Callable[..., float], step: float = m
 
 def _sane(value: float) -> float:
     return 0.0 if math.isnan(value) else max(-_FASTEST, min(value, _FASTEST))
+
+
+FASTEST_OF_SMOOTH = 1.875
+"""Greatest speed of a motion of least jerk / its mean speed."""
+
+
+def smoothed(knots: Knots, times: Array) -> tuple[Array, Array, Array]:
+    """Return values at some times, their rates and accelerations, without jerks between corners.
+
+    They rest at each corner. Source: the motion of least jerk, Flash and Hogan, 1985.
+    """
+    import numpy as np
+
+    corners = np.array(knots)
+    moments, values = corners[:, 0], corners[:, 1]
+    before = np.clip(np.searchsorted(moments, times, side="right") - 1, 0, len(moments) - 2)
+    length, step = np.diff(moments)[before], np.diff(values)[before]
+    share = np.clip((times - moments[before]) / length, 0.0, 1.0)
+    way = share**3 * (10.0 + share * (6.0 * share - 15.0))
+    rate = 30.0 * share**2 * (1.0 - share) ** 2
+    gain = 60.0 * share * (1.0 - share) * (1.0 - 2.0 * share)
+    return values[before] + step * way, step / length * rate, step / length**2 * gain

@@ -35,7 +35,8 @@ class Leg(Record):
 
     Attributes:
         name: `settle`, `drive`, `stop after drive`, `turn`, `stop after turn`, `full speed`;
-            `hover`, `climb` of copters; `hold` of legged robots and those without drive.
+            `hover`, `climb` of copters; `hold` of legged robots and those without drive, and
+            `joint by joint`, `all joints` where controllers move only joints.
         start: Seconds.
         end: Seconds.
         linear: Commanded forward speed (for `climb` the height rate), m/s.
@@ -66,15 +67,16 @@ class Measurement(Record):
     other: str = ""
 
 
-TORQUE, TORQUE_LIMIT = "torque", "torque_limit"
+TORQUE, TORQUE_LIMIT, MOVE_TORQUE = "torque", "torque_limit", "move_torque"
 """Names of the figures of a joint that has a servo."""
 
 
 def too_weak(figures: Sequence[Measurement]) -> tuple[str, ...]:
     """Return the joints whose largest torque is above their effort limit."""
     limits = {figure.part: figure.value for figure in figures if figure.name == TORQUE_LIMIT}
-    largest = (figure for figure in figures if figure.name == TORQUE)
-    return tuple(it.part for it in largest if it.value > limits.get(it.part, math.inf))
+    largest = (figure for figure in figures if figure.name in (TORQUE, MOVE_TORQUE))
+    weak = (it.part for it in largest if it.value > limits.get(it.part, math.inf))
+    return tuple(dict.fromkeys(weak))
 
 
 class Replay(Record):
@@ -147,6 +149,7 @@ class Trial(Record):
         refused_part: Scoped name of the link or joint that the reason is about; empty if unknown.
         trouble: Solver warnings and NaN, as ends of sentences; empty for a sound run.
         notes: What was left out of the trial and why, as sentences.
+        moved: What was moved joint by joint: `6 joints by JointTrajectoryController 'arm'`.
         not_driven: The reason why a robot that can move was not driven, as the end of a sentence.
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
@@ -163,6 +166,7 @@ class Trial(Record):
     refused_part: str = ""
     trouble: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    moved: str = ""
     not_driven: str = ""
     series: Mapping[str, Sequence[float]] = field(default_factory=dict)
     replay: Replay | None = None

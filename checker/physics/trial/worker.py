@@ -17,6 +17,7 @@ from checker.physics.trial.measures.motion import Motion, excess_links, replay_o
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.contacts import overlaps
+from checker.physics.trial.simulation.paths import with_path
 from checker.physics.trial.simulation.simulation import drive
 from checker.physics.trial.trial import Measurement, Trial, too_weak
 
@@ -47,9 +48,11 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
         versions={"mujoco": mujoco.__version__, "course": VERSION},
         repairs=scene.repairs,
         notes=(*scene.notes, *plan.notes, *excess_links(scene)),
+        moved=plan.moved,
         not_driven=plan.not_driven,
     )
     try:
+        plan, on_path = with_path(scene, plan)
         motion, needed = driven(scene, plan, timestep)
     except ValueError as refusal:
         return _refused(trial, str(refusal), scene)
@@ -57,7 +60,7 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
     return replace(
         trial,
         legs=plan.legs,
-        measurements=(*measure_motion(motion, needed), *overlaps(scene)),
+        measurements=(*measure_motion(motion, needed), *overlaps(scene), *on_path),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
         replay=replay_of(run),

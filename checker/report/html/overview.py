@@ -117,6 +117,8 @@ def _done(figures: _TrialFigures) -> Iterator[str]:
     if figures.leg("hold"):
         sag, tilt = figures.value("hold_sag"), figures.value("hold_tilt")
         yield "stands" if sag is None and tilt is not None else "holds its pose"
+    if figures.trial.get("moved"):
+        yield f"moves {plain(shortened(figures.trial['moved'], _TEXT_LIMIT))}"
 
 
 def _driven(figures: _TrialFigures) -> Iterator[str]:

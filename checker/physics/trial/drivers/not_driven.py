@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from checker.base.words import and_list, count
+from checker.model.locomotion.commanded_joints import moving_controllers
 from checker.model.locomotion.controlled import DRIVING_CONTROLLERS
 from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
@@ -21,15 +22,20 @@ _BODY_MOVERS = {
 }
 """Libraries and classes of plugins that move a body without its joints."""
 
-_PUBLISHERS = ("Broadcaster", "JointStateController")
-"""Ends of the classes of controllers that move nothing."""
-
 _NAMED = 3
 """Names in a sentence, at most."""
 
 
 def reason_not_driven(robot: Robot, locomotion: Locomotion) -> str:
     """Return why a robot without a drive is not driven; empty if nothing shows that it moves."""
+    untried = reason_not_tried(robot, locomotion)
+    if untried or locomotion.kind is DriveKind.LEGGED:
+        return untried
+    return next(_reasons(robot, locomotion), "")
+
+
+def reason_not_tried(robot: Robot, locomotion: Locomotion) -> str:
+    """Return why a robot moves in a way that the trial does not try; empty without such a way."""
     classes = {plugin.class_name for plugin in robot.all_plugins}
     if classes & _WATER:
         return "it swims, and water is not simulated"
@@ -37,21 +43,25 @@ def reason_not_driven(robot: Robot, locomotion: Locomotion) -> str:
         return "it flies on wings or blades, and air is not simulated"
     if locomotion.kind is DriveKind.LEGGED:
         return ""
-    return locomotion.doubt or next(_reasons(robot, locomotion), "")
+    return locomotion.doubt or next(_drives(robot), "")
 
 
-def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
-    """Yield the reasons, the most certain one first."""
+def _drives(robot: Robot) -> Iterator[str]:
+    """Yield what moves the robot as a whole, with the reason why it is not driven."""
     for plugin in robot.all_plugins:
         names = (library_stem(plugin.filename.value), plugin.class_name)
         yield from (_BODY_MOVERS[name] for name in names if name in _BODY_MOVERS)
-    moving = [each for each in robot.controllers if not each.class_name.endswith(_PUBLISHERS)]
-    for controller in moving:
+    for controller in moving_controllers(robot):
         if controller.class_name in DRIVING_CONTROLLERS:
             what = "names no wheel of the model, or gives its wheels no radius"
             yield f"the {controller.class_name} {controller.name!r} {what}"
-    if moving:
-        yield _moved_by(each.class_name for each in moving)
+
+
+def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
+    """Yield the other reasons, the most certain one first."""
+    if moving := moving_controllers(robot):
+        what = "names no joint of the model that can be moved"
+        yield f"the {moving[0].class_name} {moving[0].name!r} {what}"
     if robot.element.child("ros2_control") is not None:
         joints = [j for system in robot.element.all("ros2_control") for j in system.all("joint")]
         hardware = f"ros2_control has the hardware of {count(len(joints), 'joint')}"

@@ -33,7 +33,8 @@ from checker.physics.trial.course import (
     holding_legs,
     linear_command,
 )
-from checker.physics.trial.drivers.not_driven import reason_not_driven
+from checker.physics.trial.drivers.arms import plan_arm
+from checker.physics.trial.drivers.not_driven import reason_not_driven, reason_not_tried
 from checker.physics.trial.drivers.rollers import NOT_ROLLING, can_roll, plan_rollers
 from checker.physics.trial.drivers.wheels import (
     finite_limit,
@@ -320,9 +321,13 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
 
 
 def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
-    """Return the plan of a robot that is not driven, and state why if it has a drive."""
+    """Return the plan of a robot that stands: what moves its joints, or why it is not driven."""
     kind = locomotion.kind
     plan = plan_hold(robot, kind)
+    if kind is DriveKind.NONE and not reason_not_tried(robot, locomotion):
+        moving = plan_arm(robot, plan)
+        if moving is not None:
+            return moving
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
         return replace(plan, not_driven=reason_not_driven(robot, locomotion))
     if kind in (DriveKind.MECANUM, DriveKind.OMNI):

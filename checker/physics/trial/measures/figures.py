@@ -62,9 +62,14 @@ MEASURES: dict[str, Measure] = {
     "hold_sag": Measure("largest joint deviation in the held pose", "rad or m"),
     "hold_sink": Measure("height lost in the held pose", "m"),
     "hold_tilt": Measure("tilt in the held pose", "rad"),
+    # joints that controllers move (one figure a joint): alone, and all together
+    "move_step": Measure("way of a joint moved alone", "rad or m"),
+    "move_error": Measure("largest distance of a joint from its path", "rad or m"),
+    "move_torque": Measure("largest torque that its path needs", "N·m"),
     # parts against each other (pairs)
     "start_overlap": Measure("parts inside each other at rest", "m", silence_is_ok=False),
     "sweep_overlap": Measure("parts inside each other in a joint's range", "m"),
+    "path_overlap": Measure("parts inside each other while all joints move", "m"),
     "unswept_joints": Measure("joints that were not moved through their range"),
     # energy
     "energy_gain": Measure("energy gained at rest / m·g·0.1 m"),

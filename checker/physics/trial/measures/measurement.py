@@ -12,15 +12,18 @@ from checker.physics.trial.course import (
     DRIVE,
     HOLD,
     HOVER,
+    MOVE,
     SETTLE,
     STOP_DRIVE,
     STOP_TURN,
+    TOGETHER,
     TURN,
 )
 from checker.physics.trial.measures.drive import measure_drive, measure_turn
 from checker.physics.trial.measures.ground import loads
 from checker.physics.trial.measures.motion import Motion, averaged
-from checker.physics.trial.trial import TORQUE, TORQUE_LIMIT, Leg, Measurement
+from checker.physics.trial.profile import smoothed
+from checker.physics.trial.trial import MOVE_TORQUE, TORQUE, TORQUE_LIMIT, Leg, Measurement
 
 # Hovering and climbing.
 
@@ -73,10 +76,37 @@ def measure_torque(motion: Motion) -> Iterator[Measurement]:
         return
     first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
     means = np.abs(averaged(np.array(run.forces)[first:behind], run.timestep))
+    on_path = np.abs(run.needed.torques)
     for number, joint in enumerate(run.rig.names):
         yield Measurement(TORQUE, float(means[:, number].max(initial=0.0)), joint)
         if joint in motion.plan.efforts:
             yield Measurement(TORQUE_LIMIT, motion.plan.efforts[joint], joint)
+        if joint in motion.plan.moves:
+            yield Measurement(MOVE_TORQUE, float(on_path[:, number].max(initial=0.0)), joint)
+
+
+# Joints that are moved one by one and together: how far they are from where they should be.
+
+
+_MOVING = (MOVE, TOGETHER)
+
+
+def measure_moves(motion: Motion) -> Iterator[Measurement]:
+    """Measure how far each joint moves alone, and its largest distance from its path."""
+    import numpy as np
+
+    legs = [leg for leg in map(motion.leg, _MOVING) if leg is not None]
+    if not legs:
+        return
+    during = motion.samples_between(legs[0].start, legs[-1].end)
+    places = np.array(motion.run.samples.joints)[during]
+    for number, joint in enumerate(motion.run.rig.names):
+        move = motion.plan.moves.get(joint)
+        if move is not None:
+            expected, *_ = smoothed(motion.plan.places[joint], motion.time[during])
+            yield Measurement("move_step", abs(move.step), joint)
+            error = float(np.abs(places[:, number] - expected).max(initial=0.0))
+            yield Measurement("move_error", error, joint)
 
 
 # Energy: what is not driven must not gain any.
@@ -196,6 +226,7 @@ def measure_motion(motion: Motion, torques: Sequence[Measurement]) -> Iterator[M
         torques,
         measure_flight(motion),
         measure_hold(motion),
+        measure_moves(motion),
         measure_energy(motion),
     )
     return (figure for figure in chain.from_iterable(parts) if math.isfinite(figure.value))

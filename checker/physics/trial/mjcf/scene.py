@@ -144,14 +144,19 @@ def build_scene(
     if unusable:
         return Scene(repairs=tuple(ledger.repairs), notes=ledger.notes, unusable=unusable)
     height = DROP - layout.lowest
+    # Nothing states how high what is mounted stands: an arm on a table reaches below its base.
+    touches = layout.stands and not layout.held
     if not layout.stands:
         # What a joint fixes to the world stays in its place; of URDF the node that spawns it may
         # have put it on a table, so that it is lifted out of the ground.
-        height = 0.0 if robot.conventions.states_start else max(0.0, height)
+        touches = robot.conventions.states_start
+        height = 0.0 if touches else max(0.0, height)
     writer = BodyWriter(layout, frozenset(belts))
     bodies, names, root = writer.text(height), writer.names, root_of(robot, layout)
     return Scene(
-        mjcf=_document(timestep, _assets(layout), bodies, _servos(names, servos, ledger)),
+        mjcf=_document(
+            timestep, _assets(layout), bodies, _servos(names, servos, ledger), touches=touches
+        ),
         bodies=names.bodies,
         joints=names.joints,
         free_joints=names.free,
@@ -189,7 +194,7 @@ def _assets(layout: Layout) -> str:
     )
 
 
-def _document(timestep: float, assets: str, bodies: str, servos: str) -> str:
+def _document(timestep: float, assets: str, bodies: str, servos: str, *, touches: bool) -> str:
     # The ground takes part in every contact, and geoms of the robot in those with the ground alone.
     return f"""<mujoco>
 <compiler angle="radian" inertiafromgeom="false" autolimits="false" fusestatic="false"/>
@@ -199,7 +204,7 @@ def _document(timestep: float, assets: str, bodies: str, servos: str) -> str:
 {assets}
 </asset>
 <worldbody>
-<geom name="{GROUND}" type="plane" size="0 0 1" priority="0" contype="1" conaffinity="0"/>
+<geom name="{GROUND}" type="plane" size="0 0 1" priority="0" contype="{touches:d}" conaffinity="0"/>
 {bodies}
 </worldbody>
 <actuator>

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Numbers = NDArray[np.int64]
-    from collections.abc import Sequence
 
 
 # The contacts with the ground: copied while the robot drives, computed when it has stopped.
@@ -208,7 +207,7 @@ class ContactQuery:
         self.pieces = [self.scene.welded.get(part, part) for part in self.parts]
         self.tied = {frozenset(pair) for pair in self.scene.tied}
 
-    def depths(self, qpos: Sequence[float] | None = None) -> dict[Pair, float]:
+    def depths(self, qpos: Array | None = None) -> dict[Pair, float]:
         """Return how deep pairs of links, or a link and the ground, are inside each other, metres.
 
         Args:
@@ -226,6 +225,15 @@ class ContactQuery:
                 pair = self._pair(one, two)
                 deepest[pair] = max(deepest.get(pair, 0.0), -distance)
         return deepest
+
+    def pose(self, places: Mapping[str, float]) -> Array:
+        """Return the positions of the model with joints at these places (rad or m), others at 0."""
+        pose: Array = self.model.qpos0.copy()
+        for joint, place in places.items():
+            if joint in self.scene.joints:
+                index = self.model.joint(self.scene.joints[joint]).id
+                pose[self.model.jnt_qposadr[index]] = place
+        return pose
 
     def swept_overlaps(self, already: Mapping[Pair, float]) -> dict[Pair, float]:
         """Return the deepest overlaps while one joint after another moves and all else rests.

@@ -27,6 +27,9 @@ _FAR = 1e6
 """Metres; no shape is so far from the ground."""
 _HOLD_SECONDS = 0.01
 """Time constant of a position servo: stiff for the robot's weight, slow for the time step."""
+_WEAK_SECONDS = 0.05
+"""The same of one that moves a joint within its effort limit: a stiff one would jump from end to
+end of it."""
 
 
 class Rig:
@@ -115,6 +118,25 @@ class Rig:
         positions: Array = self.data.qpos[self.model.jnt_qposadr[self.joints]]
         return positions
 
+    @property
+    def forces(self) -> Array:
+        """Forces of the servos in the last step, N·m or N.
+
+        MuJoCo states those before the step; while a joint moves, a stiff servo that is integrated
+        implicitly gives what its law says of the state behind it.
+        """
+        import numpy as np
+
+        model, data = self.model, self.data
+        if not self.plan.moves:
+            stated: Array = data.actuator_force.copy()
+            return stated
+        speeds = data.qvel[model.jnt_dofadr[self.joints]]
+        gain, bias = model.actuator_gainprm[:, 0], model.actuator_biasprm
+        forces: Array = gain * data.ctrl + bias[:, 1] * self.positions + bias[:, 2] * speeds
+        limits = np.where(model.actuator_forcelimited, model.actuator_forcerange[:, 1], np.inf)
+        return np.clip(forces, -limits, limits)
+
     def pose(self) -> tuple[Array, Array]:
         """Return position (metres) and rotation (3×3) of the robot's frame in the world."""
         return self.frame(self.data.xpos[self.root], self.data.xmat[self.root])
@@ -169,9 +191,7 @@ class Rig:
                 self._velocity_servo(number, inertia / _WHEEL_SECONDS)
             else:
                 carried = inertia + self.mass * reaches[number] ** 2
-                # Critically damped.
-                stiffness = carried / _HOLD_SECONDS**2
-                self._position_servo(number, stiffness, 2 * carried / _HOLD_SECONDS)
+                self._place_by(number, carried, _HOLD_SECONDS)
 
     def _limit(self, joints: Collection[str]) -> None:
         """Limit the forces of some servos.
@@ -191,6 +211,8 @@ class Rig:
             most = self.plan.efforts[name]
             self.model.actuator_forcelimited[number] = 1
             self.model.actuator_forcerange[number] = -_ROUNDED * most, _ROUNDED * most
+            if name in self.plan.moves:
+                self._place_by(number, own[number], _WEAK_SECONDS)
             if name in self.plan.speeds:
                 gain = self.model.actuator_gainprm[number, 0] * _WHEEL_SECONDS / _LIMITED_SECONDS
                 self._velocity_servo(number, gain)
@@ -242,7 +264,9 @@ class Rig:
         self.model.actuator_gainprm[number, 0] = gain
         self.model.actuator_biasprm[number, :3] = 0.0, 0.0, -gain
 
-    def _position_servo(self, number: int, stiffness: float, damping: float) -> None:
+    def _place_by(self, number: int, inertia: float, seconds: float) -> None:
+        """Make a servo hold a place, critically damped."""
+        stiffness, damping = inertia / seconds**2, 2 * inertia / seconds
         self.model.actuator_gainprm[number, 0] = stiffness
         self.model.actuator_biasprm[number, :3] = 0.0, -stiffness, -damping
 

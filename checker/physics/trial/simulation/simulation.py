@@ -13,6 +13,7 @@ from checker.physics.trial.plan import Plan
 from checker.physics.trial.profile import Knots
 from checker.physics.trial.simulation.contacts import ContactLog
 from checker.physics.trial.simulation.flight import PILOT_SECONDS, Pilot
+from checker.physics.trial.simulation.moves import PathTorques, moving_commands, path_torques
 from checker.physics.trial.simulation.rig import Rig
 
 if TYPE_CHECKING:
@@ -122,6 +123,7 @@ class Run:
     Attributes:
         rig: The rig with the state at the end.
         timestep: Seconds.
+        needed: The torques that joints need on their paths.
         samples: The samples at the start and every 50 ms.
         contacts: The contacts with the ground, sampled more often.
         forces: The forces of the servos in each step, N·m or N (steps × servos).
@@ -136,6 +138,7 @@ class Run:
 
     rig: Rig
     timestep: float
+    needed: PathTorques
     samples: Samples = field(default_factory=Samples)
     contacts: ContactLog = field(default_factory=ContactLog)
     forces: list[Array] = field(default_factory=list)
@@ -160,10 +163,11 @@ def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = 
         ValueError: MuJoCo refuses the scene.
     """
     rig = Rig(scene, plan, timestep, limited)
-    run = Run(rig, timestep)
+    needed = path_torques(rig)
+    run = Run(rig, timestep, needed)
     steps = round(plan.seconds / timestep)
     every, often = round(SAMPLE_SECONDS / timestep), round(PILOT_SECONDS / timestep)
-    commands = _commands({**plan.speeds, **plan.places}, rig.names, steps, timestep)
+    commands = _commands(rig, needed, steps, timestep)
     belts = run.belts = Belts(rig, plan, steps, timestep) if plan.belts else None
     pilot = Pilot(rig, plan) if plan.rotors else None
     model, data = rig.model, rig.data
@@ -183,7 +187,7 @@ def drive(scene: Scene, plan: Plan, timestep: float, limited: Collection[str] = 
             if (number - lift) % often == 0:
                 run.thrusts.append((number, pilot.fly(number * timestep)))
         rig.step()
-        run.forces.append(data.actuator_force.copy())
+        run.forces.append(rig.forces)
         if number in touched:
             run.contacts.add(rig, number * timestep)
         if number % every == 0:
@@ -219,14 +223,19 @@ def _touched(plan: Plan, steps: int, every: int, timestep: float) -> set[int]:
     return touched
 
 
-def _commands(lines: dict[str, Knots], joints: list[str], steps: int, timestep: float) -> Array:
+def _commands(rig: Rig, needed: PathTorques, steps: int, timestep: float) -> Array:
     """Return the command of each servo in each step (steps × servos)."""
     import numpy as np
 
-    commands = np.zeros((steps, len(joints)))
-    for column, joint in enumerate(joints):
-        commands[:, column] = _sampled(lines[joint], steps, timestep)
-    return commands
+    plan = rig.plan
+    lines = {**plan.speeds, **plan.places}
+    commands = np.zeros((steps, len(rig.names)))
+    for column, joint in enumerate(rig.names):
+        if joint not in plan.moves:
+            commands[:, column] = _sampled(lines[joint], steps, timestep)
+    times = np.arange(steps, dtype=np.float64)
+    times *= timestep
+    return commands + moving_commands(rig, needed, times)
 
 
 def _sampled(line: Knots, steps: int, timestep: float) -> Array:

@@ -1,0 +1,91 @@
+"""Joints that controllers or plugins put in place one by one: those of arms, hands and gimbals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from checker.base.record import Record
+from checker.model.components import Joint
+from checker.model.controllers import Controller
+from checker.model.locomotion.controlled import DRIVING_CONTROLLERS
+from checker.model.values import parse_number
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_PUBLISHERS = ("Broadcaster", "JointStateController")
+"""Ends of the classes of controllers that move nothing."""
+_JOINTS = ("joints", "joint", "dof_names")
+"""Parameters that name joints, of controllers that are no drive."""
+_TRAJECTORIES = "JointTrajectoryController"
+"""Class of a plugin of Gazebo Sim that moves all joints if it names none."""
+_PLUGINS = frozenset(
+    {
+        *("JointPositionController", _TRAJECTORIES, "JointController"),
+        *("ConfigurableJointPositionController", "GimbalControlPlugin", "FlipperControlPlugin"),
+    }
+)
+"""Classes of plugins that move joints and need no ground, water or air for it."""
+
+
+class Mover(Record):
+    """What commands a joint: the class of a controller or plugin, and the controller's name."""
+
+    kind: str
+    name: str = ""
+
+
+class Follower(Record):
+    """What a joint copies: the scoped name of another joint, and its motion / that of the other."""
+
+    joint: str
+    ratio: float
+
+
+def moving_controllers(robot: Robot) -> list[Controller]:
+    """Return the controllers that do not only publish."""
+    return [each for each in robot.controllers if not each.class_name.endswith(_PUBLISHERS)]
+
+
+def commanded_joints(robot: Robot) -> dict[str, Mover]:
+    """Return the scoped names of the joints that are commanded, each with what commands it."""
+    commanded: dict[str, Mover] = {}
+    for controller in moving_controllers(robot):
+        if controller.class_name not in DRIVING_CONTROLLERS:
+            mover = Mover(controller.class_name, controller.name)
+            for named in controller.texts(*_JOINTS):
+                if named.value in robot.joints_by_name:
+                    commanded.setdefault(named.value, mover)
+    for name, kind in _by_plugins(robot):
+        commanded.setdefault(name, Mover(kind))
+    return commanded
+
+
+def _by_plugins(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield the scoped names of joints, each with the class of the plugin that moves it."""
+    for name, plugin in robot.driven_joints.items():
+        if plugin.class_name in _PLUGINS:
+            yield name, plugin.class_name
+    for plugin in robot.plugins:
+        if plugin.class_name == _TRAJECTORIES and not plugin.values("joint_name"):
+            yield from ((joint.scoped_name, plugin.class_name) for joint in robot.joints)
+
+
+def followers(robot: Robot) -> dict[str, Follower]:
+    """Return the joints that copy another one, by their scoped names."""
+    return {
+        joint.scoped_name: Follower(joint.scope + joint.mimics[0].value, _ratio(joint))
+        for joint in robot.joints
+        if joint.mimics and joint.scope + joint.mimics[0].value in robot.joints_by_name
+    }
+
+
+def _ratio(joint: Joint) -> float:
+    """Return the multiplier of a joint that copies another one: of URDF an attribute."""
+    holders = (joint.element, *joint.element.all("axis"))
+    (mimic, *_) = (mimic for holder in holders for mimic in holder.all("mimic"))
+    stated = mimic.child("multiplier")
+    text = stated.text.value if stated is not None else mimic.get("multiplier")
+    ratio = parse_number(text or "1")
+    return 1.0 if ratio is None else ratio
