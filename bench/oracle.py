@@ -20,13 +20,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from checker.base.parts import NotAvailable
+from checker.convert.mjcf_files import scene_of_trial
 from checker.engine.subject import Subject
 from checker.model.locomotion.commanded_joints import moving_controllers
 from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.package.package import Package
-from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.trial import Trial
 from support.fortress import LIBRARIES, SOURCE, Refused
 from support.fortress.comparison import Comparison, Figures, compared
@@ -85,10 +85,10 @@ def summary(results: list[Comparison]) -> Iterator[str]:
             yield f"{label:5} median {statistics.median(known):.2%}  90 % within {least:.2%}"
 
 
-def is_moved(robot: Robot, result: Comparison | Trial | str) -> bool | None:
-    """Return whether a robot is moved; None for one without a drive or a controller."""
-    flies = plan_of(robot).rotors
-    if flies or not isinstance(result, str):
+def is_moved(robot: Robot) -> bool | None:
+    """Return whether the trial moves a robot; None for one without a drive or a controller."""
+    scene, plan = scene_of_trial(robot)
+    if not scene.unusable and (plan.speeds or plan.belts or plan.rotors or plan.moves):
         return True
     has_drive = robot.locomotion.kind is not DriveKind.NONE
     return False if has_drive or moving_controllers(robot) or robot.driven_joints else None
@@ -116,7 +116,7 @@ def main() -> None:
                     result = f"Gazebo refuses it: {refusal}"
                 print(line(robot, result), flush=True)
                 results.append(result)
-                counted.append(is_moved(robot, result))
+                counted.append(is_moved(robot))
     for each in summary([result for result in results if isinstance(result, Comparison)]):
         print(each)
     movable = [each for each in counted if each is not None]

@@ -104,7 +104,7 @@ def _tune(root: etree._Element, scene: Scene, plan: Plan, recording: Recording) 
     """Give each servo the gains of the trial, and its slider the range of its commands."""
     lines = {**plan.speeds, **plan.places}
     servos = {element.get("name"): element for element in section(root, "actuator")}
-    for servo in recording.servos:
+    for number, servo in enumerate(recording.servos):
         element = servos.get(scene.actuators.get(servo.joint))
         # The answering process may be compromised, and name something else.
         if element is None or servo.joint not in lines:
@@ -117,7 +117,10 @@ def _tune(root: etree._Element, scene: Scene, plan: Plan, recording: Recording) 
         if servo.limit:
             element.set("forcelimited", "true")
             element.set("forcerange", numbers([-servo.limit, servo.limit]))
-        most = max((abs(value) for _, value in lines[servo.joint]), default=0.0) or 1.0
+        commands = [value for _, value in lines[servo.joint]]
+        if servo.joint in plan.moves:
+            commands = [values[number] for _, values in recording.commands]
+        most = max(map(abs, commands), default=0.0) or 1.0
         element.set("ctrllimited", "true")
         element.set("ctrlrange", numbers([-most, most]))
 

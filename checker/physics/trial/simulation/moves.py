@@ -59,13 +59,16 @@ def _needed(rig: Rig, moved: list[int], times: Array) -> Array:
     data = mujoco.MjData(model)
     data.qpos[:] = rig.data.qpos
     torques = np.zeros((len(times), len(moved)))
-    model.opt.disableflags |= option.mjDSBL_CONTACT | option.mjDSBL_LIMIT
+    for part in (option.mjDSBL_CONTACT, option.mjDSBL_LIMIT, option.mjDSBL_FRICTIONLOSS):
+        model.opt.disableflags |= part
     # The discrete integrator would add what its own servos do in a step.
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     for number, (places, speeds, gains) in enumerate(zip(*paths, strict=True)):
         data.qpos[addresses], data.qvel[degrees], data.qacc[degrees] = places, speeds, gains
         mujoco.mj_inverse(model, data)
-        torques[number] = data.qfrc_inverse[degrees]
+        # MuJoCo's own friction gives way below some speed.
+        friction = model.dof_frictionloss[degrees] * np.sign(speeds)
+        torques[number] = data.qfrc_inverse[degrees] + friction
     model.opt.disableflags, model.opt.integrator = flags, integrator
     return torques
 
