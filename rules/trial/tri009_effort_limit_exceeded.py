@@ -51,10 +51,11 @@ def check(
         joint = driven.robot.joints_by_name.get(torque.part)
         if joint is None or not _is_explained(joint, specification):
             unit = _unit(driven, torque.part)
+            remedy = f": write {_ABOVE * torque.value:.3g} if its motor gives that" if path else ""
             yield finding(
                 driven.part(torque.part),
                 f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}{path}, but its effort "
-                f"limit is {limit:.3g} {unit}",
+                f"limit is {limit:.3g} {unit}{remedy}",
                 key="torque",
             )
 
@@ -67,6 +68,8 @@ def _path(driven: SettledTrial, joint: str) -> str:
     return f" for steps of {step:.2g} {unit} from its start{behind}"
 
 
+_ABOVE = 1.05
+"""Limit that a message names / the torque, so that rounding leaves it above."""
 _BEHIND = 0.05
 """Share of a joint's step by which it lags visibly."""
 

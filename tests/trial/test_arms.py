@@ -236,7 +236,7 @@ def test_a_motor_too_weak_for_its_path_is_reported(tmp_path: Path) -> None:
     (finding,) = said(arm(tmp_path / "weak", weak, "tilt"))
     assert "needs" in finding.message
     assert "N·m for steps of 0.3 rad from its start and stays" in finding.message
-    assert "rad behind, but its effort limit is 3 N·m" in finding.message
+    assert "rad behind, but its effort limit is 3 N·m: write 8." in finding.message
 
 
 def test_a_weak_joint_stays_within_its_limit(tmp_path: Path) -> None:
