@@ -1,0 +1,1 @@
+"""How the checker answers at first contact with robots that nobody here has seen."""
