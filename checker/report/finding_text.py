@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.base.words import count, plain, shortened
 from checker.finding import Place, Severity
-from checker.report.render_settings import Palette
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, ReportedFinding
 
 MORE_PLACES = 3
@@ -18,31 +18,45 @@ SNIPPET_WIDTH = 160
 
 
 def finding_text(
-    finding: ReportedFinding, package: PackageReport, palette: Palette, explained: bool
+    finding: ReportedFinding, package: PackageReport, settings: RenderSettings, explained: bool
 ) -> Iterator[str]:
     """Yield the lines of a finding.
 
     Args:
         finding: What was found.
         package: The package of the finding; its path is in front of each file.
-        palette: Colours.
+        settings: Colours, and whether source line and reason are shown.
         explained: Whether why and how were stated before, for another finding of the rule.
     """
     place = finding.places[0]
     message = plain(shortened(finding.message, MESSAGE_LIMIT))
-    severity = palette.severity(finding.severity)
+    severity = settings.palette.severity(finding.severity)
     yield f"{where_text(place, package)} {severity} {finding.rule} {finding.name}: {message}"
-    if finding.severity is not Severity.INFO:
-        yield from _frame(place, palette)
+    if settings.full and finding.severity is not Severity.INFO:
+        yield from _frame(place, settings.palette)
     yield from _other_places(finding.places[1:], package)
     for rule, name in dict.fromkeys((repeat.rule, repeat.name) for repeat in finding.repeats):
         yield f"    also {rule} {name}"
-    if finding.severity is Severity.INFO or explained:
+    if finding.severity is Severity.INFO:
         return
-    if finding.why:
+    if finding.why and settings.full and not explained:
         yield f"    why: {finding.why}"
-    if finding.how:
+    if corrected := _corrected_line(finding):
+        yield f"    fix: write `{corrected}`"
+    elif finding.how and not explained:
         yield f"    fix: {finding.how}"
+
+
+def _corrected_line(finding: ReportedFinding) -> str:
+    """Return the line as its fix writes it; empty if that changes more than one line."""
+    place = finding.places[0]
+    match finding.fix.edits if finding.fix else ():
+        case (edit,) if edit.place.line == edit.place.end_line == place.line:
+            before, after = place.snippet[: edit.place.column - 1], edit.place.end_column - 1
+            line = f"{before}{edit.replacement}{place.snippet[after:]}".strip()
+            is_shown = edit.place.file == place.file and len(before) == edit.place.column - 1
+            return plain(line) if is_shown and len(line) <= SNIPPET_WIDTH else ""
+    return ""
 
 
 def path_of(place: Place, package: PackageReport) -> str:

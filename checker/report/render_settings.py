@@ -79,6 +79,7 @@ class RenderSettings(Record):
         infos: Whether the report for a terminal shows infos, and what does not apply.
         quiet: Whether it shows findings alone.
         concise: Whether it has one line a finding.
+        full: Whether it shows source lines and reasons, too.
     """
 
     palette: Palette
@@ -87,6 +88,7 @@ class RenderSettings(Record):
     infos: bool = False
     quiet: bool = False
     concise: bool = False
+    full: bool = False
 
 
 def is_shown(finding: ReportedFinding, settings: RenderSettings) -> bool:

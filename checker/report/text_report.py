@@ -8,10 +8,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from checker.base.words import and_list, count, plain, shortened
-from checker.finding import Severity
+from checker.finding import Safety, Severity
 from checker.report.concise_report import concise_text
 from checker.report.figures import Row, facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
+from checker.report.importance import importance
 from checker.report.ownership import Identity, foreign_findings, owned_by, share_of
 from checker.report.render_settings import Palette, RenderSettings, is_shown, shown_findings
 from checker.report.report import (
@@ -121,6 +122,8 @@ def _words(suppressed: Suppressed) -> str:
 
 SHOWN_LIMIT = 200
 """Findings of one package that are shown in full; the rest is counted."""
+FIRST = 5
+"""Errors, each of another rule, that are shown in front of all others."""
 _RULES_NAMED = 5
 """Rules that were left out for one reason the user gave; of more the number states enough."""
 
@@ -194,12 +197,19 @@ def closing_text(report: Report, settings: RenderSettings) -> str:
 
 
 def _hint(report: Report, settings: RenderSettings) -> str:
-    """Return where a rule is explained, by the first that was shown."""
-    shown = (found for package in report.packages for found in shown_findings(package, settings))
-    first = next(shown, None)
-    if first is None or settings.concise:
+    """Return the next commands: how a rule is explained, by the first that was shown, and fixes."""
+    shown = [found for package in report.packages for found in shown_findings(package, settings)]
+    if not shown or settings.concise:
         return ""
-    return settings.palette.dim(f"`subt-check rule {first.rule}` explains a rule") + "\n"
+    more = "" if settings.full else ", `--full` shows source lines and reasons"
+    lines = [f"`subt-check rule {min(shown, key=importance).rule}` explains a rule{more}"]
+    fixes = [found.fix or found.fixes[0] for found in shown if found.fix or found.fixes]
+    safe = sum(fix.safety is Safety.SAFE for fix in fixes)
+    lines += [f"`--fix` corrects {count(safe, 'finding')}"] if safe else []
+    lines += (
+        [f"`--fix --unsafe` corrects {count(len(fixes), 'finding')}"] if len(fixes) > safe else []
+    )
+    return "".join(settings.palette.dim(line) + "\n" for line in lines)
 
 
 def _package(
@@ -208,17 +218,15 @@ def _package(
     palette = settings.palette
     share = share_of(package, owner_of)
     own = [found for found in share.own if is_shown(found, settings)]
-    lines: list[str] = []
-    explained: set[str] = set()
-    for finding in own[:SHOWN_LIMIT]:
-        lines += [*finding_text(finding, package, palette, finding.rule in explained), ""]
-        explained.add(finding.rule)
+    lines = list(_findings(own[:SHOWN_LIMIT], package, settings))
     lines += _counted(own[SHOWN_LIMIT:])
     if settings.quiet:
         return "".join(f"{line}\n" for line in lines)
     kind = package.kind.replace("_", " ") + _profile(package)
-    lines[:0] = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
-    lines[1:1] = _unread_robots(package)
+    head = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), *_unread_robots(package)]
+    if lines:
+        head.append(palette.verdict(package.verdict, str(sentence(package))))
+    lines[:0] = [*head, ""]
     lines += _infos(len(share.own) - len(own))
     lines += [
         f"{count(n, 'finding')} in {plain(name)}: listed there"
@@ -235,6 +243,41 @@ def _package(
     lines += _robots(package, palette)
     lines.append(verdict_text(package, palette))
     return "\n".join(lines) + "\n"
+
+
+def _findings(
+    findings: Sequence[ReportedFinding], package: PackageReport, settings: RenderSettings
+) -> Iterator[str]:
+    """Yield the lines of findings, those to correct first in front."""
+    explained: set[str] = set()
+    for head, group in _groups(findings):
+        if not settings.quiet:
+            yield settings.palette.bold(head)
+        for finding in group:
+            yield from finding_text(finding, package, settings, finding.rule in explained)
+            explained.add(finding.rule)
+            if settings.full:
+                yield ""
+        if not settings.full:
+            yield ""
+
+
+def _groups(
+    findings: Sequence[ReportedFinding],
+) -> Iterator[tuple[str, Sequence[ReportedFinding]]]:
+    """Yield findings under the heads of the report: errors of five rules, then the rest."""
+    ordered = sorted(findings, key=importance)
+    errors = [found for found in ordered if found.severity is Severity.ERROR]
+    rules = [found.rule for found in errors]
+    # The first error of each rule.
+    causes = [errors[rules.index(rule)] for rule in list(dict.fromkeys(rules))[:FIRST]]
+    groups = {
+        "Do first:": causes,
+        "Other errors:": [found for found in errors if not any(found is each for each in causes)],
+        "Warnings:": [found for found in ordered if found.severity is Severity.WARNING],
+        "Infos:": [found for found in ordered if found.severity is Severity.INFO],
+    }
+    yield from ((head, group) for head, group in groups.items() if group)
 
 
 def _infos(number: int) -> Iterator[str]:
@@ -281,8 +324,9 @@ def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) ->
             case Cause.NOT_APPLICABLE:
                 if settings.infos:
                     yield f"not applicable: {count(len(rules), 'rule')}: {text}"
-            case Cause.SWITCHED_OFF if len(rules) > _RULES_NAMED:
-                yield f"not checked: {count(len(rules), 'rule')}: {text}"
+            case _ if len(rules) > _RULES_NAMED and not settings.full:
+                groups = and_list(sorted({rule.rstrip("0123456789") for rule in rules}))
+                yield f"not checked: {count(len(rules), 'rule')} ({groups}): {text}"
             case _:
                 yield f"not checked: {', '.join(rules)}: {text}"
 

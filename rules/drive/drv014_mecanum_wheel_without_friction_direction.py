@@ -2,9 +2,9 @@
 
 Gazebo has no rollers: a Mecanum wheel without `<fdir1>` has equal friction in all directions, and
 the robot drives ahead but not sideways. It turns badly or not at all: one whose wheelbase is not
-shorter than its track turned at 0.000 rad/s in Gazebo Fortress, where about 1 rad/s was commanded. A
-friction direction at 45° in the base's frame, with two different coefficients, has the effect of
-rollers.
+shorter than its track turned at 0.000 rad/s in Gazebo Fortress, where about 1 rad/s was commanded.
+A friction direction at 45° in the base's frame, with two different coefficients, has the effect
+of rollers.
 
 Wheels with links below them are left out, since these may be rollers.
 

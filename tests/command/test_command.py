@@ -62,7 +62,7 @@ def test_exit_1_when_there_is_an_error(run: Run, broken: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
     assert f"{BROKEN}/model.sdf:39:18 error REF001 absolute-uri: " in done.stdout
     assert f"\n{BROKEN}: Not ready: " in done.stdout
-    assert done.stdout.endswith(" explains a rule\n")
+    assert " explains a rule, `--full` shows source lines and reasons\n" in done.stdout
 
 
 def test_exit_1_for_a_warning_only_when_asked_for(run: Run, rover: Path) -> None:

@@ -71,11 +71,25 @@ def test_the_report_folder_holds_what_programs_read(
     monkeypatch.chdir(SAMPLES)
     code = cli.main([GOOD, "--no-trial", "--report", str(tmp_path / "out")])
     assert code == EXIT_CLEAN
-    assert capsys.readouterr().out.endswith("(trial not run)\n")
+    page = tmp_path / "out/report.html"
+    assert capsys.readouterr().out.endswith(f"(trial not run)\nreport: {page}\n")
     as_json = json.loads((tmp_path / "out/report.json").read_text("utf-8"))
     as_sarif = json.loads((tmp_path / "out/report.sarif").read_text("utf-8"))
     assert as_json["packages"][0]["name"] == GOOD
     assert as_sarif["version"] == "2.1.0"
+
+
+def test_the_report_opens_in_the_browser(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.chdir(SAMPLES)
+    cli.main([GOOD, "--no-trial", "--report", str(tmp_path), "--open", "--format", "json"])
+    assert opened == [(tmp_path / "report.html").as_uri()]
+    printed = capsys.readouterr()
+    assert json.loads(printed.out)["packages"]
+    assert printed.err.endswith(f"report: {tmp_path / 'report.html'}\n")
 
 
 def test_statistics_follow_the_text_and_spoil_no_other_format(

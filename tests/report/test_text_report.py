@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 
 from checker.base.words import and_list, count, plain, shortened
-from checker.finding import Concern, Place, Severity
+from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
     Cause,
@@ -46,12 +46,29 @@ def lines(*findings: ReportedFinding) -> list[str]:
     return text(replace(PACKAGE, findings=findings)).splitlines()
 
 
-def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
+def full(*findings: ReportedFinding) -> list[str]:
+    package = replace(PACKAGE, findings=findings)
+    return to_text(Report((package,), {}), replace(SETTINGS, full=True)).splitlines()
+
+
+def test_a_report_begins_with_the_verdict_and_what_to_do_first() -> None:
     assert lines(FAULT) == [
         "rover  base model",
+        "Not ready: 1 error of the interface to fix",
         "",
+        "Do first:",
         "models/rover/model.sdf:141:19 error SEN005 lidar-scan-resolution: "
         "scan resolution is 0.1, expected 1",
+        "    fix: write 1.",
+        "",
+        "rover: Not ready: 1 error of the interface to fix",
+        "",
+        "`subt-check rule SEN005` explains a rule, `--full` shows source lines and reasons",
+    ]
+
+
+def test_the_full_form_has_source_line_and_reason_too() -> None:
+    assert full(FAULT)[5:] == [
         "    141 |       <resolution>0.1</resolution>",
         "        |                   ^^^",
         "    why: Rays are lost.",
@@ -60,6 +77,35 @@ def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
         "rover: Not ready: 1 error of the interface to fix",
         "",
         "`subt-check rule SEN005` explains a rule",
+    ]
+
+
+def test_errors_come_in_the_order_of_loading_moving_and_sensing() -> None:
+    rules = ["SEN005", "TRI003", "KIN001", "BRG002", "SDF001", "SDF001", "INE004", "PKG001"]
+    concerns = {"PKG001": Concern.PAPERWORK}
+    found = [
+        replace(FAULT, rule=rule, message=str(number), concern=concerns.get(rule, Concern.ROBOT))
+        for number, rule in enumerate(rules)
+    ]
+    warning = replace(FAULT, severity=Severity.WARNING)
+    shown = [line.split(" lidar")[0].split(" ")[-1] for line in lines(warning, *found)[3:-4]]
+    assert shown == [
+        *("first:", "SDF001", "1.", "KIN001", "1.", "INE004", "1.", "TRI003", "1.", "BRG002", "1."),
+        *("", "errors:", "SDF001", "SEN005", "1.", "PKG001", "1."),
+        *("", "Warnings:", "SEN005"),
+    ]
+
+
+def test_the_line_to_write_is_that_of_the_fix() -> None:
+    edit = Edit(PLACE, "1", "0.1")
+    fixed = replace(FAULT, fix=Fix(Safety.SAFE, (edit,)))
+    assert "    fix: write `<resolution>1</resolution>`" in lines(fixed)
+    assert lines(fixed)[-1] == "`--fix` corrects 1 finding"
+    twice = replace(fixed, fix=Fix(Safety.UNSAFE, (edit, edit)))
+    assert "    fix: write 1." in lines(twice)
+    assert lines(fixed, twice)[-2:] == [
+        "`--fix` corrects 1 finding",
+        "`--fix --unsafe` corrects 2 findings",
     ]
 
 
@@ -73,15 +119,17 @@ def test_rules_that_report_the_same_fault_are_named_once() -> None:
 
 
 def test_a_finding_about_the_folder_shows_the_folder_alone() -> None:
-    assert lines(replace(FAULT, places=(Place(""),)))[2].startswith("models/rover/ error SEN005 ")
+    assert lines(replace(FAULT, places=(Place(""),)))[4].startswith("models/rover/ error SEN005 ")
 
 
 def test_why_and_how_are_said_once_for_a_rule_in_a_package() -> None:
+    other = replace(FAULT, message="differs")
+    assert "\n".join(full(FAULT, other)).count("why: ") == 1
+    assert "\n".join(full(FAULT, other)).count("141 |") == 2
     twice = text(
         replace(PACKAGE, findings=(FAULT, FAULT)), replace(PACKAGE, name="b", findings=(FAULT,))
     )
-    assert twice.count("why: ") == 2
-    assert twice.count("141 |") == 3
+    assert twice.count("fix: ") == 2
 
 
 def test_repeats_are_named_up_to_three_and_counted() -> None:
@@ -107,8 +155,9 @@ def test_infos_are_counted_and_take_one_line_where_they_are_asked_for() -> None:
         "rover: Ready: nothing to fix",
     ]
     shown = to_text(Report((package,), {}), replace(SETTINGS, infos=True)).splitlines()
-    assert shown[2].startswith("models/rover/model.sdf:141:19 info SEN005 ")
-    assert shown[3:5] == ["", "rover: Ready: nothing to fix"]
+    assert shown[3] == "Infos:"
+    assert shown[4].startswith("models/rover/model.sdf:141:19 info SEN005 ")
+    assert shown[5:7] == ["", "rover: Ready: nothing to fix"]
 
 
 def test_quiet_shows_findings_and_nothing_else() -> None:
@@ -145,7 +194,7 @@ def test_a_package_waits_for_those_whose_files_it_reports() -> None:
 def test_the_caret_stays_below_the_marked_words_of_a_long_line() -> None:
     start = 150
     place = Place("a", 7, start + 1, 7, start + 5, snippet="x" * start + "here" + "y" * 80)
-    code, caret = lines(replace(FAULT, places=(place,)))[3:5]
+    code, caret = full(replace(FAULT, places=(place,)))[5:7]
     at = caret.index("^")
     assert code[at : at + 4] == "here"
     assert caret[at:] == "^^^^"
@@ -153,13 +202,13 @@ def test_the_caret_stays_below_the_marked_words_of_a_long_line() -> None:
 
 def test_a_mark_that_spans_lines_ends_with_the_first() -> None:
     place = replace(PLACE, end_line=143, end_column=4)
-    caret = lines(replace(FAULT, places=(place,)))[4]
+    caret = full(replace(FAULT, places=(place,)))[6]
     assert caret.count("^") == len(LINE) - 18
 
 
 def test_tabs_do_not_move_the_caret() -> None:
     place = Place("a", 1, 3, 1, 4, snippet="\t\tx")
-    code, caret = lines(replace(FAULT, places=(place,)))[3:5]
+    code, caret = full(replace(FAULT, places=(place,)))[5:7]
     assert code[caret.index("^")] == "x"
 
 
@@ -264,7 +313,7 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
         "",
         "not opened: models/docs contains no package",
         "",
-        "`subt-check rule SEN005` explains a rule",
+        "`subt-check rule SEN005` explains a rule, `--full` shows source lines and reasons",
     ]
 
 

@@ -32,9 +32,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="each PATH is a changed file: check the packages of these files",
     )
     add_report_options(parser)
+    parser.add_argument(
+        "--open", action="store_true", help="with --report: open the HTML report in the browser"
+    )
     parser.add_argument("--info", action="store_true", help="text and concise: show infos too")
     parser.add_argument(
         "-q", "--quiet", action="store_true", help="text and concise: print findings, nothing else"
+    )
+    parser.add_argument(
+        "--full", action="store_true", help="text: show source lines and reasons too"
     )
     parser.add_argument(
         "--statistics", action="store_true", help="print the number of findings of each rule"
@@ -116,7 +122,7 @@ _APART = {
     "quiet": ("info", "statistics"),
 }
 """Options, and those that do not go with them."""
-_NEEDS = {"unsafe": ("fix", "diff"), "allow_dirty": ("fix",)}
+_NEEDS = {"unsafe": ("fix", "diff"), "allow_dirty": ("fix",), "open": ("report",)}
 """Options, and those of which they need one."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
+import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from checker.base.progress import ProgressLine
 from checker.base.resources import processors
 from checker.base.words import plain, shortened
 from checker.pipeline import Checked, Task, check_tasks, join_reports, tasks_of
-from checker.report.files import STALE, artefacts
+from checker.report.files import INDEX, PAGE, STALE, artefacts
 from checker.report.formats import FORMATS
 from checker.report.render_settings import RenderSettings, palette_for
 from checker.report.report import NotOpened, PackageReport, Report
@@ -87,7 +88,18 @@ def _render_settings(options: argparse.Namespace) -> RenderSettings:
         options.info,
         options.quiet,
         options.format == "concise",
+        options.full,
     )
+
+
+def _name_page(page: Path, options: argparse.Namespace) -> None:
+    """State where the HTML report is, and open it if that is requested."""
+    if options.format in _LINES and not (options.quiet or options.output):
+        show(f"report: {page}\n")
+    else:
+        say_progress(f"report: {page}")
+    if options.open:
+        webbrowser.open(page.resolve().as_uri())
 
 
 def write_results(report: Report, options: argparse.Namespace) -> None:
@@ -101,6 +113,7 @@ def write_results(report: Report, options: argparse.Namespace) -> None:
         folder = empty_of(Path(options.report), STALE)
         for name, content in artefacts(report, settings):
             write(folder / name, content)
+        _name_page(folder / (PAGE if len(report.packages) == 1 else INDEX), options)
     if options.statistics:
         # Behind another format's report it would spoil it.
         tell = show if options.output or options.format == "text" else say_progress
