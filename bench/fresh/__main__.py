@@ -46,7 +46,7 @@ def contact(row: dict[str, str]) -> Contact:
     """Return a row as a record; raise ValueError if it is not complete."""
     if row["kind"] not in {"repository", "report"} or row["verdict"] not in {"right", "wrong"}:
         raise ValueError(f"{row['name']}: unknown kind {row['kind']} or verdict {row['verdict']}")
-    columns = ("robots", "judged", "found", "faults")
+    columns: tuple[str, ...] = ("robots", "judged", "found", "faults")
     columns += tuple(f"{what}_{verdict}" for what in ("errors", "warnings") for verdict in VERDICTS)
     counts = {column: int(row[column]) for column in columns}
     right = row["verdict"] == "right"
