@@ -12,8 +12,9 @@ from msgspec.structs import replace
 from checker.base.parts import Need, need_of
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.finding import Concern, Fix, Place, Safety, Severity
-from checker.source.text import Span
+from checker.source.text import Located, Span
 
 __all__ = [
     "Concern",
@@ -25,6 +26,7 @@ __all__ = [
     "Severity",
     "Unchecked",
     "finding",
+    "misspelt",
     "replace_text",
     "rule",
     "unchecked",
@@ -112,6 +114,31 @@ def _place(where: Where) -> Place:
 def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE) -> Fix:
     """Return the fix that writes `replacement` over the text of `where`."""
     return Fix(safety, (where.span.replacement(replacement),))
+
+
+def misspelt(
+    where: Located[str],
+    message: str,
+    names: Suggestions,
+    *,
+    severity: Severity | None = None,
+    key: str = "",
+) -> Finding:
+    """Make a finding about a name that does not exist.
+
+    Args:
+        where: The name.
+        message: As of `finding`; the known name that is nearest is added.
+        names: The known names. Where one alone can be meant, a fix writes it.
+        severity: The severity, if it differs from the rule's own.
+        key: See `finding`.
+    """
+    name, sure = where.value, names.correction(where.value)
+    text = where.span.text
+    fix = None
+    if sure and text.strip("\"' ") == name:
+        fix = replace_text(where, text.replace(name, sure), Safety.UNSAFE)
+    return finding(where, f"{message}{names.hint(name)}", severity=severity, key=key, fix=fix)
 
 
 class Context(Record):

@@ -10,8 +10,15 @@ has registered is not found.
 
 from checker.base.words import Suggestions
 from checker.ros.control.controllers import Controller, ControlSystem
-from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
-from checker.source.text import Located
+from checker.rule import (
+    Concern,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    rule,
+    unchecked,
+)
 
 
 @rule("CTL001", "controller-of-unknown-joint", Severity.ERROR, Concern.INTERFACE)
@@ -25,13 +32,12 @@ def check(control: ControlSystem) -> Findings:
         for joint in controller.joints:
             known = control.joints.get(joint.value)
             if known is None:
-                sure = names.correction(joint.value)
-                yield finding(
+                yield misspelt(
                     joint,
                     f"{_label(controller)} controls joint {joint.value!r}, "
-                    f"which the robot does not have{names.hint(joint.value)}",
+                    "which the robot does not have",
+                    names,
                     severity=_severity(controller),
-                    fix=replace_text(joint, sure, Safety.UNSAFE) if sure and _bare(joint) else None,
                 )
             elif not control.moves(joint.value):
                 yield finding(
@@ -49,11 +55,6 @@ def _label(controller: Controller) -> str:
 def _severity(controller: Controller) -> Severity | None:
     """Return the severity; a file that no launch file loads may belong to another robot."""
     return None if controller.loaded_by is not None else Severity.WARNING
-
-
-def _bare(joint: Located[str]) -> bool:
-    """Return whether the text is the name itself, without quotes or an alias."""
-    return joint.span.text == joint.value
 
 
 _CONFIG = "config/control.yaml"

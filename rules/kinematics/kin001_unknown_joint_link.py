@@ -11,7 +11,7 @@ Source: SDFormat specification, joint/parent and joint/child.
 from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, misspelt, rule, unchecked
 from checker.source.text import Located
 
 
@@ -26,9 +26,8 @@ def check(robot: Robot) -> Findings:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
             if _exists(robot, joint, role, end) or robot.may_be_included(end.value):
                 continue
-            hint = suggestions.hint(end.value)
             phrase = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
-            yield finding(end, f"joint {joint.name.value!r} has {phrase}{hint}")
+            yield misspelt(end, f"joint {joint.name.value!r} has {phrase}", suggestions)
 
 
 def _exists(robot: Robot, joint: Joint, role: str, end: Located[str]) -> bool:

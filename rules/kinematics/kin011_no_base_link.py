@@ -10,7 +10,7 @@ model/@canonical_link.
 
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, misspelt, rule, unchecked
 
 
 @rule("KIN011", "no-base-link", Severity.WARNING, Concern.INTERFACE)
@@ -48,8 +48,8 @@ def _canonical(robot: Robot) -> Findings:
             continue
         name = scope + canonical.value
         if name not in robot.links_by_name and not robot.may_be_included(name):
-            message = f"canonical link {canonical.value!r} does not exist{names.hint(name)}"
-            yield finding(canonical, message, severity=Severity.ERROR)
+            message = f"canonical link {canonical.value!r} does not exist"
+            yield misspelt(canonical, message, names, severity=Severity.ERROR)
 
 
 def _model(link: str, attribute: str = "", mark: str = "") -> str:

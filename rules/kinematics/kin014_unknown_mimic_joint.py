@@ -14,7 +14,7 @@ from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.model.values import parse_number
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 from checker.source.text import Located
 
 
@@ -26,9 +26,8 @@ def check(robot: Robot) -> Findings:
     for joint in robot.joints:
         for leader in joint.mimics:
             if joint.scope + leader.value not in robot.joints_by_name:
-                hint = suggestions.hint(leader.value)
-                phrase = f"mimics {leader.value!r}, which does not exist{hint}"
-                yield finding(leader, f"joint {joint.name.value!r} {phrase}")
+                phrase = f"mimics {leader.value!r}, which does not exist"
+                yield misspelt(leader, f"joint {joint.name.value!r} {phrase}", suggestions)
             else:
                 leaders.setdefault(joint.scoped_name, (joint, leader))
         yield from _zero_multiplier(joint)

@@ -13,7 +13,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, misspelt, rule, unchecked
 
 
 @rule("PLG004", "plugin-names-unknown-part", Severity.ERROR, Concern.INTERFACE)
@@ -32,11 +32,11 @@ def check(robot: Robot) -> Findings:
             for named in plugin.at(path):
                 if _exists(robot, plugin, named.value, parts[kind]):
                     continue
-                hint = suggestions[kind].hint(named.value)
-                yield finding(
+                yield misspelt(
                     named,
                     f"{plugin.class_name} names {kind} {named.value!r}, "
-                    f"which {robot.name.value!r} does not have{hint}",
+                    f"which {robot.name.value!r} does not have",
+                    suggestions[kind],
                 )
 
 

@@ -12,9 +12,8 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp,
 
 from checker.base.words import Suggestions
 from checker.ros.ros2_control.distributions import distribution_of, is_from
-from checker.ros.ros2_control.hardware import HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import ros2_control
 
 
@@ -26,20 +25,13 @@ def check(control: RobotControl, context: Context) -> Findings:
     suggestions = Suggestions(control.robot.joints_by_name)
     for hardware in control.hardware:
         for joint in hardware.joints:
-            name, wrong = joint.name, _wrong(control, joint, suggestions)
-            if wrong and name.stated:
-                yield finding(
-                    name,
-                    f"<ros2_control> {hardware.name.value!r} has joint {name.value!r}, {wrong}",
-                    severity=severity,
-                )
-
-
-def _wrong(control: RobotControl, joint: HardwareJoint, suggestions: Suggestions) -> str:
-    known = control.joint(joint)
-    if known is None:
-        return f"which the URDF does not have{suggestions.hint(joint.name.value)}"
-    return "which is fixed" if known.type.value == "fixed" else ""
+            name, known = joint.name, control.joint(joint)
+            message = f"<ros2_control> {hardware.name.value!r} has joint {name.value!r}, which"
+            if known is None and name.stated:
+                message += " the URDF does not have"
+                yield misspelt(name, message, suggestions, severity=severity)
+            elif known is not None and known.type.value == "fixed" and name.stated:
+                yield finding(name, f"{message} is fixed", severity=severity)
 
 
 def _arm(joint: str, more: str = "") -> dict[str, str]:

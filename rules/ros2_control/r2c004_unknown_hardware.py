@@ -26,7 +26,7 @@ from checker.ros.ros2_control.distributions import (
     is_from,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located, SourceText
 from checker.source.xml import XmlDocument
@@ -122,8 +122,8 @@ def _foreign(
         return
     exported = set(_exported_plugins(holder))
     if exported and plugin.value not in exported:
-        hint = Suggestions(exported).hint(plugin.value)
-        yield finding(plugin, f"package {owner!r} exports no hardware {plugin.value!r}{hint}")
+        message = f"package {owner!r} exports no hardware {plugin.value!r}"
+        yield misspelt(plugin, message, Suggestions(exported))
 
 
 def _exported_plugins(package: Package) -> Iterator[str]:

@@ -16,7 +16,7 @@ from checker.base.words import Suggestions
 from checker.model.components import Axis, Joint
 from checker.ros.ros2_control.hardware import STANDARD_INTERFACES, HardwareJoint, Interface
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import ros2_control
 
 _LIMITED = ("revolute", "prismatic")
@@ -42,12 +42,9 @@ def _misspelt(
     joint: HardwareJoint, interface: Interface, suggestions: Suggestions
 ) -> Iterator[Finding]:
     name = interface.name.value
-    if name not in STANDARD_INTERFACES and (near := suggestions.closest(name)):
-        yield finding(
-            interface.name,
-            f"joint {joint.name.value!r} has the interface {name!r}, which no controller "
-            f"uses; did you mean {near!r}?",
-        )
+    if name not in STANDARD_INTERFACES and suggestions.closest(name):
+        message = f"joint {joint.name.value!r} has the interface {name!r}, which no controller uses"
+        yield misspelt(interface.name, message, suggestions)
 
 
 def _no_numbers(joint: HardwareJoint, interface: Interface) -> Iterator[Finding]:

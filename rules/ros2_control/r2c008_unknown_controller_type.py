@@ -25,7 +25,7 @@ from checker.ros.ros2_control.distributions import (
     distribution_of,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located
 
@@ -74,11 +74,11 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
         known = types.get(name)
         if known is None or not known.exists_in(distribution):
             instead = _INSTEAD.get(name)
-            hint = f", expected {instead}" if instead else suggestions.hint(name)
-            yield finding(
-                controller.type,
-                f"ROS 2 {distribution.title()} has no controller of type {name}{hint}",
-            )
+            message = f"ROS 2 {distribution.title()} has no controller of type {name}"
+            if instead:
+                yield finding(controller.type, f"{message}, expected {instead}")
+            else:
+                yield misspelt(controller.type, message, suggestions)
 
 
 def _another_package(

@@ -21,7 +21,7 @@ from checker.package.package import Package
 from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
 from checker.ros.ros2_control.hardware import HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 
@@ -55,19 +55,20 @@ def _faults(
         if joint is not None:
             yield from _missing(controller, claim, joint)
         elif name not in control.components:
-            exists = name in control.robot.joints_by_name
-            where = "is in no <ros2_control> tag" if exists else "the robot does not have"
-            yield finding(
-                claim.joint,
-                f"{controller.label} names joint {name!r}, which {where}{suggestions.hint(name)}",
-                key=f"{name} {controller.name}",
-            )
+            message = f"{controller.label} names joint {name!r}, which"
+            key = f"{name} {controller.name}"
+            if name in control.robot.joints_by_name:
+                yield finding(claim.joint, f"{message} is in no <ros2_control> tag", key=key)
+            else:
+                message += " the robot does not have"
+                yield misspelt(claim.joint, message, suggestions, key=key)
     for sensor in sensors_of(controller):
         if sensor.value not in control.components:
-            yield finding(
+            yield misspelt(
                 sensor,
                 f"{controller.label} reads {sensor.value!r}, which is not a sensor or gpio of "
-                f"<ros2_control>{suggestions.hint(sensor.value)}",
+                "<ros2_control>",
+                suggestions,
             )
 
 

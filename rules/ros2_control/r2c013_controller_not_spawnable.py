@@ -21,7 +21,7 @@ from checker.base.words import Suggestions
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.launched import LaunchedControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 
 _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
@@ -47,10 +47,11 @@ def check(launched: LaunchedControl, package: Package) -> Findings:
         suggestions = Suggestions((*listed, *typed))
         for name in spawner.names:
             if name.value not in listed and name.value not in typed:
-                yield finding(
+                yield misspelt(
                     name,
                     f"controller {name.value!r} has no type in the parameters of the controller "
-                    f"manager or of its spawner{suggestions.hint(name.value)}",
+                    "manager or of its spawner",
+                    suggestions,
                 )
 
 

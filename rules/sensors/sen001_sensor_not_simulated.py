@@ -13,7 +13,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import sensor_types
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, misspelt, rule
 
 _IN_CLASSIC = table("gazebo_classic_ros2")["sensors_instead"]
 """Replacements in Gazebo Classic of types that only later releases simulate."""
@@ -31,10 +31,8 @@ def check(robot: Robot, context: Context) -> Findings:
         if not sensor.type.stated:
             continue  # the required attribute is for SDF005
         if type not in types.known:
-            hint = suggestions.hint(type)
-            yield finding(
-                sensor.type, f"{message}, which {target} does not know{hint}", key=f"unknown {type}"
-            )
+            message = f"{message}, which {target} does not know"
+            yield misspelt(sensor.type, message, suggestions, key=f"unknown {type}")
         elif type in types.lost:
             instead = _IN_CLASSIC.get(type) if context.is_classic else None
             hint = f": expected {instead!r}" if instead else ""

@@ -18,7 +18,7 @@ from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.specification import has_version
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 
 TYPES = ("continuous", "fixed", "floating", "planar", "prismatic", "revolute")
 LIMITED = ("prismatic", "revolute")
@@ -84,8 +84,7 @@ def _ends(robot: Robot) -> Iterator[Finding]:
                 phrase = (
                     f"the {role} {end.value!r}, which is not a link" if end.value else f"no {role}"
                 )
-                hint = names.hint(end.value)
-                yield finding(end, f"joint {joint.name.value!r} has {phrase}{hint}")
+                yield misspelt(end, f"joint {joint.name.value!r} has {phrase}", names)
 
 
 def _tree(robot: Robot) -> Iterator[Finding]:

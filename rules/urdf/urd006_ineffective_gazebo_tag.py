@@ -16,7 +16,7 @@ from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 
 _WITHOUT_EFFECT = frozenset(
     {
@@ -38,9 +38,10 @@ def check(description: UrdfDescription) -> Findings:
         name = tag.reference.value
         known = name in robot.links_by_name or name in robot.joints_by_name
         if tag.reference.stated and not known:
-            yield finding(
+            yield misspelt(
                 tag.reference,
-                f"<gazebo> refers to {name!r}, which is not a link or joint{names.hint(name)}",
+                f"<gazebo> refers to {name!r}, which is not a link or joint",
+                names,
                 severity=None if _simulates(tag) else Severity.WARNING,
                 key=name,
             )

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import Transmission, TransmissionEnd, UrdfDescription
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
 from checker.source.text import Located
 
 _MOVING = ("continuous", "prismatic", "revolute")
@@ -79,9 +79,8 @@ def _joint(
     joint = robot.joints_by_name.get(name)
     used = any("control" in plugin.filename.value for plugin in robot.plugins)
     if joint is None:
-        phrase = f"moves joint {name!r}, which does not exist{names.hint(name)}"
-        level = None if used else Severity.WARNING
-        yield finding(end.name, f"transmission {own!r} {phrase}", severity=level)
+        message = f"transmission {own!r} moves joint {name!r}, which does not exist"
+        yield misspelt(end.name, message, names, severity=None if used else Severity.WARNING)
     elif joint.type.value not in _MOVING:
         phrase = f"moves joint {name!r}, which is {joint.type.value}"
         level = Severity.WARNING if used else Severity.INFO

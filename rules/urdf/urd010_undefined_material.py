@@ -9,7 +9,7 @@ Source: URDF specification, visual/material.
 
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import UrdfDescription
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, misspelt, rule
 from checker.source.xml import Element
 
 _DEFINING = ("color", "texture")
@@ -34,11 +34,7 @@ def check(description: UrdfDescription) -> Findings:
         name = material.attribute("name")
         if name is None or not name.value or name.value in defined or _defines(material):
             continue
-        yield finding(
-            name,
-            f"material {name.value!r} is not defined{names.hint(name.value)}",
-            key=name.value,
-        )
+        yield misspelt(name, f"material {name.value!r} is not defined", names, key=name.value)
 
 
 def _defines(material: Element) -> bool:

@@ -10,7 +10,7 @@ Source: gz-sim, DetachableJoint system.
 
 from checker.base.words import Suggestions
 from checker.model.world import World
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, misspelt, rule
 
 _CLASS = "DetachableJoint"
 _OWN = "__model__"
@@ -29,18 +29,14 @@ def check(world: World) -> Findings:
                 continue
             other = model if child.value == _OWN else models.get(child.value)
             if other is None:
-                hint = Suggestions(sorted(models)).hint(child.value)
-                yield finding(
-                    child, f"world {world.name!r} has no model {child.value!r} to attach{hint}"
-                )
+                message = f"world {world.name!r} has no model {child.value!r} to attach"
+                yield misspelt(child, message, Suggestions(sorted(models)))
                 continue
             link = next(plugin.at("child_link"), None)
             known = other.missing_parts or link is None or link.value in other.links_by_name
             if link is not None and not known:
-                hint = Suggestions(sorted(other.links_by_name)).hint(link.value)
-                yield finding(
-                    link, f"{other.name.value!r} has no link {link.value!r} to attach{hint}"
-                )
+                message = f"{other.name.value!r} has no link {link.value!r} to attach"
+                yield misspelt(link, message, Suggestions(sorted(other.links_by_name)))
 
 
 def _world(model: str = "box", link: str = "body", more: str = "") -> str:

@@ -122,6 +122,18 @@ def test_speed_that_the_wheel_radius_explains() -> None:
     assert said.endswith("; wheel_radius is 0.2 m, but the wheels have a radius of 0.1 m")
 
 
+def test_what_slides_is_named_where_a_robot_is_slow() -> None:
+    slow = trial_of(Measurement("drag", 0.3, "base_link"), speed_ratio=0.5)
+    (found,) = said_by(RULES["TRI003"], slow)
+    assert found.severity is WARNING
+    assert found.message.endswith(
+        "; link 'base_link' slides on the ground, and its friction is 30% of the robot's weight: "
+        "give it a friction of 0.001"
+    )
+    slow = trial_of(Measurement("drag", 0.01, "base_link"), speed_ratio=0.5)
+    assert [found.severity for found in said_by(RULES["TRI003"], slow)] == [ERROR]
+
+
 @pytest.mark.parametrize(
     ("robot", "figures", "words"),
     [

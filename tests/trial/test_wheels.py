@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import msgspec
 
 from checker.formats.sdf.reader import read_sdf
+from checker.model.robot import Robot
 from checker.physics.trial.trial import Trial
 from checker.rulebook.example_parts import rover
 from tests.model.robots import document, sdf
@@ -102,16 +103,37 @@ def test_exchanged_sides_turn_the_wrong_way() -> None:
     assert value(trial, "yaw_ratio") < -0.1
 
 
-def test_two_wheels_and_a_ball_turn_as_told() -> None:
-    ball = """
+_BALL = """
 <link name="ball"><pose>-0.2 0 0.05 0 0 0</pose><inertial><mass>0.5</mass></inertial>
   <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry>
-  <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>
+  <surface><friction><ode><mu>{mu}</mu><mu2>{mu}</mu2></ode></friction></surface></collision></link>
 <joint name="ball_joint" type="fixed"><parent>base_link</parent><child>ball</child></joint>"""
+
+
+def on_a_ball(mu: float) -> Robot:
+    """Return a robot on two wheels and a ball behind them, which carries a quarter of the body."""
     wheels = wheel("l", 0, 0.25) + wheel("r", 0, -0.25)
-    trial = sound(sdf(chassis(com="-0.05 0 0") + ball + wheels + diff_drive(("l",), ("r",))))
+    ball = _BALL.format(mu=mu)
+    return sdf(chassis(com="-0.05 0 0") + ball + wheels + diff_drive(("l",), ("r",)))
+
+
+def test_two_wheels_and_a_ball_turn_as_told() -> None:
+    trial = sound(on_a_ball(0.0))
     assert 0.97 < value(trial, "yaw_ratio") < 1.03
     assert 0.9 < value(trial, "yaw_of_predicted") < 1.1
+
+
+def test_the_drag_of_a_ball_is_its_load_times_its_friction() -> None:
+    (drag,) = trial_of(on_a_ball(0.0)).all("drag")
+    assert drag.value < 1e-5
+    (drag,) = trial_of(on_a_ball(0.5)).all("drag")
+    robot = on_a_ball(0.5)
+    weights = {link.name.value: link.mass for link in robot.links}
+    total = sum(weights.values())
+    # The ball stands 0.2 m behind the wheels' axle.
+    share = (weights["base_link"] * 0.05 + weights["ball"] * 0.2) / 0.2 / total
+    assert drag.part == "ball"
+    assert abs(drag.value / (0.5 * share) - 1.0) < 0.01
 
 
 def test_a_wheel_off_the_ground_carries_nothing() -> None:

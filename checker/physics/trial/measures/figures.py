@@ -50,6 +50,7 @@ MEASURES: dict[str, Measure] = {
     "full_acceleration_limit": Measure("acceleration limit", "m/s²"),
     # wheels, tracks, joints (one figure a part)
     "load_share": Measure("load / equal share"),
+    "drag": Measure("friction of what slides / weight"),
     "torque": Measure("largest torque, mean over 0.1 s", "N·m"),
     "torque_limit": Measure("effort limit", "N·m"),
     # copters

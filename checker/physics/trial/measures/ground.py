@@ -39,6 +39,18 @@ def loads(touches: Touches) -> dict[str, float]:
     return dict(zip(touches.names, total.tolist(), strict=True))
 
 
+def drag(motion: Motion, touches: Touches) -> dict[str, float]:
+    """Return the largest friction force on each link that slides with the robot's body, N."""
+    import numpy as np
+
+    surfaces = _Surfaces(motion, touches)
+    moving = {*surfaces.wheels, *surfaces.belts, *surfaces.loose}
+    grip = touches.loads * touches.friction.max(axis=1)
+    total = np.bincount(touches.link, grip, len(touches.names)) / len(touches.time)
+    pairs = zip(touches.names, total.tolist(), strict=True)
+    return {name: force for name, force in pairs if force > 0.0 and name not in moving}
+
+
 def middle(motion: Motion, touches: Touches) -> Array | None:
     """Return the middle of the driven wheels, or of where the belts touch; x, y in metres."""
     import numpy as np

@@ -20,7 +20,7 @@ from checker.physics.trial.course import (
     TURN,
 )
 from checker.physics.trial.measures.drive import measure_drive, measure_turn
-from checker.physics.trial.measures.ground import loads
+from checker.physics.trial.measures.ground import drag, loads
 from checker.physics.trial.measures.motion import Motion, averaged
 from checker.physics.trial.profile import smoothed
 from checker.physics.trial.trial import MOVE_TORQUE, TORQUE, TORQUE_LIMIT, Leg, Measurement
@@ -148,15 +148,18 @@ _AT_REST = 1.0
 
 
 def measure_loads(motion: Motion) -> Iterator[Measurement]:
-    """Measure each drive wheel's load against an equal share of the weight."""
+    """Measure each drive wheel's load against an equal share of the weight, and what drags."""
     leg = motion.leg(SETTLE)
     wheels = motion.plan.wheels
     if leg is None or not motion.weight > 0.0:
         return
-    carried = loads(motion.touches(leg, _AT_REST))
+    touches = motion.touches(leg, _AT_REST)
+    carried = loads(touches)
     for wheel in wheels:
         load = sum(carried.get(link, 0.0) for link in wheel.links)
         yield Measurement("load_share", load * len(wheels) / motion.weight, wheel.joint)
+    for link, force in drag(motion, touches).items() if wheels else ():
+        yield Measurement("drag", force / motion.weight, link)
 
 
 # Standing: how a robot that does not drive keeps the pose it starts in.
