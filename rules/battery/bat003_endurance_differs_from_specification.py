@@ -1,10 +1,10 @@
-"""The battery lasts longer or shorter than specifications.md says.
+"""A battery that lasts longer or shorter than specifications.md says.
 
-Teams plan with specifications.md. A `power_load` copied from another robot gives the
-endurance of that robot. The rule computes how long the model lasts from the plugin's charge,
-voltages and load; for accepted packages the result is within 17 % of specifications.md.
+Teams plan with specifications.md. With a `power_load` copied from another robot, the model has the
+endurance of that robot. The rule computes the endurance from the plugin's charge, voltages and
+load; for accepted packages the result is within 17 % of specifications.md.
 
-Fix: choose `power_load` so that the battery lasts as long as specifications.md says, or correct
+Fix: set `power_load` so that the battery lasts as long as specifications.md says, or correct
 specifications.md.
 Source: endurances that SubT reviewers accepted, and the parameters of the battery plugins in the
 same packages (`subt_standards.json`).

@@ -3,7 +3,7 @@
 A team drops a relay with `breadcrumb/deploy` and reads from `breadcrumb/remaining` how many are
 left. Launch files bridge both only when the spawner passes `breadcrumbs:=1`; without the bridges no
 relay is ever dropped. If only the count is missing, this is a warning; on a robot without
-breadcrumbs it is information, since another configuration may start the same launch file.
+breadcrumbs it is an info, since another configuration may start the same launch file.
 
 Fix: bridge the plugin's topic and its `/remaining` in vehicle_topics.launch, or include
 `breadcrumbs.launch` of `subt_ros`, and pass `breadcrumbs:=1` in the spawner.

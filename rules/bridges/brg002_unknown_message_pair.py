@@ -1,11 +1,11 @@
-"""A bridge between two messages that it cannot convert.
+"""A bridge between two message types that ros_gz_bridge cannot convert.
 
-The bridge only knows fixed pairs of messages, written as `package/msg/Name` and `gz.msgs.Name`;
-upper and lower case count. For any other pair it warns "Failed to create a bridge", continues, and
-the topic has no messages. Pairs that were added to the bridge after October 2024 are not known
-here: unless a known pair is spelt similarly, the finding is a warning or information.
+The bridge warns "Failed to create a bridge" and continues, and the topic has no messages. It
+converts a fixed list of pairs, written as `package/msg/Name` and `gz.msgs.Name`; the names are
+case-sensitive. The list of this rule ends in October 2024: a pair that is not similar to one of the
+list is a warning or an info.
 
-Fix: write the pair that the message names.
+Fix: write the pair that the finding names.
 Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
 """
 

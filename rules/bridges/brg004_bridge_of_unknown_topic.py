@@ -1,10 +1,12 @@
-"""A bridge of a topic that does not exist in Gazebo.
+"""A bridge for a topic that does not exist in Gazebo.
 
-The bridge starts, but no message ever arrives. A name in the `<topic>` of a sensor is used as
-written; all others begin with the names that world and model have in Gazebo, which `-name` of the
-spawning program gives. It is reported where all robots that the launch file spawns were read, and
-either everything that it starts is known, or a topic with this message is not bridged. Topics that
-are in the robot's files, but switched off by an argument, are skipped.
+The bridge starts, but no message ever arrives. A `<topic>` of a sensor is used as written; other
+topics begin with the names of the world and the model in Gazebo. The argument `-name` of the
+spawning program sets the name of the model.
+
+The rule needs all robots that the launch file spawns. It reports a topic if everything that the
+launch file starts is known, or if the robot has a topic with this message that is not bridged.
+Topics in the robot's files that an argument switches off are skipped.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.

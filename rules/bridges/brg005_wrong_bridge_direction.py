@@ -3,7 +3,7 @@
 A sensor publishes in Gazebo; bridged from ROS to Gazebo, its messages do not arrive in ROS.
 Commands come from ROS; bridged from Gazebo to ROS, they do not move the robot. A bridge in both
 directions of a topic that Gazebo only publishes works, but creates an unnecessary publisher in
-Gazebo: information.
+Gazebo: an info.
 
 Fix: write `[` or GZ_TO_ROS for what Gazebo publishes, `]` or ROS_TO_GZ for commands.
 Source: ros_gz_bridge; gz-sensors and Gazebo's systems.

@@ -3,8 +3,7 @@
 The bridge passes few services: `ros_gz_interfaces/srv/ControlWorld` to Gazebo's
 `/world/<world>/control`. For any other type it warns "Failed to create a bridge" and continues
 without the service. Services that were added to the bridge after October 2024 are not known here:
-they are information. The name of the world is the one in its file: with another name, calls wait
-forever.
+they are infos. The name of the world is the one in its file: with another name, calls wait forever.
 
 Fix: write the type as the message names it, and the name of the world in its file.
 Source: ros_gz_bridge, mappings.py and `create_service_bridge`.

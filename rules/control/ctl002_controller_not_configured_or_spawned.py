@@ -1,8 +1,8 @@
-"""A controller that is spawned but not configured, or configured and never spawned.
+"""A controller that is spawned but not configured, or configured but never spawned.
 
-For a controller without configuration the spawner ends with an error, and the joint moves freely. A
-controller that is configured but never spawned does nothing: the joint has no controller although
-the file suggests one.
+If a controller has no configuration, its spawner ends with an error and the joint moves freely. A
+controller that is never spawned does nothing: the joint is not controlled, although the YAML file
+has a controller for it.
 
 Fix: use the same name for the controller in the YAML file and in the spawner's args, state its
 `type`, and load the file before the spawner starts.

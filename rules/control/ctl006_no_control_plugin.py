@@ -1,8 +1,8 @@
 """Transmissions, but no plugin that uses them.
 
 Gazebo itself ignores transmissions. Without `gazebo_ros_control` there is no controller manager,
-the spawner waits for one forever, and the joints move freely. It is information if no launch file
-of the package starts a controller: transmissions also serve real robots, and the plugin may be in
+the spawner waits for one forever, and the joints move freely. It is an info if no launch file of
+the package starts a controller: transmissions also serve real robots, and the plugin may be in
 another file.
 
 Fix: add `<gazebo><plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/></gazebo>`

@@ -2,7 +2,7 @@
 
 Teams choose a robot by its specification sheet: they do not use a sensor that is not listed, and
 the real robot may not carry it. Every robot has a gas detector and a barometer, which need no
-entry. Most IMUs contain a magnetometer; a missing one is information.
+entry. Most IMUs contain a magnetometer; a missing one is an info.
 
 Fix: list the sensor in the section "Sensors" with its device and the type that models it, or remove
 it from the model.
@@ -43,7 +43,7 @@ def check(
 
     Options:
         exempt: Values of the `type` of a `<sensor>` that need no entry in specifications.md.
-        minor: Values of the `type` of a `<sensor>` that are reported as information instead of a
+        minor: Values of the `type` of a `<sensor>` that are reported as an info instead of a
             warning when specifications.md does not list them.
     """
     section = specification.section("sensors")

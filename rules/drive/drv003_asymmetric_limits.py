@@ -1,8 +1,8 @@
 """Drive limits whose two ends differ in size, are zero or have the wrong sign.
 
 A robot that drives at −2 to 3 m/s is rare; usually only one of the two figures was changed. A limit
-of zero, or a minimum above zero, forbids a direction: the robot cannot reverse, or never stops.
-None of the accepted packages that we checked shows this.
+of zero, or a minimum above zero, forbids a direction: the robot cannot reverse, or never stops. No
+accepted package that we checked has this fault.
 
 Fix: write the negated maximum as the minimum, unless measurements of the vehicle differ.
 Source: parameters of Gazebo's drive systems; SubT review practice.

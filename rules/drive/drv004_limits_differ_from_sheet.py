@@ -1,8 +1,8 @@
 """The limits of the drive differ from those of specifications.md.
 
 Teams plan with specifications.md. The drive must reach the velocities and accelerations that
-specifications.md states, no more and no less. It drives as the model says, so this is a warning.
-None of the accepted packages that we checked shows this.
+specifications.md states, no more and no less. It drives as the model says, so this is a warning. No
+accepted package that we checked has this fault.
 
 Fix: correct specifications.md, or the limits of the drive plugin. If specifications.md gives
 different figures for the two directions and the plugin has one parameter for both, any figure

@@ -1,8 +1,8 @@
 """A drive limit that differs from another configuration of the same robot.
 
 Configurations of one robot differ in their sensors, but they are the same vehicle and drive alike.
-Authors often correct a limit in one package and forget the others. None of the accepted packages
-that we checked shows this.
+Authors often correct a limit in one package and forget the others. No accepted package that we
+checked has this fault.
 
 Fix: use the same limits in every configuration; if the sensors make a vehicle slower, say so in
 specifications.md.

@@ -2,8 +2,8 @@
 
 The wheels of such a robot must slip sideways in a turn. Without the plugin they grip the ground:
 the robot hops, turns in jerks or does not turn. Wheels count over all DiffDrive plugins: one for
-the front and one for the rear wheels make a skid-steer robot, too. None of the accepted packages
-that we checked shows this.
+the front and one for the rear wheels make a skid-steer robot, too. No accepted package that we
+checked has this fault.
 
 Fix: add WheelSlip to what the spawner emits, with a `<wheel>` for each wheel:
 `slip_compliance_lateral` above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.

@@ -1,8 +1,8 @@
 """WheelSlip on a robot that steers its wheels or walks.
 
 Steered wheels roll where they point, and feet must grip: with slip the robot drifts off its path.
-Usually the plugin is left over from the skid-steer robot that the package was copied from. None of
-the accepted packages that we checked shows this.
+Usually the plugin is left over from the skid-steer robot that the package was copied from. No
+accepted package that we checked has this fault.
 
 Fix: remove the WheelSlip plugin.
 Source: SubT review practice: WheelSlip lets skid-steer wheels slip sideways in a turn.

@@ -1,7 +1,7 @@
 """A static model with a plugin that drives it.
 
 A static model never moves: its joints are fixed, and no force or velocity changes its pose. The
-drive starts, listens to its topic, and nothing happens.
+plugin starts and subscribes to its topic, but commands have no effect.
 
 Fix: remove `<static>`, in the model or in the `<include>` that sets it; or remove the plugin.
 Source: SDFormat specification, model/static; what the plugin does in a static model is from memory.

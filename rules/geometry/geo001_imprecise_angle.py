@@ -3,9 +3,9 @@
 A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. The robot
 drives anyway, so this is not an error. But the SubT checklist requires exact wheels, since a solver
 may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model, and for
-other targets, it is information; for Gazebo from Fortress on, less than a microradian is not
-reported. Where the angle of a part that is not a wheel changes by more than the rounding of four
-decimals, as for 3.14, the part moves: the fix is unsafe.
+other targets, it is an info; for Gazebo from Fortress on, less than a microradian is not reported.
+Where the angle of a part that is not a wheel changes by more than the rounding of four decimals, as
+for 3.14, the part moves: the fix is unsafe.
 
 Fix: write 1.5707963267948966 or 3.1415926535897932.
 Source: Model Migration Guide, step 3: "ensure that the orientations of the wheel collisions use
@@ -48,7 +48,7 @@ def check(
         tolerance: Radians; an angle closer than this to a multiple of π/2 other than 0, but not
             equal to it, is reported.
         harmless: Radians by which an angle of a wheel's collision may differ before it is a warning
-            instead of information.
+            instead of an info.
         typos: Texts, without sign, that mean the nearest multiple of π/2, whatever the difference.
         digits: Digits after the decimal point of the angle that the fix writes, at most 17.
     """

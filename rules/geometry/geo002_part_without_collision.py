@@ -1,8 +1,8 @@
 """A driven wheel, track or heavy body without collision, or a robot without any.
 
 A link without collision touches nothing: a wheel turns in the air or sinks into the ground, a body
-drives through walls, and a robot without collisions falls through the world. None of the accepted
-packages that we checked shows this.
+drives through walls, and a robot without collisions falls through the world. No accepted package
+that we checked has this fault.
 
 Fix: give each wheel a `<collision>` with a cylinder, and each track boxes and cylinders.
 Source: SDFormat specification: only `<collision>` elements make contacts.

@@ -1,8 +1,8 @@
 """The cylinder of a wheel does not turn about the wheel's axis.
 
 The wheel tumbles like a coin instead of rolling. A cylinder's axis is its own z axis until a pose
-turns it, and that pose is missing or turns it about the wrong axis. None of the accepted packages
-that we checked shows this.
+turns it, and that pose is missing or turns it about the wrong axis. No accepted package that we
+checked has this fault.
 
 A URDF joint without `<axis>` turns about its x axis.
 

@@ -1,8 +1,8 @@
 """The drive plugin's wheel radius differs from that of the wheels.
 
 The plugin computes the wheel rate from the speed and `wheel_radius`. If the radius is 10 % too
-large, the robot is 10 % slower than commanded and its odometry is 10 % wrong. None of the accepted
-packages that we checked shows this.
+large, the robot is 10 % slower than commanded and its odometry is 10 % wrong. No accepted package
+that we checked has this fault.
 
 Fix: set the plugin's `<wheel_radius>` to the radius of the wheels' collisions, in metres.
 Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.2 m by default.

@@ -6,7 +6,7 @@ raise the separation on purpose, by half or more, because their wheels slip side
 separation below the true distance, or far above it, is a mistake: the robot turns too slowly or too
 fast. Distances are those between the middles of the shapes that the wheels roll on, wherever the
 origins of their links are. With a wrong wheel base or kingpin width the wheels steer about
-different points. None of the accepted packages that we checked shows this.
+different points. No accepted package that we checked has this fault.
 
 Fix: set the plugin's `<wheel_separation>` to the distance of left and right wheels, in metres; for
 a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the distance of the axles and

@@ -1,8 +1,8 @@
 """A wheel or track is above or below the level of the others.
 
 A wheel in the air carries no load and drives nothing; one that is too low lifts the adjacent ones.
-The robot rocks and pulls to one side, although each wheel looks right on its own. None of the
-accepted packages that we checked shows this.
+The robot rocks and pulls to one side, although each wheel looks right on its own. No accepted
+package that we checked has this fault.
 
 Fix: correct the height of the wheel's link, or the radius of its collision.
 Source: geometry of collisions in the robot's initial pose.

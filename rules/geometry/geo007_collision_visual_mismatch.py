@@ -1,8 +1,8 @@
 """Collision and visual of a link are in different places, or of different size.
 
 The robot does not touch what it seems to touch: a wheel rolls next to its visual, a robot stops in
-front of nothing or drives into walls. Usually one of the two has a wrong pose, scale or unit. None
-of the accepted packages that we checked shows this.
+front of nothing or drives into walls. Usually one of the two has a wrong pose, scale or unit. No
+accepted package that we checked has this fault.
 
 Wheels of published robots differ by up to 0.25 of the diagonal, as a narrow disc in a wide tyre
 does, and other links by up to 0.46.

@@ -1,8 +1,8 @@
 """A shape with a length of zero or less.
 
 Physics engines refuse such a shape, drop it, or compute contacts that explode. A negative scale
-mirrors a mesh: this is useful for a visual, but the surface of a collision becomes inside out. None
-of the accepted packages that we checked shows this.
+mirrors a mesh: this is useful for a visual, but the surface of a collision becomes inside out. No
+accepted package that we checked has this fault.
 
 Fix: write the length in metres as a positive number; mirror a mesh in the mesh file.
 Source: SDFormat specification, geometry: lengths are above 0.

@@ -23,7 +23,7 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
     """Report coefficients of 0 or less and above `most`, and single wheels that state none.
 
-    If nothing that the robot stands on states friction, this is information.
+    If nothing that the robot stands on states friction, this is an info.
 
     Options:
         most: Greatest coefficient of friction; more is reported, except across a track.

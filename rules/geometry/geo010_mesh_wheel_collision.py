@@ -1,8 +1,8 @@
 """A wheel whose collision is a mesh.
 
 A mesh rolls on its corners: the robot shakes and its odometry drifts. Contacts take long to
-compute, and engines treat meshes that are not convex differently. None of the accepted packages
-that we checked shows this.
+compute, and engines treat meshes that are not convex differently. No accepted package that we
+checked has this fault.
 
 Fix: use a cylinder or a sphere as the wheel's collision, and keep the mesh as its visual.
 Source: a cylinder or sphere touches the ground in the same way at every angle.

@@ -3,7 +3,7 @@
 A joint turns about its axis by the right-hand rule: wheels roll forward, to +x, if their axes point
 to the left, to +y. With one axis reversed, the wheels work against each other. With all axes
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
-way. None of the accepted packages that we checked shows this.
+way. No accepted package that we checked has this fault.
 
 Wheels that are called left and right and that no plugin drives are compared with their places: the
 controller that drives them relies on their names.

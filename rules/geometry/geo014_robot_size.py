@@ -1,8 +1,8 @@
 """The whole robot is far too small, large, light or heavy.
 
 A robot of 400 m was drawn in millimetres, one of 4 mm was scaled twice; masses become wrong when
-grams are taken for kilograms. Contacts and controllers are made for robots of real size. None of
-the accepted packages that we checked shows this. Outside of SubT, only models that drive or have
+grams are taken for kilograms. Contacts and controllers are made for robots of real size. No
+accepted package that we checked has this fault. Outside of SubT, only models that drive or have
 wheels are checked: others may be a sensor, a tool or scenery.
 
 Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` of meshes.

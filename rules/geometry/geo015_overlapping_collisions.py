@@ -1,8 +1,8 @@
 """Parts that no joint connects start inside each other.
 
 By default Gazebo does not let a robot collide with itself, but other simulators do: there the parts
-jam or burst apart at the start. Real parts cannot be in the same place. None of the accepted
-packages that we checked shows this.
+jam or burst apart at the start. Real parts cannot be in the same place. No accepted package that we
+checked has this fault.
 
 Fix: correct the pose of one of the parts, or make its collision smaller.
 Source: geometry of collisions in the robot's initial pose; depth along separating directions.

@@ -2,7 +2,7 @@
 
 MuJoCo refuses such a body, and other engines divide by the moment. Only a line without width has
 one moment of zero, and only a point has three. If the part is fixed to others with inertia, they
-move as one body; then this is information.
+move as one body; then this is an info.
 
 Fix: state the moments of the part itself, or of a small box of its size: m/12·(b² + c²).
 Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.

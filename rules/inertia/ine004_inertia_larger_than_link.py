@@ -39,7 +39,7 @@ def check(
         warning_below: The same ratio; less is a warning, because few bodies have so much of their
             mass near the centre (a solid ball has 0.63).
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
-            is too large is information, one that is too small is skipped.
+            is too large is an info, one that is too small is skipped.
     """
     if masses.robot.is_static:
         return

@@ -6,11 +6,11 @@ its way.
 
 Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
-visuals count too. A mesh that is not closed counts as its convex hull. If the greatest volume
-is that of meshes, a heavy link is information: a mesh often draws a bracket or a cover, and the
-motor behind it is not drawn. In published robots none of the links that are heavier than steel in
-meshes has a wrong mass, and all that are so in simple shapes have one. A whole link that is as
-dense as solid steel is suspicious if the rest of the robot is hollow, as robots are.
+visuals count too. A mesh that is not closed counts as its convex hull. If the greatest volume is
+that of meshes, a heavy link is an info: a mesh often draws a bracket or a cover, and the motor
+behind it is not drawn. In published robots none of the links that are heavier than steel in meshes
+has a wrong mass, and all that are so in simple shapes have one. A whole link that is as dense as
+solid steel is suspicious if the rest of the robot is hollow, as robots are.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
@@ -43,7 +43,7 @@ def check(
         lightest: Density in kg/m³, for the volume of the link's largest collision; less is a
             warning.
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
-            visuals if that is more; more is a warning, or information if these are meshes.
+            visuals if that is more; more is a warning, or an info if these are meshes.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
             because no metal is so dense, except the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if

@@ -4,7 +4,7 @@ A link that is named after a device and carries its sensor models that device. A
 380 g and is 84 mm wide and 73 mm high; a model with 3.8 kg is wrong by one digit. The inertia is
 compared with that of a solid of the device's mass and size. Mounts, frames without shapes, and
 sensors that are part of a chassis are not judged. If a figure does not come from a datasheet or a
-similar source, this is information.
+similar source, this is an info.
 
 Fix: take mass and size from the datasheet, and compute the inertia with the formula of a solid
 cylinder or box.
@@ -34,7 +34,7 @@ _BESIDE = re.compile(
 
 @rule("INE013", "device-differs-from-datasheet", Severity.WARNING, Concern.ROBOT)
 def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1) -> Findings:
-    """Report devices that differ from their datasheets; figures from memory are information.
+    """Report devices that differ from their datasheets; figures from memory are infos.
 
     Options:
         tolerance: Share of the expected figure by which the mass, each side of the size and each

@@ -1,15 +1,14 @@
-"""A joint that cannot hold its load in every pose that the limits allow.
+"""A joint whose effort limit is too low to hold its load in every pose.
 
 In the pose with the largest load, such as a stretched arm, gravity needs more torque than the
-joint's effort limit. There the arm drops, and a controller that moves it through such poses fails.
-With `--payload KG`, or `payload` in settings, the arm also carries that mass, in the origin of the
-last link that is not a finger. Joints above parts that are on the ground are left out, and poses in
-which parts collide are not excluded.
+joint's effort limit. There the arm drops, and a controller cannot move it through such poses. With
+`--payload KG`, or `payload` in the settings, the arm also carries that mass at the origin of the
+last link that is not a finger. Joints above parts that are on the ground are skipped. Poses in
+which parts collide are included.
 
 Fix: write the motor's stall torque (after its gear) as the effort limit, correct the masses of the
 parts that the joint carries, or restrict the joints to poses that the robot can hold.
-Source: statics; Pinocchio's generalized gravity, whose largest value is searched along one joint
-after another.
+Source: statics; generalized gravity of Pinocchio, maximized over one joint after another.
 """
 
 from checker.physics.mass.arm_loads import ArmLoads
@@ -26,7 +25,7 @@ def check(arms: ArmLoads, context: Context, *, warning_above: float = 1.5) -> Fi
 
     Options:
         warning_above: Multiple of the effort limit; more is a warning, and less, above the limit,
-            is information.
+            is an info.
     """
     robot = arms.masses.robot
     if robot.is_static or not arms.joints:

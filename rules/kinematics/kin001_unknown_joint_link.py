@@ -2,7 +2,7 @@
 
 The simulator refuses the whole model, or drops the joint and the part falls off.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: name a link of the model exactly as in its `name` attribute.
 Source: SDFormat specification, joint/parent and joint/child.

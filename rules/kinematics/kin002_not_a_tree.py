@@ -1,8 +1,8 @@
 """Joints that do not form a tree: a link is its own parent, has two parents or is in a loop.
 
 Simulators place each link by the one joint above it. If a link has a second joint above it, Gazebo
-reports that the link already has a parent and drops the joint. A loop has no root link. None of the
-accepted packages that we checked shows this.
+reports that the link already has a parent and drops the joint. A loop has no root link. No accepted
+package that we checked has this fault.
 
 Fix: remove the extra joint, or swap its parent and child.
 Source: gz-physics, DART's tree of bodies; SDFormat: a joint's parent and child must differ.

@@ -1,7 +1,7 @@
 """A link that no joint connects to the robot.
 
-The link falls off when the simulation starts, or is inside the robot and pushes it. None of the
-accepted packages that we checked shows this.
+The link falls off when the simulation starts, or is inside the robot and pushes it. No accepted
+package that we checked has this fault.
 
 Fix: add a joint between the robot and the link, usually `<joint type="fixed">`; or remove the link.
 Source: SDFormat specification: links of a model move freely unless joints connect them.

@@ -1,8 +1,8 @@
 """A joint axis without direction, or not of length 1.
 
 A joint cannot turn about an axis of zeros: parsers refuse the model, or use another axis. Most
-simulators normalise other lengths; in some they scale the motion. None of the accepted packages
-that we checked shows this.
+simulators normalise other lengths; in some they scale the motion. No accepted package that we
+checked has this fault.
 
 Fix: write a direction of length 1, such as `0 0 1`.
 Source: SDFormat specification, axis/xyz: "The vector should be normalized"; URDF, joint/axis.

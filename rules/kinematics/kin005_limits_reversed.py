@@ -1,7 +1,7 @@
 """A joint whose lower limit is above its upper limit.
 
 No position satisfies both limits: physics engines refuse the joint, jam it, or throw it from one
-limit to the other. None of the accepted packages that we checked shows this.
+limit to the other. No accepted package that we checked has this fault.
 
 Fix: swap the two limits; angles are in radians.
 Source: SDFormat specification, axis/limit; URDF, joint/limit.

@@ -3,8 +3,8 @@
 This includes a wheel whose opposite wheel is driven: the robot pulls to one side.
 
 Gravity moves the part without an end. This is intended for wheels, rotors and similar parts. A
-mast, a pole or a sensor mount must not move; usually it should be fixed. None of the accepted
-packages that we checked shows this.
+mast, a pole or a sensor mount must not move; usually it should be fixed. No accepted package that
+we checked has this fault.
 
 Fix: make the joint `type="fixed"`, or give it limits; or name it in the plugin that drives it.
 Source: SDFormat specification, axis/limit: without it the range is infinite.

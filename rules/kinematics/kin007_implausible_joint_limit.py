@@ -1,15 +1,17 @@
 """An effort or velocity limit that no motor has, or a driven joint without limits.
 
-With a limit of zero, a driven joint does not move: its plugin may not use any force, or reach any
+A driven joint with a limit of zero does not move: its plugin cannot apply a force, or reach any
 speed. The limiter of ros2_control, enabled by default from Kilted on, does the same for joints with
-a command interface. DART, the physics engine of Gazebo Sim, locks a joint whose velocity limit is
-zero, including passive wheels. The SolidWorks exporter writes `effort="0" velocity="0"` by default.
+a command interface. DART, the default physics engine of Gazebo Sim, locks a joint whose velocity
+limit is zero, including passive wheels. The SolidWorks exporter writes `effort="0" velocity="0"` by
+default.
 
-With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
-limit it cannot be checked whether the motor is strong enough. The thrust of rotors has its own
-limits in their plugin.
+With a limit of 1e9 N·m a wheel never stalls on any slope, and one collision can throw the robot
+away. Without a limit, the rules cannot check whether the motor is strong enough. Rotors need none:
+their plugin limits the thrust.
 
-Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, after the gear.
+Fix: write the motor's stall torque (N·m) as `effort` and its no-load speed (rad/s) as `velocity`,
+both after the gear.
 Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited; gz-physics 9,
 dartsim/src/SDFFeatures.cc: zero is a limit.
 """
@@ -41,10 +43,10 @@ def check(
 ) -> Findings:
     """Report finite limits of effort and velocity that no motor has.
 
-    A missing limit of a driven joint is information, one of zero is an error; of a joint of
-    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any other
-    joint of a URDF that may use an effort, or that Gazebo holds. One whose position limits are
-    equal has no motor: it is KIN009's.
+    A missing limit of a driven joint is an info, one of zero is an error; of a joint of
+    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any other joint of a
+    URDF that may use an effort, or that Gazebo holds. One whose position limits are equal has no
+    motor: it is KIN009's.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.

@@ -2,8 +2,8 @@
 
 Gazebo with DART turns a gearbox, a revolute2 and a continuous joint of SDF into a fixed joint: a
 wheel on it does not turn. A continuous joint of URDF becomes a revolute one, and turns. Gazebo
-Classic drops planar and floating joints of URDF. None of the accepted packages that we checked
-shows this.
+Classic drops planar and floating joints of URDF. No accepted package that we checked has this
+fault.
 
 Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
 `revolute2` and `gearbox`.

@@ -1,11 +1,11 @@
-"""A pose or axis that refers to a frame which does not exist, or to itself.
+"""A pose or axis relative to a frame that does not exist, or to itself.
 
 The pose of the part is undefined: parsers refuse the model, or put the part at the origin.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
-Fix: name a link, joint or frame of the same model with its exact name, and do not pose two frames
-relative to each other.
+Fix: write the exact name of a link, joint or frame of the same model, and do not define the poses
+of two frames relative to each other.
 Source: SDFormat specification 1.7, "Pose frame semantics"; SDF 1.5 and 1.6, pose/@frame.
 """
 

@@ -1,8 +1,8 @@
 """A wheel's velocity limit is below the speed that the drive plugin may command.
 
 The drive plugin uses its own limit, but the joint stays below it: the robot is slower than
-specified. If only some wheels are limited, odometry and turning are wrong too. None of the accepted
-packages that we checked shows this.
+specified. If only some wheels are limited, odometry and turning are wrong too. No accepted package
+that we checked has this fault.
 
 Fix: raise the joint's `<velocity>` to at least `max_velocity` / `wheel_radius` of the plugin, or
 lower `max_velocity`.

@@ -1,8 +1,8 @@
 """A joint axis far from the part that it moves, or a part far from its parent.
 
 The part swings around its axis on an invisible arm, or floats in the air. Usually a pose has a
-wrong decimal point or unit, or refers to an unintended frame. None of the accepted packages that we
-checked shows this.
+wrong decimal point or unit, or refers to an unintended frame. No accepted package that we checked
+has this fault.
 
 Fix: correct the pose of the joint or of the child link, in metres.
 Source: geometry; SDF gives a joint's pose in its child link, URDF in its parent.

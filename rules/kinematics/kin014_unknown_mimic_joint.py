@@ -1,10 +1,10 @@
-"""A joint that mimics an unknown joint, itself, or one that mimics it in turn.
+"""A joint that mimics an unknown joint, itself, or a joint that mimics it in turn.
 
-The joint has no leader to follow: parsers refuse the model, or the finger of a gripper does not
-move. With a multiplier of 0 it does not move, which is a warning. None of the accepted packages
-that we checked shows this.
+There is no joint to follow: parsers refuse the model, or the joint, such as the finger of a
+gripper, does not move. A multiplier of 0 also keeps it from moving, which is a warning. No accepted
+package that we checked has this fault.
 
-Fix: write the exact name of the leading joint, and the ratio of the motions as multiplier.
+Fix: write the exact name of the leading joint, and the ratio of the motions as `multiplier`.
 Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
 """
 

@@ -1,7 +1,8 @@
-"""Negative damping, friction or stiffness of a joint.
+"""A joint with negative damping, friction or stiffness.
 
-The joint gains energy with every move: it swings wider and wider until the simulation explodes.
-None of the accepted packages that we checked shows this.
+Negative damping or friction adds energy with every movement, and a negative stiffness pushes the
+joint away from its rest position: the motion grows until the simulation diverges. No accepted
+package that we checked has this fault.
 
 Fix: write a positive number, or 0 for none.
 Source: SDFormat specification, axis/dynamics; URDF, joint/dynamics.

@@ -2,11 +2,11 @@
 
 A link without gravity drives up every slope and never tips over; a kinematic link pushes through
 everything. Both are usually left over from debugging, or hide that a model is unstable. DART, the
-default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. None of the accepted packages
-that we checked shows this.
+default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. No accepted package that we
+checked has this fault.
 
 An arm without gravity may be intended, to replace springs that balance the real one. For links
-other than the base and the wheels, it is information.
+other than the base and the wheels, it is an info.
 
 Fix: remove `<gravity>` and `<kinematic>` from the link.
 Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`; what
@@ -21,7 +21,7 @@ from checker.rule import Concern, Context, Findings, Severity, finding, rule
 def check(robot: Robot, context: Context) -> Findings:
     """Report links without gravity, and kinematic links.
 
-    For a link that is neither of the base nor a wheel, nor between them, it is information.
+    For a link that is neither of the base nor a wheel, nor between them, it is an info.
     """
     carrying = _carrying_links(robot)
     for link in robot.links:

@@ -1,14 +1,14 @@
-"""A joint that mimics another, in a world whose physics engine has no such constraint.
+"""A joint that mimics another, with a physics engine that has no mimic constraint.
 
-The two joints are not coupled in the simulation: the second finger of a gripper moves freely, while
-RViz shows it following, because robot_state_publisher supports `<mimic>`. DART, which Gazebo Sim
-loads unless the world or the command line names another engine, has no mimic constraint; Bullet
-Featherstone has one. URD019 is the rule for Fortress. A joint that a plugin drives, or that is in
-`<ros2_control>`, is not affected: gz_ros2_control moves it too.
+The two joints are not coupled in the simulation: the second finger of a gripper moves freely,
+although RViz shows it following, because robot_state_publisher supports `<mimic>`. DART, the
+default engine of Gazebo Sim, has no mimic constraint; Bullet Featherstone has one. URD019 is the
+rule for Fortress. Joints that a plugin drives or that are in `<ros2_control>` are not reported:
+gz_ros2_control moves the latter.
 
 Fix: in the world's physics plugin write `<engine>` with
-`<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 says what that engine lacks);
-or let ros2_control, or another plugin, move the joint.
+`<filename>gz-physics-bullet-featherstone-plugin</filename>` (WLD009 lists what that engine lacks);
+or drive the joint with ros2_control or another plugin.
 Source: gz-physics, features of dartsim and bullet-featherstone (gz-physics 7, 8, 9), issue 432;
 gz-sim, Physics.cc: the default engine; gz_ros2_control issue 340.
 """

@@ -1,12 +1,11 @@
-"""Gazebo does not find a plugin that a package here builds.
+"""A plugin library that is installed where Gazebo does not search for it.
 
-Gazebo looks for the library of a plugin in its own folder and in those of
-`GZ_SIM_SYSTEM_PLUGIN_PATH`; `gz_sim.launch.py` adds the folders of `LD_LIBRARY_PATH`, among them
-`lib`. A library that is installed into `lib/<package>` is in none of them: Gazebo prints one line
-and continues without the plugin.
+Gazebo prints one line and continues without the plugin. It searches its own folder and those of
+`GZ_SIM_SYSTEM_PLUGIN_PATH`; `gz_sim.launch.py` adds the folders of `LD_LIBRARY_PATH`, which include
+`lib` but not `lib/<package>`.
 
-It is reported of a robot that a launch file spawns, which starts Gazebo itself, when no hook,
-package.xml, launch file, document or script of the available packages names that path.
+The rule checks robots spawned by a launch file that also starts Gazebo. It reports nothing if a
+hook, package.xml, launch file, document or script of the available packages names the plugin path.
 
 Fix: install the library into `lib`, or register an environment hook with the line
 `prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@`.

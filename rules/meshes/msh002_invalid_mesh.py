@@ -1,7 +1,7 @@
 """A mesh file that breaks the rules of its format, although Gazebo can load it.
 
 Blender, MuJoCo and most other loaders refuse it. A COLLADA file with `id="<STL_BINARY>"`, for
-example, is not XML; Gazebo's parser reads all of it, so this is information.
+example, is not XML; Gazebo's parser reads all of it, so this is an info.
 
 Fix: export the mesh again; in a COLLADA file replace `<` in ids by a letter.
 Source: the formats' specifications; tinyxml2, which allows `<` in values. Several accepted packages

@@ -2,7 +2,7 @@
 
 The simulator tests collision meshes against each other at every step, and draws visual meshes again
 for each camera and each lidar of the robot. A URDF without sensors is only drawn on the screen:
-there, many triangles of visuals are information.
+there, many triangles of visuals are infos.
 
 Fix: reduce the mesh (Blender: Decimate); use boxes, cylinders and spheres as collisions.
 Source: Model Migration Guide and review findings; the figures are ten times what the accepted

@@ -1,8 +1,8 @@
 """A collision mesh that is not a closed surface.
 
 Inside and outside are undefined: objects can get stuck in the mesh or fall through a hole. Most
-meshes with small holes work, so this is information. If the triangles face inwards, contacts push
-in the wrong direction: this is a warning. Usually a visual mesh was reused without changes.
+meshes with small holes work, so this is an info. If the triangles face inwards, contacts push in
+the wrong direction: this is a warning. Usually a visual mesh was reused without changes.
 
 Fix: use boxes, cylinders and spheres; or close the holes, recalculate the normals outwards and
 remove degenerate faces (Blender: Merge by Distance, Fill Holes, Recalculate Outside).

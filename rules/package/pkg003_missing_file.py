@@ -4,7 +4,7 @@ Without model, spawner or package.xml the robot cannot start. A review requires 
 Reviewers open the other files first. Parts that the package inherits from a sibling count as
 present. If a sibling of the same robot has a specifications.md that names this configuration, its
 absence here is a warning; and so is a name such as `specification.md`, which is also read. Missing
-thumbnails are information.
+thumbnails are infos.
 
 Fix: add the file; the guide's example package shows the content of each.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.

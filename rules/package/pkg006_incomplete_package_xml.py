@@ -4,7 +4,7 @@ catkin refuses to build a workspace with such a package, so that no robot in it 
 need the license to use the model, and the maintainer's address for questions. In accepted packages,
 only maintainers without a name occur. An entry that is left from the template of another package,
 such as "The acme_rover_sensor_config_2 package" or a link to that package's page on ros.org, is
-incomplete as well; the link is information as long as it is a comment.
+incomplete as well; the link is an info as long as it is a comment.
 
 Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
 `<buildtool_depend>catkin</buildtool_depend>`.
@@ -89,7 +89,7 @@ def _left_from_copying(package: Package, manifest: PackageManifest) -> Iterator[
 
 
 def _links(manifest: PackageManifest) -> Iterator[tuple[Located[str], Severity]]:
-    """Yield links to pages of robots' packages; one that is still a comment is information."""
+    """Yield links to pages of robots' packages; one that is still a comment is an info."""
     for url in manifest.urls:
         if _PAGE.fullmatch(url.value.strip()):
             yield url, Severity.WARNING

@@ -68,7 +68,7 @@ def check(
 ) -> Findings:
     """Compare used packages with package.xml.
 
-    Packages of the ROS distribution are information, in ROS 2 a warning.
+    Packages of the ROS distribution are infos, in ROS 2 a warning.
     """
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)

@@ -1,7 +1,7 @@
 """A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine. Thumbnails are not needed there: they are information.
+only on the author's machine. Thumbnails are not needed there: they are infos.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
 for each folder with the files in it: `glob("launch/*")` does not include files in subfolders.

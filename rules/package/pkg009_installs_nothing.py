@@ -2,8 +2,8 @@
 
 The build stops there with an error, and the rest is not installed. This holds for the files and
 folders of `install()`, its targets, the sources of a target, the folder of
-`ament_python_install_package()`, and the files of `data_files`, which takes no folders. None of the
-accepted packages that we checked shows this.
+`ament_python_install_package()`, and the files of `data_files`, which takes no folders. No accepted
+package that we checked has this fault.
 
 Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, installs the
 files that exist. git does not keep empty folders.

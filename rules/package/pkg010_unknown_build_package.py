@@ -2,8 +2,8 @@
 
 `find_package(… REQUIRED)` for a library that is not installed, or only in another version, stops
 the build of the whole workspace. The rule assumes that declared dependencies in package.xml, and
-packages in the package or its workspace, are available. None of the accepted packages that we
-checked shows this.
+packages in the package or its workspace, are available. No accepted package that we checked has
+this fault.
 
 Fix: remove the call if the package is not used; require the version that the release has; or
 declare the dependency in package.xml, so that it is installed.

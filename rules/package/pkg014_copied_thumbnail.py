@@ -1,8 +1,8 @@
 """A thumbnail that is the picture of another package.
 
 The catalogue then shows another robot. This happens when a new robot starts as a copy of an old
-one. Only available packages are compared; configurations of one robot may share pictures. None of
-the accepted packages that we checked shows this.
+one. Only available packages are compared; configurations of one robot may share pictures. No
+accepted package that we checked has this fault.
 
 Fix: make pictures of this robot.
 Source: common practice.

@@ -1,9 +1,9 @@
 """A file name that other machines may not find.
 
 URIs, CMake lists and shell commands break at spaces. Systems encode letters outside ASCII
-differently. Of two names that differ only in case, Windows and macOS keep one. None of the accepted
-packages that we checked shows this. REF002, PKG004 or PKG009 report a reference that differs from
-its file only in case.
+differently. Of two names that differ only in case, Windows and macOS keep one. No accepted package
+that we checked has this fault. REF002, PKG004 or PKG009 report a reference that differs from its
+file only in case.
 
 Fix: use only ASCII letters, digits, `_`, `-` and `.` in the name, and correct the references to it.
 Source: common practice with CMake lists, URIs and archives made on Windows and macOS.

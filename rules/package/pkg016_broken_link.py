@@ -2,7 +2,7 @@
 
 The target of the link is not part of the package: after an upload or installation the file is
 missing, although it exists on the author's machine. A link into a package that package.xml names as
-a dependency is information: the two are installed together. None of the accepted packages that we
+a dependency is an info: the two are installed together. None of the accepted packages that we
 checked shows a broken link.
 
 Fix: replace the link with the file itself, or correct the link.

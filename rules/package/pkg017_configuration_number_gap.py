@@ -1,8 +1,8 @@
 """A configuration number is missing.
 
 The configurations of a robot are numbered from 1. A gap suggests that a configuration is missing.
-Only available packages are counted; a robot with only one configuration is not judged. None of the
-accepted packages that we checked shows this.
+Only available packages are counted; a robot with only one configuration is not judged. No accepted
+package that we checked has this fault.
 
 Fix: give the configuration the next free number.
 Source: Model Migration Guide, step 4: names end in `_sensor_config_<#>`; numbering without gaps is

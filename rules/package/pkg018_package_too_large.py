@@ -1,7 +1,7 @@
 """A package, or a file in it, that is very large.
 
 Everyone who starts the robot downloads and loads the whole package; meshes of tens of megabytes
-make that slow. None of the accepted packages that we checked shows this.
+make that slow. No accepted package that we checked has this fault.
 
 Fix: reduce meshes and textures to visible detail, and remove CAD sources.
 Source: this rule's own limits; the largest of 18 accepted packages has 10 MB, and its largest file

@@ -1,10 +1,10 @@
 """An executable of setup.py that `ros2 run` cannot start.
 
-Its module or function does not exist, so that Python ends with an ImportError; or setup.cfg does
-not put it into `lib/<package>`, the only folder in which `ros2 run` and launch files look. Both
-faults appear only when the robot is started.
+Its module or function does not exist, so Python ends with an ImportError; or setup.cfg does not
+install it into `lib/<package>`, the only folder that `ros2 run` and launch files search. Neither
+fault shows before the robot is started.
 
-Fix: correct the entry of `console_scripts`, written `name = package.module:function`; in setup.cfg
+Fix: correct the `console_scripts` entry, written `name = package.module:function`; in setup.cfg
 write `install_scripts=$base/lib/<package>` below `[install]` and `script_dir=$base/lib/<package>`
 below `[develop]`.
 Source: ROS 2 documentation, "Developing a ROS 2 package": setup.cfg is needed so that `ros2 run`

@@ -1,8 +1,8 @@
 """A dependency in package.xml that neither the ROS distribution nor rosdep has.
 
 `rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
-cannot build it. A misspelt name is a warning. Other names are information: the package may be built
-from source that is not available here, for example if only an older distribution has released it.
+cannot build it. A misspelt name is a warning. Other names are infos: the package may be built from
+source that is not available here, for example if only an older distribution has released it.
 Dependencies with a `condition` are skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and document that in the

@@ -6,7 +6,7 @@ line and continues without the drive, the sensor or the light that the plugin pr
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
 a submission, in `launch/spawner.rb`).

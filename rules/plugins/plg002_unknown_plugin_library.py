@@ -3,7 +3,7 @@
 Gazebo cannot load it: it prints one line and continues without the drive, the sensor or other
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
 package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
-libraries: there it is information, unless the name is one of Gazebo's own. It is a warning if the
+libraries: there it is an info, unless the name is one of Gazebo's own. It is a warning if the
 library is of a known package, on which package.xml does not depend, and an error if the ROS 2
 distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
 Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs.
@@ -12,7 +12,7 @@ Fix: write the library's name as the message suggests, or ship the library and d
 that contains it in package.xml.
 Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins found in SubT
 packages (`subt_plugins.json`); packages that distributions do not have (`removed_packages.json`).
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 """
 
 from checker.base.resources import table

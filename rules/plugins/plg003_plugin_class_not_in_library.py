@@ -4,8 +4,8 @@ Gazebo opens the library, finds no class with that name, prints one line and con
 plugin.
 
 Fix: write a class that the library has, or the library that has the class.
-Source: classes that the systems of a Gazebo release register (`gazebo_plugins.json`). None of the
-accepted packages that we checked shows this.
+Source: classes that the systems of a Gazebo release register (`gazebo_plugins.json`). No accepted
+package that we checked has this fault.
 """
 
 from checker.model.components import Plugin

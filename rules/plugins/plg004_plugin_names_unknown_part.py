@@ -3,7 +3,7 @@
 The plugin starts, finds nothing to act on, and does nothing: the wheel does not turn, the rotor
 does not lift, or the wheel slip is not applied.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: name the part exactly as in its `name` attribute in the model.
 Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).

@@ -6,7 +6,7 @@ differential drive at its default topic, because the drive reads `<odom_topic>`.
 Fix: write the parameter as the plugin reads it, or remove it.
 Source: parameters that the source code of each system reads (`gazebo_plugins.json`);
 `static_pose_publisher` for `static_publisher` in SubT packages. Harmless parameters that come from
-templates are information.
+templates are infos.
 """
 
 from collections.abc import Iterator
@@ -45,8 +45,8 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
     """Report elements in plugins of the release that the plugin's source never reads.
 
     Options:
-        harmless: Names of elements that are information instead of a warning if a plugin does not
-            read them.
+        harmless: Names of elements that are infos instead of a warning if a plugin does not read
+            them.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -3,8 +3,8 @@
 The messages of both plugins are mixed: the robot seems to jump between two places.
 
 Fix: remove one of the plugins, or give it its own topic with `<odom_topic>`.
-Source: default topics of the drive systems and of the odometry publisher of Gazebo. None of the
-accepted packages that we checked shows this.
+Source: default topics of the drive systems and of the odometry publisher of Gazebo. No accepted
+package that we checked has this fault.
 """
 
 from collections.abc import Iterator

@@ -4,8 +4,7 @@ Topics are global. Two robots of a team share such a topic: one command drives b
 motion drains the other's battery.
 
 Fix: start the topic with `/model/#{_name}/`.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from collections.abc import Iterator

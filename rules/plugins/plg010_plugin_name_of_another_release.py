@@ -2,8 +2,8 @@
 
 From Garden on the systems are called `gz-sim-…-system` and `gz::sim::systems::…`. Harmonic rewrites
 the older names and warns; Ionic and Jetty do not: they find no library, and the robot has no drive,
-no state publisher or no sensor. Fortress has the older names itself, so there it is information:
-its latest versions read the newer names too, which load in every release.
+no state publisher or no sensor. Fortress has the older names itself, so there it is an info: its
+latest versions read the newer names too, which load in every release.
 
 Fix: write `gz-sim-…-system` and `gz::sim::systems::…`.
 Source: SystemLoader.cc of gz-sim, branches ign-gazebo6, gz-sim8, gz-sim9 and gz-sim10.

@@ -3,8 +3,8 @@
 After an upload a package is alone: other packages are not next to it, and a path such as
 `../other_robot/meshes/wheel.dae` leads nowhere. This is also true for a path through the package's
 own name. If package.xml names the other package as a dependency and has the file, the two are
-installed together, and this is information. For a texture it is a warning: the part is there
-without it. None of the accepted packages that we checked shows this.
+installed together, and this is an info. For a texture it is a warning: the part is there without
+it. No accepted package that we checked has this fault.
 
 Fix: copy the file into the package, and write the path from model.sdf to it.
 Source: Model Migration Guide, steps 6 to 8: gather all meshes and materials in the package, and use

@@ -2,9 +2,8 @@
 
 Gazebo builds a sensor's topic from world, model, link and sensor. If a bridge names the wrong link,
 its ROS topic exists but never carries a message. A bridge that a condition switches off is only
-left over from another robot's launch file, and is information. A plugin of the author's own may
-publish such a topic itself: where the sensor, its link or the model has one, the bridge is not
-checked.
+left over from another robot's launch file, and is an info. A plugin of the author's own may publish
+such a topic itself: where the sensor, its link or the model has one, the bridge is not checked.
 
 Topics differ between releases. A thermal camera of Dome publishes its picture under its own name
 without `/image` (`sensor/thermal`), and camera_info next to it (`sensor/camera_info`); since

@@ -8,7 +8,7 @@ not give the place; both together (`front_d435/image_raw`) are fine. All topics 
 have the same prefix, so that its points are found with its image.
 
 The points of the robot's only 3D lidar are `points` on most robots. A prefix (`front_laser/points`)
-is information.
+is an info.
 
 Fix: remap the bridge to the usual name.
 Source: SubT API; review findings about names with `back` instead of `rear`, with the device

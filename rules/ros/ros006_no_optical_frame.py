@@ -1,9 +1,9 @@
-"""An image that is not published in its optical frame.
+"""A camera image that is not published in an optical frame.
 
 Gazebo's cameras look along x, but ROS programs for images expect z: without an
-optical_frame_publisher every detected object is off by 90 degrees. The image itself is published,
-so this is a warning. The nodes that the launch files of subt_ros start are assumed
-(`models_common.json`).
+optical_frame_publisher, the direction to every detected object is off by 90 degrees. The image
+itself is published, so this is a warning. The rule assumes the nodes that the launch files of
+subt_ros start (`models_common.json`).
 
 Fix: start an optical_frame_publisher of subt_ros next to the bridge, with remaps for `input/image`,
 `output/image`, `input/camera_info` and `output/camera_info`; for a depth image with `args="depth"`.

@@ -6,7 +6,7 @@ Classic, which ends with Humble; `fake_components/GenericSystem` is `mock_compon
 since Humble.
 
 A class of another package is compared with the plugin descriptions that the package exports, if it
-is available; if it is not, the finding is information unless package.xml depends on the package.
+is available; if it is not, the finding is an info unless package.xml depends on the package.
 
 Fix: name a class that exists: `gz_ros2_control/GazeboSimSystem` in Gazebo Harmonic and later,
 `ign_ros2_control/IgnitionSystem` in Fortress, `mock_components/GenericSystem` without hardware.
@@ -41,7 +41,7 @@ _ALSO_BUILT = ("gz_ros2_control/GazeboSimSystem", "humble")
 def check(control: RobotControl, package: Package, papers: Paperwork, context: Context) -> Findings:
     """Report hardware components that do not exist.
 
-    Where the file names another one as well, an argument of xacro chooses: it is information.
+    Where the file names another one as well, an argument of xacro chooses: it is an info.
     """
     distribution = distribution_of(context)
     for plugin in dict.fromkeys(hardware.plugin for hardware in control.hardware):

@@ -26,7 +26,7 @@ _LIMITED = ("revolute", "prismatic")
 def check(control: RobotControl) -> Findings:
     """Report misspelt interfaces, and numbers that the joint does not allow.
 
-    Limits that are wider than those of the URDF are information.
+    Limits that are wider than those of the URDF are infos.
     """
     suggestions = Suggestions(STANDARD_INTERFACES)
     for hardware in control.hardware:

@@ -31,8 +31,8 @@ _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinemati
 def check(control: RobotControl, context: Context, package: Package) -> Findings:
     """Report parameters of ros2_controllers that have no effect.
 
-    One that only other distributions know is information, except `use_stamped_vel: false`.
-    Controllers of packages in the workspace are not checked, since they may be changed copies.
+    One that only other distributions know is an info, except `use_stamped_vel: false`. Controllers
+    of packages in the workspace are not checked, since they may be changed copies.
     """
     distribution = distribution_of(context)
     for controller in control.controllers:

@@ -3,7 +3,7 @@
 A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, control characters and a second root element. In files that only Gazebo
-reads these are information; the parsers of ROS refuse them.
+reads these are infos; the parsers of ROS refuse them.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested.

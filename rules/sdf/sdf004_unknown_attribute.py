@@ -3,8 +3,8 @@
 Parsers skip unknown attributes, so they have no effect: a misspelt `relative_to` leaves a part in
 the wrong place. libsdformat reads a file of an older version as one of its own newest version, so
 attributes of that version have an effect in any file. SDF014 reports the attribute `frame` of a
-pose. Attributes with a namespace prefix are ignored. None of the accepted packages that we checked
-shows this.
+pose. Attributes with a namespace prefix are ignored. No accepted package that we checked has this
+fault.
 
 Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.

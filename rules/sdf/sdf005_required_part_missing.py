@@ -2,8 +2,8 @@
 
 A required part has no default: the parser refuses the file, or builds an incomplete part. A part
 without a name cannot be found. A visual without geometry loads and shows nothing, so that is a
-warning where the profile names no Gazebo release. KIN001 reports the ends of joints. None of the
-accepted packages that we checked shows this.
+warning where the profile names no Gazebo release. KIN001 reports the ends of joints. No accepted
+package that we checked has this fault.
 
 Fix: add the element or attribute that the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute.

@@ -1,11 +1,12 @@
-"""A known element in a place where it is not allowed.
+"""An SDF element below a parent that does not allow it.
 
-Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
-directly below `<sensor>` does not reach the IMU. If the right place is set, if its value is the
-default there, if it only changes the look of a part, or if the target does not read it in its place
-either, it is a warning. SDF003 reports elements that are not known in any place.
+Simulators read an element only in its own place and ignore it elsewhere: `<enable_orientation>`
+directly below `<sensor>` has no effect on the IMU. The finding is a warning if the element is also
+set in the right place, if its value is the default there, if it only affects the appearance, or if
+the target does not read it in the right place either. SDF003 reports elements that SDF does not
+have anywhere.
 
-Fix: move it to the place that the message names.
+Fix: move the element to the place that the message names.
 Source: SDFormat specification, the version that the file states.
 """
 

@@ -9,7 +9,7 @@ since SDF 1.7, and works. Names of the form `__x__`, the name `world`, and names
 special meaning for the parser; before SDF 1.8 `::` was part of a valid name, and is reported in
 submissions only. Plugins may share a name, and names inside a plugin are not compared.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: give each sibling its own name.
 Source: SDFormat specification 1.7, "unique sibling names" and "reserved names"; libsdformat 12 and

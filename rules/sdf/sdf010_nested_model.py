@@ -5,7 +5,7 @@ This does not concern the `<include>` that `launch/spawner.rb` emits, which is r
 
 `--fix --unsafe` flattens the model: link `wrist` of a nested model `arm` becomes link `arm__wrist`,
 in the same place. It also edits files that name the link; topics of its sensors change with the
-name. None of the accepted packages that we checked shows this.
+name. No accepted package that we checked has this fault.
 
 Fix: flatten the model, so that all links and joints are directly in one `<model>`.
 Source: Model Migration Guide, step 9: "Flattening the model file is necessary because nested

@@ -3,8 +3,8 @@
 Gazebo 9 needed names such as `X1/base_link` to distinguish robots. Ignition Gazebo separates the
 names of robots itself, and the simulator renames the robot when it spawns it. The old prefix is
 then wrong in every frame and topic. Prefixes that differ from link to link are names of parts, such
-as `front/left_wheel`, unless one is the model's own name. None of the accepted packages that we
-checked shows this.
+as `front/left_wheel`, unless one is the model's own name. No accepted package that we checked has
+this fault.
 
 Fix: remove the prefix from links and joints, and wherever they are used: joints' ends, plugins,
 launch files.

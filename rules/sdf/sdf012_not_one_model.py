@@ -2,8 +2,8 @@
 
 The simulator spawns one model of the file. With a world around it, a second model, or
 `<static>true`, it spawns another robot than intended, or one that cannot move. Every parser refuses
-a model without links. Worlds and static models are faults of submissions only. None of the accepted
-packages that we checked shows this.
+a model without links. Worlds and static models are faults of submissions only. No accepted package
+that we checked has this fault.
 
 Fix: keep one `<model>` directly below `<sdf>`; put worlds in `worlds/`.
 Source: Model Migration Guide, step 3; SDFormat specification 1.8, "only one model at the root";

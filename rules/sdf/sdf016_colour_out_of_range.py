@@ -1,9 +1,9 @@
-"""A colour outside 0…1.
+"""A colour with a component outside 0…1.
 
-Red, green, blue and alpha are numbers from 0 to 1. From libsdformat 11.4 on, the parser refuses a
-file with others. Up to Dome it divides numbers above 1 by 255: 255 is full, but 1.5 is nearly dark.
+libsdformat 11.4 and later refuse the file: red, green, blue and alpha are numbers from 0 to 1.
+Releases up to Dome divide numbers above 1 by 255: 255 is full brightness, but 1.5 is nearly dark.
 
-Fix: divide by 255.
+Fix: divide numbers from 0 to 255 by 255.
 Source: SDFormat specification, type color; libsdformat 11.4, Param.cc; ign-math 6, Color::Clamp.
 """
 

@@ -1,7 +1,7 @@
 """A world or model refers to a frame that does not exist.
 
 The place of the model or frame is undefined, so parsers refuse the file. KIN010 reports frames
-inside a model. None of the accepted packages that we checked shows this.
+inside a model. No accepted package that we checked has this fault.
 
 Fix: name a frame or model of the same world; remove `relative_to` from the pose of a model outside
 a world; let `placement_frame` name a frame of the model.

@@ -2,7 +2,7 @@
 
 `ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so they
 publish nothing: this is an error. `gpu_ray` still works and is the older name of `gpu_lidar`: this
-is information.
+is an info.
 
 Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
 Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no

@@ -2,9 +2,9 @@
 
 A full turn from -3.1459 to 3.1459 is 0.5 degrees too large: the last rays see what the first ones
 saw, and every point of the cloud is slightly wrong. In the challenge a full turn goes from -π to π,
-as on all other robots, and not from 0 to 2π; for later releases of Gazebo this is information,
-because many devices do so. If the first angle is not below the last, all rays point in one
-direction or the scan is mirrored.
+as on all other robots, and not from 0 to 2π; for later releases of Gazebo this is an info, because
+many devices do so. If the first angle is not below the last, all rays point in one direction or the
+scan is mirrored.
 
 Fix: write the smaller angle first. For a full turn write -3.141592653589793 and 3.141592653589793,
 or, for programs that expect ray 0 at the front, 0 and 6.283185307179586.

@@ -1,14 +1,14 @@
-"""The number of a lidar's samples differs from that of its device at this rate.
+"""A lidar whose samples per row differ from those of the real device at this rate.
 
-A VLP-16 measures 1800 points per row at 10 Hz and 900 at 20 Hz. With 10000 points the model sees
-far more than the real robot and slows down the simulation of all robots. That number comes from an
-old template, together with a scan resolution of 0.1, and was copied into many robots. A scan over a
-part of the turn may have the same part of the samples. If a figure was never compared with a
-datasheet, this is information.
+The model sees more or fewer points than the real robot, and too many slow down the simulation of
+all robots. A VLP-16 measures 1800 points per row at 10 Hz and 900 at 20 Hz. The number 10000 comes
+from an old template, together with a scan resolution of 0.1, and was copied into many robots. A
+lidar that scans only part of a turn may have a proportional number of samples. If the device's
+figure was never compared with a datasheet, the finding is an info.
 
 Fix: write the number of samples that the device measures at the model's `<update_rate>`.
-Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json`
-names others, figure by figure.
+Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json` has
+the source of each other figure.
 """
 
 import math

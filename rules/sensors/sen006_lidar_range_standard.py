@@ -33,7 +33,7 @@ def check(
     tolerance: float = 0.01,
     grave: float = 5.0,
 ) -> Findings:
-    """Report missing noise and wrong figures; information if no device is known.
+    """Report missing noise and wrong figures; an info if no device is known.
 
     Options:
         tolerance: Share by which range resolution and noise may differ from the device's own

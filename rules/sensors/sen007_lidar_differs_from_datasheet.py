@@ -1,12 +1,12 @@
 """A lidar's rows, vertical field of view, range or rate differ from its device.
 
-Readers of "VLP-16" in specifications.md expect 16 rows over 30 degrees and 100 m. With a rate
-that the device does not have, such as 15 Hz for an Ouster, the model publishes points that the real
+Readers of "VLP-16" in specifications.md expect 16 rows over 30 degrees and 100 m. With a rate that
+the device does not have, such as 15 Hz for an Ouster, the model publishes points that the real
 device cannot. Where the list of sensors says just "3D lidar", a device that a link or another line
 of specifications.md names counts, if it is the only one of its class. A figure of a lidar that
 "Diversions from Physical Hardware" mentions is not reported. If nothing names the device, a range
-that no lidar of this shape has is information. A figure that was never compared with a datasheet is
-also information.
+that no lidar of this shape has is an info. A figure that was never compared with a datasheet is
+also an info.
 
 Fix: write the figures of the datasheet, or describe the difference under "Diversions from Physical
 Hardware" in specifications.md.

@@ -1,13 +1,13 @@
-"""Intrinsics that do not match the image.
+"""Camera intrinsics that do not match the image.
 
-Gazebo renders the image from width, height and `horizontal_fov`, and publishes `camera_info` from
-`<intrinsics>`. If they disagree, every measurement in the image is wrong. On later releases the
-intrinsics define the image, and it does not show the stated field of view. The usual cause is
+Every measurement made in the image is wrong: Gazebo renders it from width, height and
+`horizontal_fov`, but publishes `camera_info` from `<intrinsics>`. In later releases the intrinsics
+determine the image, which then does not have the stated field of view. The usual cause is
 intrinsics copied from a camera of another resolution. For a calibrated camera, whose centre is not
-at half the size, this is information if the focal length is right.
+at half the size, the finding is an info if the focal length is right.
 
-Fix: write fx = fy = width / (2·tan(horizontal_fov / 2)), cx = (width - 1) / 2,
-cy = (height - 1) / 2 and s = 0, or correct `horizontal_fov`.
+Fix: write fx = fy = width / (2·tan(horizontal_fov / 2)), cx = (width - 1) / 2, cy = (height - 1) /
+2 and s = 0, or correct `horizontal_fov`.
 Source: projection of a pinhole camera; SubT review findings about wrong focal lengths. How releases
 use the intrinsics is from memory of gz-sensors.
 """

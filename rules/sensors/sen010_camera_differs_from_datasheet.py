@@ -9,7 +9,7 @@ A device that specifications.md names anywhere, in a link or a line of the costs
 the only one of its class. A device of a family is compared if specifications.md names its model.
 The type codes of machine vision cameras contain the size, rounded: a BFLY-U3-23S6C has 2.3
 megapixels, a Basler acA1300-60gm about 1300 columns. Such figures, others from memory, and
-differences that the sheet mentions under diversions are information.
+differences that the sheet mentions under diversions are infos.
 
 Fix: set size, rate and horizontal_fov to the figures of the device's datasheet, or name the
 modelled device in specifications.md.

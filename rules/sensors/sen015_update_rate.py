@@ -2,8 +2,8 @@
 
 Without `<update_rate>`, or with 0, a sensor measures at every simulation step, a thousand times per
 second. A camera or lidar then slows down the simulation, and no device is that fast. A negative
-rate has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is
-information.
+rate has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is an
+info.
 
 Fix: write the rate of the device, in hertz.
 Source: SDFormat specification, sensor/update_rate; SubT model reviews; the robots of the challenge.
@@ -23,8 +23,8 @@ def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings
     """Report rates that are missing, 0 or negative; in SubT also IMUs with an unusual one.
 
     Options:
-        imu_rate: Hertz at which IMUs usually measure in the SubT profile; any other rate is
-            information.
+        imu_rate: Hertz at which IMUs usually measure in the SubT profile; any other rate is an
+            info.
     """
     for sensor in robot.sensors:
         if sensor.kind in EXEMPT:

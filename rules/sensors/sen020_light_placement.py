@@ -5,7 +5,7 @@ concave mesh, the light is reported if the mesh blocks its beam and nearly all d
 without shadows shines through the body, and a light without a lamp has no visible source. The cause
 of both is usually a pose with a wrong sign or frame. Without a stated range, a lamp ends at 10 m.
 Gazebo computes every light for every pixel of every camera, so a team of robots with many lights
-slows down the whole run; their number is information.
+slows down the whole run; their number is an info.
 
 Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and use at most
 six lights.

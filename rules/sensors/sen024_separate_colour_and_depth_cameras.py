@@ -3,7 +3,7 @@
 They model one device, such as a RealSense, but Gazebo renders two sensors, which costs twice the
 time. Their images are from different moments, and neither sensor publishes a coloured point cloud.
 An `rgbd_camera` renders once and publishes all three; next to one, a separate colour camera is not
-needed. If the images differ in size they may be two devices, and this is information.
+needed. If the images differ in size they may be two devices, and this is an info.
 
 Fix: replace both by one sensor of type `rgbd_camera`, and bridge its `image`, `depth_image` and
 `points`.

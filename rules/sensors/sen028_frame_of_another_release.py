@@ -3,7 +3,7 @@
 Fortress reads `<ignition_frame_id>` and `<gz_frame_id>`, Harmonic `<gz_frame_id>`, Ionic and Jetty
 `<frame_id>`. A sensor that has none of those that the target reads publishes in the frame
 `model::link::sensor`, for which ROS rarely has a transform: this is a warning. An element that is
-read, but that is not, or no longer, an element of SDFormat is information: libsdformat prints a
+read, but that is not, or no longer, an element of SDFormat is an info: libsdformat prints a
 warning, and the sensor uses the frame. In URDF this is not reported, because it has no other
 element for the frame.
 

@@ -8,7 +8,7 @@ valid. SPW002 reports likely errors as warnings.
 
 Fix: correct the code that the message names; run `ruby -c launch/spawner.rb` to find further
 errors.
-Source: Ruby's grammar. None of the accepted packages that we checked shows this.
+Source: Ruby's grammar. No accepted package that we checked has this fault.
 """
 
 from checker.launch.spawner.reader import Spawner

@@ -5,8 +5,7 @@ launch stops if a function is missing or takes fewer; further parameters need de
 
 Fix: define `spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)` and
 `rosExecutables(_name, _worldName)`.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from collections.abc import Iterator

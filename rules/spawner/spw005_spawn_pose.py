@@ -3,7 +3,7 @@
 The SubT launcher decides where each robot of a team starts. A spawner that leaves out a coordinate
 puts the robot in another place, turned the wrong way, or on top of another robot.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: write `<pose>#{_x} #{_y} #{_z + 0.2} #{_roll} #{_pitch} #{_yaw}</pose>`.
 Source: Model Migration Guide, example spawner.

@@ -4,8 +4,7 @@ The SubT launcher chooses the robot's name and the place of its model. With a fi
 of a team collide; with a fixed URI another model may start than the one under test.
 
 Fix: write `#{_name}` and `#{_modelURI}`; `${_name}` is not Ruby.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from collections.abc import Iterator

@@ -4,8 +4,7 @@ The SubT launcher reads `<spawn>`. It does not spawn a robot in a plugin of the 
 rules read what is in the plugin as they read `<spawn>`.
 
 Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and remove the plugin.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from checker.launch.spawner.emitted_xml import SpawnedXml

@@ -6,8 +6,7 @@ vehicle_topics.launch, the robot's description or its bridges are missing. A com
 another package for a file that this one has too starts the other file, and this one never starts.
 
 Fix: name this package and an existing file; declare another robot's package in package.xml.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from collections.abc import Iterator

@@ -3,7 +3,7 @@
 If the robot starts in the ground, contact forces throw it into the air. If it drops from a height,
 it bounces, tips over or loses its pose estimate before the first command.
 
-None of the accepted packages that we checked shows this.
+No accepted package that we checked has this fault.
 
 Fix: write a height into `<pose>` that puts the lowest point of the wheels just above the ground:
 `#{_z + 0.2}` for wheels that reach 0.19 m below the model's origin.

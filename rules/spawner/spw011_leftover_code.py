@@ -4,7 +4,7 @@ A variable that nothing reads, or a condition that is always the same, is usuall
 another robot's spawner, and hides what this one does.
 
 Fix: remove the variable, or the branch that is never taken.
-Source: SubT review findings. None of the accepted packages that we checked shows this.
+Source: SubT review findings. No accepted package that we checked has this fault.
 """
 
 from collections import Counter

@@ -7,8 +7,7 @@ renaming is allowed, its topics may have another name than the robot: this is a 
 Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
 `<allow_renaming>false</allow_renaming>` below `<spawn>`, and `<sdf version="1.6">` around the
 `<include>`.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from collections.abc import Iterator

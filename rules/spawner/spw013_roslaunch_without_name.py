@@ -4,8 +4,7 @@ The launch file then uses its default: the topics of another robot, or none. The
 sensors contain the world's name.
 
 Fix: append `world_name:=#{_worldName} name:=#{_name}` to the command.
-Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
-this.
+Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
 from itertools import zip_longest

@@ -1,9 +1,10 @@
-"""A suppression that gives no reason.
+"""A suppression without a reason.
 
-The suppression has no effect: readers of the report want to know why a finding does not count.
+The suppression is ignored. Readers of the report need the reason to see why the finding does not
+count.
 
 Fix: write the reason after the bracket: `subt-check: ignore[SEN015] the device has 15 Hz`.
-Source: README, section "Suppress".
+Source: docs/usage.md, section "Suppress".
 """
 
 from checker.rule import Concern, Findings, Severity, finding, rule

@@ -1,7 +1,8 @@
-"""A drive wheel that carries no load, or almost none.
+"""A drive wheel that carries little or no load.
 
-The wheel turns in the air: the robot is weaker than it looks, and drifts to one side on uneven
-ground. Its collision is missing or too small, or the wheel is higher than the others.
+The wheel spins without traction: the robot has less driving force than its motors suggest, and
+drifts to one side on uneven ground. The wheel's collision is missing or too small, or the wheel is
+higher than the others.
 
 Fix: give the wheel a collision with its radius, and put all wheels on one plane.
 Source: experience; the load is the mean while the robot is at rest, compared with an equal share of

@@ -2,7 +2,7 @@
 
 The real arm hits its own robot. Gazebo lets the parts pass, so a plan that works in the simulation
 breaks the machine. For a wheel that steers this is a warning. Legs and arms may meet at the ends of
-their ranges, which no gait or plan reaches: this is information.
+their ranges, which no gait or plan reaches: this is an info.
 
 Fix: narrow the joint's limits, or shrink the collisions.
 Source: a collision query in steps through the range of each joint, one at a time.

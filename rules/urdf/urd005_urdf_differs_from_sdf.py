@@ -2,7 +2,7 @@
 
 Teams plan with the frames that RViz knows. The frame of a link that only the simulation has is
 missing there. If a mass differs, one of the two files is out of date; only RViz reads that of the
-description, so this is information.
+description, so this is an info.
 
 Fix: generate the URDF file again from model.sdf.
 Source: Model Migration Guide: the URDF file is converted from the SDF model, so that both agree.

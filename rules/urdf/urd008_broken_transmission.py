@@ -2,8 +2,8 @@
 
 gazebo_ros_control registers a joint with the controllers through its transmission. It skips a
 transmission without a joint, an actuator or an interface, and the controller does not find its
-joint. Without a plugin that reads transmissions, the transmission of a fixed joint has no effect:
-information.
+joint. Without a plugin that reads transmissions, the transmission of a fixed joint has no effect
+anyway, and the finding is an info.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
@@ -30,7 +30,7 @@ _OF_ROS_CONTROL = "transmission_interface/"
 def check(description: UrdfDescription, context: Context) -> Findings:
     """Report transmissions without effect, and joints without one unlike others of their type.
 
-    In ROS 2 nothing reads transmissions outside of `<ros2_control>`: there it is information.
+    In ROS 2 nothing reads transmissions outside of `<ros2_control>`: there it is an info.
     """
     if not description.for_rviz:
         for found in _faults(description):

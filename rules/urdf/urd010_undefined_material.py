@@ -1,7 +1,7 @@
-"""A material that is used, but not defined.
+"""A material that is used but not defined.
 
-A `<material>` with only a name gets the colour that the robot defines under this name. No such
-definition exists, so RViz shows the part in its default colour.
+RViz shows the part in its default colour: a `<material>` with only a name has the colour that the
+robot defines under this name, and there is no such definition.
 
 Fix: add `<material name="…"><color rgba="…"/></material>` to the robot, or correct the name.
 Source: URDF specification, visual/material.

@@ -1,12 +1,12 @@
-"""A xacro file that only the xacro of ROS Melodic expands.
+"""A xacro file that only xacro of ROS Melodic can process.
 
-On Melodic, where the challenge runs, the robot is loaded. xacro of ROS Noetic and later, which runs
-on Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` do not
-return lists, fewer Python functions are available, a macro defined inside a macro exists only
-there, and tags need the prefix `xacro:`.
+The robot loads on Melodic, which the challenge uses. xacro of ROS Noetic and later runs on Python
+3, and ends with an error or leaves tags as they are: `map`, `filter` and `range` do not return
+lists, fewer Python functions are available, a macro defined inside a macro exists only there, and
+tags need the prefix `xacro:`.
 
-Fix: write what both versions accept: `list(map(…))`, a comprehension instead of `filter`, files
-with macros included outside of macros, and `xacro:` before each tag.
+Fix: use what both versions accept: `list(map(…))`, a comprehension instead of `filter`, macro files
+included outside of macros, and `xacro:` before each tag.
 Source: xacro 1.13 and 1.14 and later; "unknown macro name".
 """
 

@@ -1,12 +1,13 @@
 """An element in the `gazebo` tag of a link or joint that Gazebo does not read there.
 
-An element below `<gazebo reference="wheel">` that is not one of the elements for links is copied
-into the `<link>` of the SDF. There, `<surface>`, `<friction>` or `<mu>` has no effect: the friction
-of the wheel is 1, and the rollers of a mecanum wheel do not slip. Gazebo prints no message.
+The element has no effect, and Gazebo prints no message. Below `<gazebo reference="wheel">`, what is
+not one of the elements for links is copied into the `<link>` of the SDF. `<surface>`, `<friction>`
+and `<mu>` are not read there: the wheel keeps the default friction of 1, and the rollers of a
+mecanum wheel do not slip.
 
-Fix: write what the message says.
-Source: sdformat, parser_urdf.cc, and SDFormat specification, link and joint; what libsdformat 12
-makes of such tags.
+Fix: write the element that the message names, such as `<mu1>` and `<mu2>` for friction.
+Source: sdformat, parser_urdf.cc, and SDFormat specification, link and joint; conversions of such
+tags by libsdformat 12.
 """
 
 from collections.abc import Iterator, Mapping

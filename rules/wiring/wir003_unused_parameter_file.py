@@ -1,15 +1,14 @@
 """A parameter file without a block for the node that loads it.
 
-The node starts with its defaults, without a message: a block of a parameter file is for the node
-whose full name is its key. A `name` or a namespace in the launch file changes the full name:
-`controller_server:` is not for `/follower`, and not for `/robot/controller_server`.
+The node starts with its defaults and prints no message: it reads only blocks whose key matches its
+full name. A `name` or a namespace in the launch file changes the full name: the block
+`controller_server:` applies neither to `/follower` nor to `/robot/controller_server`.
 
-It is reported where a block has the usual name of the program or the node's name in another
-namespace, and no node of the launch reads it; or where no node of the launch reads any of the
-file's blocks.
+The rule reports a file if a block has the usual name of the program, or the node's name in another
+namespace, and no node of the launch reads it; or if no node of the launch reads any of its blocks.
 
-Fix: write the same name in both files. Two asterisks in a key represent any namespace, and alone
-for every node, as in the examples.
+Fix: write the same name in both files. `/**` before a name matches any namespace, and the key `/**`
+matches every node, as in the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`; ROS 2 design, "Parameters".
 """
 

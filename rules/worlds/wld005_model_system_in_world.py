@@ -1,11 +1,10 @@
-"""A system for models that is directly in the world.
+"""A system plugin for models that is attached to the world.
 
-Drives, controllers of joints, batteries and publishers of poses work on the model that contains
-them. In a world there is no such model: the system prints that it should be attached to a model,
-and has no effect.
+The plugin prints that it should be attached to a model, and has no effect. Drives, joint
+controllers, batteries and pose publishers work on the model that contains them.
 
 Fix: move the plugin into the `<model>` or `<include>` that it is for.
-Source: `Configure` of these systems in gz-sim; which they are is listed in `gazebo_plugins.json`.
+Source: `Configure` of these systems in gz-sim; `gazebo_plugins.json` lists them.
 """
 
 from checker.base.resources import table
