@@ -21,7 +21,8 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
-from checker.package.detected_target import detect_target
+from checker.package.classic_sign import classic_sign
+from checker.package.detected_target import classic_reason, detect_target
 from checker.package.index import normal_path
 from checker.package.package import Package
 from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile
@@ -119,7 +120,8 @@ class Settings(Record):
         """Return the settings for what is checked: without a choice, its usual profile counts.
 
         Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
-        ROS 2 package is made for decides where the user names neither release nor distribution.
+        ROS 2 package is made for decides where the user names neither release nor distribution;
+        for models in no such package, Gazebo Classic where the files around them name only that.
         """
         usual = usual_profile(package)
         is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
@@ -130,6 +132,8 @@ class Settings(Record):
         whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
         if whole is not None:
             settings = settings._with_package(whole)
+        elif wanted == MODEL and not self.distro and (sign := classic_sign(package)):
+            return replace(settings, profile=CLASSIC_MODEL, target_reason=classic_reason(sign))
         return replace(settings, profile=settings._of_model) if wanted == MODEL else settings
 
     def _with_package(self, package: Package) -> Settings:

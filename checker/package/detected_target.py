@@ -79,8 +79,8 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     distro = distro or (named.distro if named else "")
     signs = package.simulator_signs
     if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
-        reason = f"Gazebo Classic 11, {_SUPPORT}: {signs[CLASSIC]}"
-        return DetectedTarget(True, _known_distribution(distro or _OLDEST), reason)
+        known = _known_distribution(distro or _OLDEST)
+        return DetectedTarget(True, known, classic_reason(signs[CLASSIC]))
     if named is not None:
         return DetectedTarget(
             False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
@@ -89,6 +89,11 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)
+
+
+def classic_reason(sign: str) -> str:
+    """Return why something is judged for Gazebo Classic, with what shows it."""
+    return f"Gazebo Classic 11, {_SUPPORT}: {sign}"
 
 
 def is_described_for_ros_2(package: Package) -> bool:

@@ -173,7 +173,7 @@ def _opened(
     packages = []
     for unit in found.units:
         if unit.home not in spaces:
-            spaces[unit.home] = Workspace(homes_of(beside, unit.folder), within)
+            spaces[unit.home] = Workspace(homes_of(beside, unit.folder), within, given=folder)
         space = spaces[unit.home]
         whole = space.at(unit.folder) if not unit.only else None
         packages.append(whole or Package(unit.folder, space, only=unit.only))
@@ -225,9 +225,9 @@ def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
     homes = tuple(home for home in dict.fromkeys(map(_home, folders)) if home not in known)
     if not homes:
         return package
-    return Package(
-        package.root, Workspace((*known, *homes), package.workspace.within), package.only
-    )
+    space = package.workspace
+    wider = Workspace((*known, *homes), space.within, given=space.given)
+    return Package(package.root, wider, package.only)
 
 
 def _home(folder: Path) -> Path:

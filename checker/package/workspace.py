@@ -40,17 +40,20 @@ class Workspace(Record, eq=False, dict=True):
             come from the user, to find siblings in.
         within: The folder that an archive was unpacked into, which nothing leaves; else None.
         overlay: Texts that replace the content of files.
+        given: The folder that the user gave, above the packages; else None. Of the folders up to
+            it, only the README, container and CI files at their top are read.
     """
 
     directories: tuple[Path, ...]
     within: Path | None = None
     overlay: Overlay = field(default_factory=Overlay)
+    given: Path | None = None
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Send a workspace to another process without its packages."""
-        return Workspace, (self.directories, self.within, self.overlay)
+        return Workspace, (self.directories, self.within, self.overlay, self.given)
 
     def again(self, root: Path, only: str) -> Package:
         """Return a package that came from another process, by its folder and its only file."""
@@ -59,7 +62,7 @@ class Workspace(Record, eq=False, dict=True):
     def with_overlay(self, overlay: Overlay) -> Workspace:
         """Return the workspace as if files held other texts; what stays is not read again."""
         changed = self.overlay.changed_paths(overlay)
-        other = Workspace(self.directories, self.within, overlay)
+        other = Workspace(self.directories, self.within, overlay, self.given)
         for root, package in self._packages.items():
             other._packages[root] = package.kept(other, changed)
         return other

@@ -4,6 +4,8 @@ Gazebo Classic finds no library that only ROS 1 has: the drive or sensor is miss
 ROS 1 is ignored without a message, and the default counts: `<leftJoint>` leaves the drive without a
 wheel, `<robotNamespace>` leaves all topics in the root namespace.
 
+Models that are in no package of ROS 2 may be for ROS 1, so they are not judged.
+
 It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
 other parameter of the plugin names; otherwise a warning.
 
@@ -21,6 +23,7 @@ from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import library_stem, plugin_libraries
 from checker.package.dependencies import available_packages
 from checker.package.package import Package
+from checker.package.target import ros_2_package
 from checker.rule import (
     Concern,
     Context,
@@ -43,7 +46,7 @@ _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 @rule("PLG012", "ros-1-plugin", Severity.ERROR, Concern.INTERFACE)
 def check(host: PluginHost, package: Package, context: Context) -> Findings:
     """Report libraries and parameters that only the plugins of ROS 1 have."""
-    if not context.is_classic:
+    if not context.is_classic or ros_2_package(package) is None:
         return
     if host.unread:
         yield unchecked(host.unread)
@@ -103,16 +106,23 @@ def _is_missed(plugin: Plugin, instead: str | None, value: str) -> bool:
     return bool(_NAMES_PART.fullmatch(instead)) and plugin.element.child(instead) is None
 
 
-def _drive(parameters: str) -> dict[str, str]:
+_CLASSIC = {"@profile": "gazebo-classic", "@ros2": True}
+
+
+def _drive(parameters: str) -> dict[str, object]:
     text = f'<plugin filename="libgazebo_ros_diff_drive.so" name="drive">{parameters}</plugin>'
-    return {"@profile": "gazebo-classic", "@fragment": text}
+    return {**_CLASSIC, "@fragment": text}
 
 
 _MARK = "  <!-- ^ PLG012 -->"
 GOOD = [
-    _drive("<ros><namespace>rover</namespace></ros><left_joint>left</left_joint>"),
     {
         "@profile": "gazebo-classic",
+        "@fragment": '<plugin filename="libgazebo_ros_laser.so" name="p"/>',
+    },
+    _drive("<ros><namespace>rover</namespace></ros><left_joint>left</left_joint>"),
+    {
+        **_CLASSIC,
         "@fragment": '<plugin filename="libgazebo_ros_laser.so" name="laser"/>',
         "CMakeLists.txt": "project(rover)\nadd_library(gazebo_ros_laser SHARED laser.cpp)\n",
     },
@@ -123,11 +133,11 @@ BAD = [
     _drive(f"<updateRate>50</updateRate>{_MARK}"),
     _drive(f"\n<ros/><robotNamespace>rover</robotNamespace>{_MARK}\n"),
     {
-        "@profile": "gazebo-classic",
+        **_CLASSIC,
         "@fragment": f'<plugin filename="libgazebo_ros_laser.so" name="laser"/>{_MARK}',
     },
     {
-        "@profile": "gazebo-classic",
+        **_CLASSIC,
         "@fragment": f'<plugin filename="libgazebo_ros_control.so" name="control"/>{_MARK}',
     },
 ]

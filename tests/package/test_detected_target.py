@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.package.workspace import Workspace
 from checker.rule_testing import write_example
@@ -157,3 +158,53 @@ def test_the_report_says_by_what(tmp_path: Path) -> None:
         "Gazebo Classic 11, whose support ended in January 2025: "
         "launch/arm.launch.py:20 names gazebo_ros"
     )
+
+
+MODEL = '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>'
+
+
+def models_of(folder: Path, readme: str) -> list[Settings]:
+    """Return the settings for a model and a world of a repository with this README."""
+    for path in ("models/rover/model.sdf", "worlds/yard.world"):
+        (folder / path).parent.mkdir(parents=True)
+        (folder / path).write_text(MODEL)
+    (folder / "README.md").write_text(readme)
+    with open_input(folder) as opened:
+        return [Settings().for_package(each) for each in opened.packages]
+
+
+def test_models_without_a_package_are_for_classic_where_the_readme_names_only_that(
+    tmp_path: Path,
+) -> None:
+    first, second = models_of(tmp_path, "# Rover\n\nexport GAZEBO_MODEL_PATH=models\n")
+    assert first.profile == second.profile == "gazebo-classic"
+    assert first.target_reason.endswith("../../README.md:3 names GAZEBO_MODEL_PATH")
+
+
+@pytest.mark.parametrize("readme", ["Open it in Gazebo.", "gzserver, or gz sim", "GZ_SIM_X"])
+def test_models_without_a_package_are_for_the_usual_gazebo(readme: str, tmp_path: Path) -> None:
+    assert {each.profile for each in models_of(tmp_path, readme)} == {"gazebo-harmonic"}
+
+
+@pytest.mark.parametrize(
+    ("near", "expected"), [("", "humble"), ("ROS 2 Jazzy", "jazzy"), ("Humble? ros:iron", "iron")]
+)
+def test_the_readme_of_the_folder_that_is_given_tells(
+    near: str, expected: str, tmp_path: Path
+) -> None:
+    (tmp_path / "README.md").write_text("For ROS 2 Humble.\n")
+    source = tmp_path / "ws" / "src"
+    source.mkdir(parents=True)
+    (source / "README.md").write_text(near)
+    write_example({"@ros2": True}, source)
+    with open_input(tmp_path) as opened:
+        assert Settings().for_package(opened.packages[0]).distro == expected
+
+
+def test_nothing_above_the_folder_that_is_given_tells(tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_text("For ROS 2 Humble.\n")
+    source = tmp_path / "ws" / "src"
+    source.mkdir(parents=True)
+    write_example({"@ros2": True}, source)
+    with open_input(source) as opened:
+        assert Settings().for_package(opened.packages[0]).distro == ""

@@ -53,6 +53,8 @@ def described(files: dict[str, object], folder: Path) -> list[UrdfDescription]:
         ("parent tf_prefix *origin", {"parent": "world", "tf_prefix": ""}, ("origin",)),
         ("a:=1 b:='two words' c:=${d} *mount_origin", {}, ("mount_origin",)),
         ("a:=${b + 1} c:='d'_e", {}, ()),
+        ("parent:='' prefix:='' *origin", {"parent": "world"}, ("origin",)),
+        ("parent:=base *origin", {}, ("origin",)),
         ('a:="it is" b:=^|c d=e parent_link', {"parent_link": "world"}, ()),
     ],
 )

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from html import escape
 
 from checker.base.record import Record
-from checker.formats.xacro.names import FROM_OUTSIDE, PARAMETER, parameters_of
+from checker.formats.xacro.names import FROM_OUTSIDE, PARAMETER, MacroParameter, parameters_of
 from checker.package.package import Package
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
@@ -90,6 +90,11 @@ def _name(macro: Element) -> str:
     return (macro.get("name") or "").removeprefix("xacro:")
 
 
+def _is_left(parameter: MacroParameter) -> bool:
+    """Return whether a parent is empty by default: a joint needs one."""
+    return bool(_GIVEN[parameter.name]) and not (parameter.default or "").strip("'\" ")
+
+
 def _call(macro: Element, number: int) -> MacroCall | None:
     """Return the call of a macro; None if it needs what only its user can know."""
     arguments: dict[str, str] = {}
@@ -101,7 +106,7 @@ def _call(macro: Element, number: int) -> MacroCall | None:
         name, default = parameter.name, parameter.default
         if parameter.block and name.endswith(_ORIGIN) and default is None:
             blocks.append(name)
-        elif default is None and name in _GIVEN and not parameter.block:
+        elif name in _GIVEN and not parameter.block and (default is None or _is_left(parameter)):
             arguments[name] = _GIVEN[name]
         elif default is None or default == FROM_OUTSIDE:
             return None

@@ -1,0 +1,67 @@
+"""Files at the top of the folders around a package: README, container and CI files."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from checker.source.text import SourceText
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+_LEVELS = 8
+_SIZE_LIMIT = 500_000
+_ITEMS = 5_000
+_PLACES = (".", ".devcontainer", ".github/workflows")
+
+
+def files_above(package: Package, names: re.Pattern[str]) -> list[tuple[SourceText, ...]]:
+    """Return the files of each folder around a package, the nearest folder first.
+
+    The first folder is the one with the package's siblings, or with a single file; the others are
+    above it, up to the folder that the user gave. Nothing above that is read, and nothing around
+    a file that is given alone.
+
+    Args:
+        package: A package, a folder with a model, or a file.
+        names: Which paths to read, in lower case, from the package: `../readme.md`.
+    """
+    tops = islice(_tops(package), _LEVELS)
+    return [tuple(_files_of(package, top, names)) for top in tops]
+
+
+def _tops(package: Package) -> Iterator[Path]:
+    given = package.workspace.given
+    top = package.root if package.only else package.workspace.directories[0]
+    if given is not None or not package.only:
+        yield top
+    while given is not None and top != given and top.is_relative_to(given):
+        top = top.parent
+        yield top
+
+
+def _files_of(package: Package, top: Path, names: re.Pattern[str]) -> Iterator[SourceText]:
+    for folder in _PLACES:
+        for location in _files(top / folder):
+            path = Path(os.path.relpath(location, package.root)).as_posix()
+            if names.search(path.lower()):
+                read = package.workspace.overlay.read(location, path, _SIZE_LIMIT)
+                if isinstance(read, SourceText):
+                    yield read
+
+
+def _files(folder: Path) -> list[Path]:
+    """Return the files of a folder; links are not followed."""
+    if folder.is_symlink() or folder.parent.is_symlink():
+        return []
+    try:
+        with os.scandir(folder) as items:
+            some = [item for item in islice(items, _ITEMS) if item.is_file(follow_symlinks=False)]
+    except OSError:
+        return []
+    return sorted(Path(item.path) for item in some)
