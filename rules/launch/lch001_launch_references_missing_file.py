@@ -3,9 +3,10 @@
 An included file is not started; a node that gets the path ends, or runs without its parameters. The
 name of an included file is written in full, `robot.launch.py` and not `robot`. Worlds and
 parameters in packages that are not available are not checked; files that the build generates are
-not checked. Launch skips a parameter file whose path is empty. Where a condition leaves the action
-out, for files that only RViz shows, and for paths passed to a launch file that is not available,
-unless it starts Gazebo, this is a warning.
+not checked, nor those that a node writes by the name of its parameter: `output_file`. Launch skips
+a parameter file whose path is empty. Where a condition leaves the action out, for files that only
+RViz shows or that `.gitignore` excludes, for files of a node that has a parameter about saving, and
+for paths passed to a launch file that is not available, unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
@@ -21,6 +22,7 @@ from checker.launch.ros2.named_paths import (
     named_paths,
     unavailable,
 )
+from checker.package.git_ignored import ignored_by
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -39,10 +41,12 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                 what = "the included file" if named.include else "the file"
                 found = lies_elsewhere(package, named.path)
                 hint = f": {found} is not installed there" if found else ""
+                ignored = ignored_by(package, named.path.path)
+                kept_out = f": {ignored} keeps it out of the repository" if ignored else ""
                 yield finding(
                     named,
-                    f"{what} {named.path} does not exist{hint}",
-                    severity=None if named.needed else Severity.WARNING,
+                    f"{what} {named.path} does not exist{hint or kept_out}",
+                    severity=None if named.needed and not ignored else Severity.WARNING,
                 )
         yield from _empty_paths(graph)
 
@@ -78,8 +82,15 @@ def generate_launch_description():
                                    parameters=[configs.to_dict()])])
 """
 
+_WRITTEN = """        Node(package='p', executable='e', parameters=[{
+            'output.file':
+                os.path.join(get_package_share_directory('acme_arm_bringup'), 'maps', 'a.pcd'),
+            'rate': 5}]),"""
+_SAVED = _WRITTEN.replace("output.file", "map").replace("'a.pcd'),", "'a.pcd'),  # ^ LCH001")
+
 GOOD = [
     {"@ros2": True},
+    {"@ros2": _WRITTEN},
     # MoveIt takes the robot from a topic where its usual file is missing.
     {"@ros2": True, "launch/move_group.launch.py": _MOVEIT},
     {"@ros2": _STATE},
@@ -98,6 +109,7 @@ ament_package()
     },
 ]
 BAD = [
+    {"@ros2": _SAVED},
     {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},
     {
         "@ros2": """        DeclareLaunchArgument('params', default_value=''),  # ^ LCH001

@@ -25,6 +25,8 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
+_SAVES = re.compile(r"(?:\A|[_.])(?:saved?|output|storage|record|write|dump|export)(?:[_.]|\Z)")
+"""Names of parameters of what a node writes: `pcd_save.pcd_save_en`, `output_file`."""
 _OF_ROS = ("moveit_", "nav2_", "rviz")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
@@ -59,8 +61,9 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
         starts = node.starts is True
         shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
         yield from _in_words(node.arguments, needed=starts and not shows)
+        saves = any(isinstance(it, Parameter) and _SAVES.search(it.name) for it in node.parameters)
         for parameter in node.parameters:
-            yield from _in_parameter(parameter, needed=starts)
+            yield from _in_parameter(parameter, needed=starts, saves=saves)
     for process in graph.processes:
         yield from _in_words(process.words, needed=_starts(process))
 
@@ -83,11 +86,20 @@ def _in_words(words: Iterable[Located[str]], *, needed: bool) -> Iterator[NamedP
         yield from _paths(word.value, word.span, needed=needed)
 
 
-def _in_parameter(parameter: Parameter | ParameterFile, *, needed: bool) -> Iterator[NamedPath]:
+def _in_parameter(
+    parameter: Parameter | ParameterFile, *, needed: bool, saves: bool
+) -> Iterator[NamedPath]:
+    """Yield the file that a parameter names, if its name does not say that the node writes it.
+
+    Args:
+        parameter: A parameter of a node.
+        needed: Whether the node starts by default.
+        saves: Whether a parameter of the node is about saving, so that it may write the file.
+    """
     if isinstance(parameter, ParameterFile):
         yield from _paths(parameter.path, parameter.span, needed=needed)
-    elif isinstance(parameter.value, str):
-        yield from _paths(parameter.value, parameter.span, needed=needed)
+    elif isinstance(parameter.value, str) and not _SAVES.search(parameter.name):
+        yield from _paths(parameter.value, parameter.span, needed=needed and not saves)
 
 
 def _paths(text: str, span: Span, *, needed: bool, include: bool = False) -> Iterator[NamedPath]:
