@@ -117,16 +117,20 @@ class Use(Record):
     path: str = ""
 
 
-def uses_of(package: Package) -> Iterator[Use]:
+def uses_of(package: Package, *, of_ros_1: bool = True) -> Iterator[Use]:
     """Yield the packages that the spawner, launch files and the model name; comments do not count.
 
     Launch files that are not well-formed are left out.
+
+    Args:
+        package: The package that uses them.
+        of_ros_1: Whether its files `*.launch` are of ROS 1, so that they count.
     """
     for reference in package.references:
         if reference.kind is not ReferenceKind.DEPENDENCY and not reference.by_sibling:
             how = f"{reference.kind} {reference.package_name} {reference.file}".strip()
             yield Use(reference.package_name, reference.place, how)
-    for file in package.index.with_suffix(".launch", ".sdf"):
+    for file in package.index.with_suffix(*((".launch",) if of_ros_1 else ()), ".sdf"):
         document = package.xml(file.path)
         if isinstance(document, XmlDocument):
             is_launch = file.path.lower().endswith(".launch")

@@ -56,6 +56,8 @@ def described_package(text: str, *names: str) -> str:
     match = _TEMPLATE.search(text) or _SUBJECT.match(text)
     if match is None or match[1].casefold() in map(str.casefold, names):
         return ""
+    if _MEANT.search(text[max(0, match.start() - _LOOK_BACK) : match.start()]):
+        return ""
     kind = match.groupdict().get("kind") or ""
     # With more words than the template has, only the name of a submission is surely a package's.
     return "" if kind and (_EXPLAINED.search(kind) or not NAME.fullmatch(match[1])) else match[1]

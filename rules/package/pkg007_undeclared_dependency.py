@@ -2,13 +2,13 @@
 
 A package that package.xml does not name is not installed with the robot: launch files of another
 submission, the bridge to ROS, or the package of a node are then missing where the robot runs.
-Comments do not count. In ROS 2 this holds for the packages of nodes, components, included launch
-files, parameter files, `xacro` commands, `$(find …)` and `package://` in robot descriptions, and
-messages that nodes in Python import; dependencies of a declared metapackage such as ros_gz count as
-declared. The same happens if package.xml misspells the package of a team or plugin: it is reported
-if a package of a similar name is available, and the misspelt one is not. If a package is not
-available, and this package has every file that it uses of it, the name is taken as the former name
-of this package.
+Comments do not count, nor launch files of ROS 1 in a package of ROS 2. In ROS 2 this holds for the
+packages of nodes, components, included launch files, parameter files, `xacro` commands, `$(find …)`
+and `package://` in robot descriptions, and messages that nodes in Python import; dependencies of a
+declared metapackage such as ros_gz count as declared. The same happens if package.xml misspells the
+package of a team or plugin: it is reported if a package of a similar name is available, and the
+misspelt one is not. If a package is not available, and this package has every file that it uses of
+it, the name is taken as the former name of this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
 package's own name instead of its former one.
@@ -77,7 +77,10 @@ def check(
         return
     others: dict[str, Use] = {}
     ament = built_by_ament(package)
-    uses = [*uses_of(package), *(used_packages(launch) if launch is not None else ())]
+    uses = [
+        *uses_of(package, of_ros_1=not ament),
+        *(used_packages(launch) if launch is not None else ()),
+    ]
     uses += uses_in_ros2(package) if ament else ()
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
@@ -246,6 +249,11 @@ _HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 GOOD = [
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "docs/old.launch": '<launch><node pkg="nodelet" type="t" name="n"/></launch>',
+    },
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
         "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),

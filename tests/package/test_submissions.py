@@ -97,6 +97,8 @@ def test_a_slip_is_one_word_misspelt_or_left_out(written: str, meant: str, slip:
         ("The acme_rover_sensor_config_2 is a rover", "acme_rover_sensor_config_2"),
         ("The acme_rover_sensor_config_2 with breadcrumbs", ""),
         ("The husky_description package", "husky_description"),
+        ("Arms. The husky_description package", "husky_description"),
+        ("It has the same topics as the husky_description package", ""),
         ("The ACME_rover_sensor_config_1 package", ""),
         ("The acme_rover_sensor_config_2 based robot package", ""),
         ("The husky_description helper package", ""),
