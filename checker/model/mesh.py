@@ -33,6 +33,8 @@ class MeshTrouble(enum.StrEnum):
     """A format that the checker does not read."""
     UNREADABLE = "unreadable"
     """Empty or corrupt."""
+    POINTER = "pointer"
+    """A Git LFS pointer instead of the file: it is not fetched."""
     MISSCALED = "misscaled"
     """Its unit is wrong (MSH005 states it), so that its size means nothing."""
     NOT_LOOKED_AT = "not checked"
@@ -199,4 +201,6 @@ class MeshUse(Record, eq=False):
         known = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
         if isinstance(self.file, Mesh) or self.file.trouble in known:
             return ""
+        if self.file.trouble is MeshTrouble.POINTER:
+            return "mesh files are Git LFS pointers: `git lfs pull` fetches the meshes"
         return f"{self.uri.value} {self.file.reason}"

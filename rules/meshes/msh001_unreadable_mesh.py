@@ -1,7 +1,8 @@
 """A mesh file that cannot be read.
 
 Gazebo reports an error and continues without the mesh: the part is invisible, or objects pass
-through it. Usually the file was cut off while it was copied, or only a Git LFS pointer was added.
+through it. Usually the file was cut off while it was copied. A Git LFS pointer is not checked:
+`git lfs pull` fetches the mesh.
 
 Fix: export or copy the mesh again, and open it in a viewer.
 Source: the formats' specifications; every mesh of the accepted packages that we checked can be
@@ -46,6 +47,10 @@ _OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 GOOD = [
     {"@fragment": _visual("part.stl"), "meshes/part.stl": _binary_stl(2, declared=2)},
     {"@fragment": _visual("part.obj"), "meshes/part.obj": _OBJ + "f 1 2 3\n"},
+    {
+        "@fragment": _visual("part.stl"),
+        "meshes/part.stl": "version https://git-lfs.github.com/spec/v1",
+    },
     _visual("nowhere.obj"),
 ]
 BAD = [

@@ -113,7 +113,11 @@ def test_faces_of_corners_that_are_not_there() -> None:
 def test_another_format_of_that_name() -> None:
     assert "not a COLLADA" in fault(b"<robot/>", "a.dae")
     assert "not well-formed" in fault(binary_stl(CUBE), "a.dae")
-    assert "Git LFS" in fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "a.dae")
+
+
+def test_a_pointer_is_no_broken_file() -> None:
+    pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0"
+    assert "Git LFS" in fault(pointer, "a.dae", MeshTrouble.POINTER)
 
 
 def test_a_format_that_is_not_read() -> None:

@@ -143,7 +143,7 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
     if not data.strip():
         raise NoSurface("is empty")
     if data.startswith(_POINTER):
-        raise NoSurface("is a Git LFS pointer, not the mesh")
+        raise NoSurface("is a Git LFS pointer, not the mesh", MeshTrouble.POINTER)
     # Its every line may be wrong.
     try:
         return reader(data, material_files)
