@@ -75,6 +75,7 @@ class Mesh(Record, dict=True):
         textures: Picture files as named inside, and in the material files that it names.
         materials: Material files as named inside (`mtllib` of OBJ).
         defects: What is not valid for the format although programs read it, as clauses.
+        bare: What of the file has no vertex normals, as a clause; empty if all has.
         parts: Names of the parts inside, which SDF's `<submesh>` picks.
         picks: Those parts that the robot picks, each by itself.
     """
@@ -93,6 +94,7 @@ class Mesh(Record, dict=True):
     textures: tuple[str, ...] = ()
     materials: tuple[str, ...] = ()
     defects: tuple[str, ...] = ()
+    bare: str = ""
     parts: tuple[str, ...] = ()
     picks: Mapping[str, Mesh] = field(default_factory=dict)
 

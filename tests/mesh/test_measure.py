@@ -13,6 +13,7 @@ from checker.physics.mesh import measure
 from checker.physics.mesh.reader import read_mesh
 from tests.effort import examples
 from tests.mesh.files import WRITERS, Triangle, binary_stl, box, cylinder, dae, obj, text_stl
+from tests.mesh.normals import BARE, LIT
 
 lengths = st.floats(0.01, 10.0)
 
@@ -149,3 +150,20 @@ def test_corners_whose_numbers_fall_together_stay_apart(monkeypatch: pytest.Monk
     known = mesh(data, "a.stl")
     monkeypatch.setattr(measure, "_MIX", (0, 0, 0))
     assert mesh(data, "a.stl") == known
+
+
+def test_parts_without_vertex_normals() -> None:
+    assert {name: mesh(data, name).bare for name, data in LIT.items()} == dict.fromkeys(LIT, "")
+    bare = {name: mesh(data, name).bare for name, data in BARE.items()}
+    assert bare == {
+        "bare.obj": "has no vertex normals (lines `vn x y z`)",
+        "bare.dae": 'has triangles without vertex normals (no <input semantic="NORMAL">)',
+        "half.dae": "contains <lines>, which Gazebo reads without normals",
+    }
+
+
+def test_lines_of_a_geometry_that_is_not_shown_do_not_count() -> None:
+    lines = '<geometry id="more"><mesh><lines count="0"/></mesh></geometry>'
+    end = b"</geometry></library_geometries>"
+    data = LIT["box.dae"].replace(end, b"</geometry>" + lines.encode() + b"</library_geometries>")
+    assert mesh(data, "a.dae").bare == ""

@@ -14,6 +14,7 @@ from checker.rule_testing import write_example
 from checker.rulebook.example_parts import rover
 from support.fortress import Refused, driven
 from support.fortress.comparison import Comparison, compared
+from tests.mesh.normals import BARE, LIT
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 
@@ -75,3 +76,19 @@ def test_what_gazebo_refuses_is_said(fortress: Path, tmp_path: Path) -> None:
     model.write_text("<sdf version='1.9'><model name='m'/></sdf>")
     with pytest.raises(Refused, match="must have at least one link"):
         driven(fortress, model, 0.0, 0.1, {})
+
+
+@pytest.mark.parametrize("name", [*LIT, *BARE])
+def test_a_collision_mesh_without_normals_ends_gazebo(
+    name: str, fortress: Path, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_bytes({**LIT, **BARE}[name])
+    model = tmp_path / "model.sdf"
+    shape = f"<geometry><mesh><uri>{name}</uri></mesh></geometry>"
+    link = f"<link name='l'><collision name='c'>{shape}</collision></link>"
+    model.write_text(f"<sdf version='1.9'><model name='m'>{link}</model></sdf>")
+    if name in BARE:
+        with pytest.raises(Refused, match="does not have a normal count"):
+            driven(fortress, model, 0.1, 0.1, {})
+    else:
+        assert driven(fortress, model, 0.1, 0.1, {}).poses

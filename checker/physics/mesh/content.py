@@ -56,6 +56,7 @@ class MeshContent(Record, eq=False):
         textures: Picture files as named inside.
         materials: Material files as named inside.
         defects: What is not valid for the format although programs read it, as clauses.
+        bare: What has no vertex normals, as a clause; empty if all has.
         parts: Names of the parts inside.
     """
 
@@ -64,6 +65,7 @@ class MeshContent(Record, eq=False):
     textures: tuple[str, ...] = ()
     materials: tuple[str, ...] = ()
     defects: tuple[str, ...] = ()
+    bare: str = ""
     parts: tuple[str, ...] = ()
 
     def only(self, part: str) -> MeshContent:

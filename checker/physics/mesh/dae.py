@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from lxml import etree
@@ -55,7 +55,20 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
         raise NoSurface(f"contains no triangles{': ' + faults[0] if faults else ''}")
     defects = [*defects, *unit_defects, *faults[:5]]
     parts = tuple(dict.fromkeys(piece.part for piece in pieces))
-    return MeshContent(pieces, metres, textures, defects=tuple(defects), parts=parts)
+    return MeshContent(
+        pieces, metres, textures, defects=tuple(defects), bare=_bare(root, sets), parts=parts
+    )
+
+
+def _bare(root: etree._Element, sets: Sequence[tuple[str, Any, str]]) -> str:
+    """Return what the scene shows without normals, as a clause; empty if all has some."""
+    if any(triangles.normal_index is None for _, triangles, _ in sets):
+        return 'has triangles without vertex normals (no <input semantic="NORMAL">)'
+    shown = {geometry for geometry, _, _ in sets}
+    drawn = (each for each in root.iter("{*}geometry") if each.get("id") in shown)
+    if any(next(each.iter("{*}lines"), None) is not None for each in drawn):
+        return "contains <lines>, which Gazebo reads without normals"
+    return ""
 
 
 def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[str]]:

@@ -178,6 +178,7 @@ def measure(content: MeshContent, path: str, format: str) -> Mesh:
         textures=content.textures,
         materials=content.materials,
         defects=content.defects,
+        bare=content.bare,
         parts=content.parts,
     )
 

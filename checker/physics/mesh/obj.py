@@ -37,6 +37,7 @@ def textures_in(material_file: bytes) -> tuple[str, ...]:
 _PART = re.compile(rb"^[ \t]*[og][ \t]+(\S[^\r\n]{0,200})", re.M)
 _MATERIALS = re.compile(rb"^[ \t]*mtllib[ \t]+(\S[^\r\n]{0,200})", re.M)
 _CORNER = re.compile(rb"^[ \t]*v[ \t]", re.M)
+_NORMAL = re.compile(rb"^[ \t]*vn[ \t]", re.M)
 
 
 _CONTINUED = re.compile(rb"\\\r?\n")
@@ -105,7 +106,13 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
             reading.line(words)
     materials = dict(material for content in material_files for material in _materials_in(content))
     pieces = tuple(_pieces(reading, materials))
-    return MeshContent(pieces, materials=_names(_MATERIALS, data), parts=_names(_PART, data))
+    return MeshContent(
+        pieces,
+        materials=_names(_MATERIALS, data),
+        # Gazebo's reader fills in what single faces lack.
+        bare="" if _NORMAL.search(data) else "has no vertex normals (lines `vn x y z`)",
+        parts=_names(_PART, data),
+    )
 
 
 def _pieces(reading: _Reading, materials: Mapping[str, Material]) -> Iterator[Piece]:
