@@ -6,7 +6,7 @@ higher than the others.
 
 Fix: give the wheel a collision with its radius, and put all wheels on one plane.
 Source: experience; the load is the mean while the robot is at rest, compared with an equal share of
-the weight.
+the weight. Of a robot on springs, it is the largest of all stops: strongly damped ones move slowly.
 """
 
 from checker.physics.trial.robot_trial import SettledTrial

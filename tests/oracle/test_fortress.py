@@ -10,11 +10,13 @@ from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from checker.physics.trial.profile import Knots
 from checker.rule_testing import write_example
 from checker.rulebook.example_parts import rover
 from support.fortress import Refused, driven
 from support.fortress.comparison import Comparison, compared
 from tests.mesh.normals import BARE, LIT
+from tests.trial.six_wheels import on_struts, on_trailing_arms, rigid, rocker_bogie
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 
@@ -92,3 +94,49 @@ def test_a_collision_mesh_without_normals_ends_gazebo(
             driven(fortress, model, 0.1, 0.1, {})
     else:
         assert driven(fortress, model, 0.1, 0.1, {}).poses
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        on_struts(5e4, 300),
+        on_struts(2e3, 60, -0.05),
+        on_struts(2e3, 60, 0.05),
+        on_struts(2e3, 60, lift=2e-3),
+        on_trailing_arms(500, 5),
+        on_trailing_arms(200, 4, 0.2),
+        rocker_bogie(),
+        rigid(2e-3),
+    ],
+)
+def test_six_wheelers_stand_as_high_as_in_gazebo(
+    content: str, fortress: Path, tmp_path: Path
+) -> None:
+    text = f'<sdf version="1.7"><model name="acme_six">{content}</model></sdf>'
+    result = comparison_of(write_example(text, tmp_path), fortress)
+    # Springs with much damping give way farther there: docs/oracles.md.
+    assert result.here.sink == pytest.approx(result.there.sink, abs=0.0015)
+
+
+SCREW = """
+<link name="nut"><pose>0 0 0.5 0 0 0</pose><inertial><mass>2</mass><inertia><ixx>0.01</ixx>
+  <iyy>0.01</iyy><izz>0.01</izz></inertia></inertial></link>
+<link name="base_link"><pose>0 0 0.1 0 0 0</pose><inertial><mass>20</mass></inertial>
+  <collision name="c"><geometry><box><size>0.5 0.5 0.2</size></box></geometry></collision></link>
+<joint name="spindle" type="screw"><parent>base_link</parent><child>nut</child>
+  <thread_pitch>-100</thread_pitch><axis><xyz>0 0 1</xyz></axis></joint>"""
+
+
+@pytest.mark.parametrize(
+    ("commands", "drop"), [({"place": {"spindle": ((0.0, 0.0), (2.0, 0.0))}}, 0.0), ({}, 0.05)]
+)
+def test_a_screw_stays_where_something_holds_it(
+    commands: dict[str, dict[str, Knots]], drop: float, fortress: Path, tmp_path: Path
+) -> None:
+    """The trial holds screws fixed; in Gazebo one without friction turns under its load."""
+    model = tmp_path / "model.sdf"
+    model.write_text(f"<sdf version='1.7'><model name='m'>{SCREW}</model></sdf>")
+    drive = driven(fortress, model, 0.0, 1.0, commands)
+    fell = drive.poses[0][2] - drive.poses[-1][2]
+    assert fell >= drop
+    assert drop or abs(fell) < 1e-4

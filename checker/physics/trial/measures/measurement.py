@@ -143,22 +143,27 @@ def _undriven(motion: Motion, leg: Leg) -> slice:
 # What the drive wheels carry at rest.
 
 
-_AT_REST = 1.0
-"""Seconds over which loads are averaged: one instant misleads."""
+_AT_REST = {SETTLE: 1.0, STOP_DRIVE: _AFTER_STOP, STOP_TURN: _AFTER_STOP}
+"""Seconds over which loads are averaged, at the end of each leg: one instant misleads."""
 
 
 def measure_loads(motion: Motion) -> Iterator[Measurement]:
-    """Measure each drive wheel's load against an equal share of the weight, and what drags."""
-    leg = motion.leg(SETTLE)
+    """Measure each drive wheel's load against an equal share of the weight, and what drags.
+
+    Strongly damped springs move slowly: on springs, the largest load of all stops counts.
+    """
     wheels = motion.plan.wheels
-    if leg is None or not motion.weight > 0.0:
+    on_springs = bool(motion.run.rig.model.jnt_stiffness.any())
+    rests = [leg for name in _AT_REST if (leg := motion.leg(name)) is not None]
+    if not rests or rests[0].name != SETTLE or not motion.weight > 0.0:
         return
-    touches = motion.touches(leg, _AT_REST)
-    carried = loads(touches)
+    stops = rests if on_springs else rests[:1]
+    touches = [motion.touches(leg, _AT_REST[leg.name]) for leg in stops]
+    carried = [loads(each) for each in touches]
     for wheel in wheels:
-        load = sum(carried.get(link, 0.0) for link in wheel.links)
+        load = max(sum(each.get(link, 0.0) for link in wheel.links) for each in carried)
         yield Measurement("load_share", load * len(wheels) / motion.weight, wheel.joint)
-    for link, force in drag(motion, touches).items() if wheels else ():
+    for link, force in drag(motion, touches[0]).items() if wheels else ():
         yield Measurement("drag", force / motion.weight, link)
 
 

@@ -190,11 +190,14 @@ def _physical(moments: Rows, name: str, ledger: Ledger) -> Rows:
     floor = _FLAT * scale
     if least < -_ROUNDING * scale:
         floor = max(floor, LEAST_MOMENT / 2)
-        listed = ", ".join(f"{value:.4g}" for value in values)
+        raised = np.maximum(second, floor)
+        listed, nearest = (
+            ", ".join(f"{value:.4g}" for value in each) for each in (values, raised.sum() - raised)
+        )
         ledger.repair(
             name, (
                 f"has principal moments that no body can have ({listed} kg·m²); the nearest "
-                "possible ones are used"
+                f"possible ones are used ({nearest} kg·m²)"
             ), serious=True,
         )  # fmt: skip
     elif values[0] <= max(_NOTHING, _ROUNDING * scale):
