@@ -9,6 +9,7 @@ import pytest
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from checker.physics.trial.mjcf.layout import Layout
 from checker.physics.trial.trial import Trial, too_weak
 from tests.trial.machines import trial_in_child, value
 
@@ -69,3 +70,16 @@ def test_legs_stand(trials: dict[str, Trial]) -> None:
         assert sag.value < 0.01, name
         assert abs(value(trial, "hold_sink")) < 0.01, name
         assert value(trial, "hold_tilt") < 0.02, name
+
+
+def test_masses_are_those_of_the_file_or_a_repair_names_the_link(corpus: Path) -> None:
+    with open_input(corpus) as opened:
+        for package in opened.packages:
+            robots = Subject(package).all(Robot)
+            for robot in robots if isinstance(robots, tuple) else ():
+                layout = Layout(robot)
+                taken = {name: body.mass for name, body in layout.inertias.items()}
+                repaired = {repair.part for repair in layout.ledger.repairs}
+                for link in robot.links:
+                    kept = taken[link.scoped_name] == pytest.approx(link.mass, rel=1e-3)
+                    assert kept or link.scoped_name in repaired, (package.name, link.name.value)
