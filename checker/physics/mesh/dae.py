@@ -64,7 +64,7 @@ def _bare(root: etree._Element, sets: Sequence[tuple[str, Any, str]]) -> str:
     """Return what the scene shows without normals, as a clause; empty if all has some."""
     if any(triangles.normal_index is None for _, triangles, _ in sets):
         return 'has triangles without vertex normals (no <input semantic="NORMAL">)'
-    shown = {geometry for geometry, _, _ in sets}
+    shown = {each.get("url", "").lstrip("#") for each in root.iter("{*}instance_geometry")}
     drawn = (each for each in root.iter("{*}geometry") if each.get("id") in shown)
     if any(next(each.iter("{*}lines"), None) is not None for each in drawn):
         return "contains <lines>, which Gazebo reads without normals"
