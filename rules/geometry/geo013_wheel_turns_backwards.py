@@ -5,8 +5,8 @@ to the left, to +y. With one axis reversed, the wheels work against each other. 
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
 way. No accepted package that we checked has this fault.
 
-Wheels that are called left and right and that no plugin drives are compared with their places: the
-controller that drives them relies on their names.
+Wheels that are called left and right and that no plugin or controller lists are compared with their
+places: what drives them relies on their names.
 
 In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel, unless it has
 `<legacyMode>false</legacyMode>`.
@@ -22,6 +22,7 @@ from collections.abc import Iterator, Sequence
 from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
+from checker.model.locomotion.undriven import undriven_wheels
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -55,7 +56,15 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield from _on_both_sides(drive)
         yield from _steering_findings(robot, drive, least_cosine)
     yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
-    yield from _misnamed_wheels(robot.locomotion.undriven)
+    # A wheel that follows another one is on the side of its place.
+    listed = {
+        wheel.joint
+        for drive in robot.locomotion.drives
+        for wheel in drive.wheels
+        if wheel.name.span.source is drive.plugin.span.source
+    }
+    unlisted = [wheel for wheel in undriven_wheels(robot) if wheel.joint not in listed]
+    yield from _misnamed_wheels(unlisted)
 
 
 def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
