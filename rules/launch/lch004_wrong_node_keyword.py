@@ -1,12 +1,14 @@
 """A node of a launch file lacks its executable, or has keywords of another release.
 
 `node_name`, `node_executable` and `node_namespace` are of releases before Galactic, `type` is of
-ROS 1. Without `executable` (in XML and YAML `exec`) the launch file ends with an error.
+ROS 1. Without `executable` (in XML and YAML `exec`) the launch file ends with an error. In a file
+that is named for one of these releases (`robot_eloquent.launch.py`) this is a warning.
 
 Fix: write `name`, `executable` and `namespace`.
 Source: launch_ros, `Node`: `executable` is required, and other keywords raise a TypeError.
 """
 
+import re
 from collections.abc import Mapping
 
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
@@ -19,6 +21,9 @@ OLD: Mapping[str, str] = {
     "node_namespace": "namespace",
 }
 
+_RELEASES = re.compile(r"(?<![a-z])(?:ardent|bouncy|crystal|dashing|eloquent|foxy)(?![a-z])")
+"""In the name of a file: releases of ROS 2 that know the former keywords."""
+
 
 @rule("LCH004", "wrong-node-keyword", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch) -> Findings:
@@ -28,7 +33,13 @@ def check(launch: Ros2Launch) -> Findings:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:
                 new = OLD.get(fault.name)
                 hint = f"; write {new}" if new else f"; add {_executable(fault.span)}"
-                yield finding(fault, f"{fault.message}{hint}", key=fault.message)
+                is_for_old = bool(new and _RELEASES.search(fault.span.source.file))
+                yield finding(
+                    fault,
+                    f"{fault.message}{hint}",
+                    severity=Severity.WARNING if is_for_old else None,
+                    key=fault.message,
+                )
 
 
 def _executable(node: Span) -> str:
@@ -40,6 +51,16 @@ GOOD = [{"@ros2": True}]
 BAD = [
     {"@ros2": "        Node(package='p', node_executable='e'),  # ^ LCH004"},
     {"@ros2": "        Node(package='p', executable='e', node_name='n'),  # ^ LCH004"},
+    {
+        "@ros2": True,
+        "launch/driver_eloquent.launch.py": """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='p', node_executable='e')])  # ^ LCH004
+""",
+    },
     {
         "@ros2": True,
         "launch/view.launch.xml": '<launch>\n<node pkg="p" name="n"/> <!-- ^ LCH004 -->\n</launch>',

@@ -47,10 +47,6 @@ _OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 GOOD = [
     {"@fragment": _visual("part.stl"), "meshes/part.stl": _binary_stl(2, declared=2)},
     {"@fragment": _visual("part.obj"), "meshes/part.obj": _OBJ + "f 1 2 3\n"},
-    {
-        "@fragment": _visual("part.stl"),
-        "meshes/part.stl": "version https://git-lfs.github.com/spec/v1",
-    },
     _visual("nowhere.obj"),
 ]
 BAD = [
