@@ -53,8 +53,8 @@ def check(
         if minutes > allowed * (1 + tolerance):
             yield finding(
                 _place(specification, battery),
-                f"the battery lasts about {minutes:.3g} minutes, more than {allowed:g}: link a "
-                "video or data that proves it in specifications.md",
+                f"the battery lasts about {minutes:.3g} minutes, above {allowed:g} minutes: "
+                "link a video or data that proves it in specifications.md",
                 related=[(battery, "the load of the battery")],
             )
 

@@ -105,7 +105,7 @@ def _gap(box: Box | None, point: Vector) -> float | None:
 
 
 def _words(point: Vector) -> str:
-    return "({:g}, {:g}, {:g})".format(*point)
+    return "({:g}, {:g}, {:g}) m".format(*point)
 
 
 def _robot(pose: str) -> str:

@@ -69,7 +69,7 @@ def check(
             name = kind.value.replace("_", " ")
             yield finding(
                 section,
-                f"the model has {len(sensors)} × {name}, but specifications.md lists no {name}",
+                f"specifications.md lists no {name}, but the model has {len(sensors)}",
                 severity=Severity.INFO if sensors[0].type.value in minor else None,
                 related=[(sensor, f"sensor {sensor.name.value!r}") for sensor in sensors[:NOTED]],
             )

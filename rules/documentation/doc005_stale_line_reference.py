@@ -74,8 +74,8 @@ def check(
         elif tags and not any(tag in text for tag in tags):
             yield finding(
                 reference,
-                f"specifications.md refers to {where} for {_expected_subject(reference)}, but the "
-                "lines do not contain that",
+                f"specifications.md refers to {where} for {_expected_subject(reference)}, but "
+                "these lines do not contain it",
             )
         elif wrong := _other_number(_claimed_limit(specification, reference), text, tolerance):
             yield finding(

@@ -47,7 +47,7 @@ def check(
             if claim is None or claim.maximum <= 0:
                 continue
             allowed = about if claim.approximate else tolerance
-            yield from _differing_limits(motion, f"{quantity}, {unit}", ends, claim, allowed)
+            yield from _differing_limits(motion, quantity, unit, ends, claim, allowed)
 
 
 def _claim(sheet: Specification, motion: BoundedMotion, quantity: str) -> Limit | None:
@@ -60,7 +60,7 @@ def _claim(sheet: Specification, motion: BoundedMotion, quantity: str) -> Limit 
 
 
 def _differing_limits(
-    motion: BoundedMotion, what: str, ends: Ends, claim: Limit, tolerance: float
+    motion: BoundedMotion, quantity: str, unit: str, ends: Ends, claim: Limit, tolerance: float
 ) -> Iterator[Finding]:
     low, high = ends
     if high is None or is_unlimited(high) or (low is not None and is_unlimited(low)):
@@ -72,8 +72,8 @@ def _differing_limits(
     says = f"{claim.maximum:g}" if minimum is None else f"{minimum:g} to {claim.maximum:g}"
     yield finding(
         claim,
-        f"specifications.md says {motion.axis} {motion.kind} {what}: {says}; but "
-        f"{motion.plugin.class_name} has {least:g} to {high.value:g}",
+        f"the {motion.axis} {motion.kind} {quantity} of {motion.plugin.class_name} is between "
+        f"{least:g} and {high.value:g} {unit}, but specifications.md says {says} {unit}",
         related=[(high, "the limit of the model")],
     )
 

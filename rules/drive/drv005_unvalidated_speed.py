@@ -56,7 +56,7 @@ def check(
     allowed = air if motion.flies else ground
     yield finding(
         _place(specification, motion, speed),
-        f"the robot may go {abs(speed.value):g} m/s, above {allowed:g} m/s: link a video or data "
+        f"the drive allows {abs(speed.value):g} m/s, above {allowed:g} m/s: link a video or data "
         "that proves it in specifications.md",
         related=[(speed, "the limit of the model")],
     )

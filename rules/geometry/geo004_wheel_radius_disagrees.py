@@ -47,7 +47,7 @@ def _worst(
     share, _, wheel = max(off, key=lambda row: row[:2])
     if not share > warning_above:
         return
-    count = sum(other[0] > warning_above for other in off)
+    differing = sum(other[0] > warning_above for other in off)
     length, times = ("diameter", 2) if drive.diameter_tag else ("radius", 1)
     tag = drive.diameter_tag or drive.radius_tag
     says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
@@ -55,7 +55,7 @@ def _worst(
         stated,
         f"{drive.plugin.label} {says} {stated.value * times:g} m, but wheel "
         f"{wheel.link.name.value!r} has a {length} of {(wheel.radius or 0.0) * times:.4g} m"
-        + (f", and {count - 1} more wheels differ" if count > 1 else ""),
+        + (f" ({differing} wheels differ)" if differing > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,
         # Plugin and controller, or the files of two distributions, say the same of one wheel.
         key=f"{wheel.link.name.value} {stated.value:g}",

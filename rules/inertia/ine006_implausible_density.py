@@ -82,8 +82,8 @@ def check(
             severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
             yield from _say(inertia, most, f"at most {heaviest:g}", severity)
         elif most > 0.0 and inertia.mass / most > max(metal, contrast * others.density(name)):
-            rest = f"the other links have {others.density(name):.3g}"
-            yield from _say(inertia, most, f"at most {metal:g}: {rest}", heavy)
+            rest = f"the other links have {_rounded(others.density(name))}"
+            yield from _say(inertia, most, f"at most {metal:g}; {rest}", heavy)
         elif (
             collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest and name not in carried
         ):
@@ -153,14 +153,20 @@ def _stands(masses: MassProperties, link: Link) -> bool:
     return link.name.value not in moved and not robot.locomotion.wheel_drives
 
 
+def _rounded(number: float) -> str:
+    """Return a number with three digits, and without an exponent up to a million."""
+    return f"{float(f'{number:.3g}'):g}"
+
+
 def _say(
     inertia: LinkInertia, volume: float, expected: str, severity: Severity
 ) -> Iterator[Finding]:
     if inertia.link.inertial is not None:
         yield finding(
             inertia.link.inertial.mass,
-            f"link {inertia.link.name.value!r} weighs {inertia.mass:.4g} kg in "
-            f"{1000 * volume:.3g} litres: {inertia.mass / volume:.3g} kg/m³, expected {expected}",
+            f"link {inertia.link.name.value!r} has a density of {_rounded(inertia.mass / volume)} "
+            f"kg/m³ ({inertia.mass:.4g} kg in {_rounded(1000 * volume)} litres), "
+            f"expected {expected}",
             severity=severity,
         )
 

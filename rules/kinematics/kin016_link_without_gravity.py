@@ -31,7 +31,7 @@ def check(robot: Robot, context: Context) -> Findings:
             carries = link.scoped_name in carrying
             severity = Severity.WARNING if carries else Severity.INFO
             advice = "remove the setting" if carries else "expected only where springs balance it"
-            message = f"no gravity acts on link {name!r}, because its value is {stated}: {advice}"
+            message = f"no gravity acts on link {name!r} (set to {stated}): {advice}"
             yield finding(link.gravity, message, severity=severity, key="gravity")
         if link.kinematic.value:
             ignored = "Gazebo's default engine ignores it; in others, no force moves the link"

@@ -34,15 +34,15 @@ def check(
     """
     older = context.release in older_releases
     known = frozenset(formats) if older else _SINCE_GARDEN.union(formats)
-    where = f" on {context.release}" if context.release else ""
+    target = f"Gazebo {context.release.title()}".rstrip()
     for use in robot.mesh_uses:
         suffix = posixpath.splitext(use.uri.value)[1]
         if suffix.lower() not in known:
             yield finding(
                 use.uri,
                 f"{use.uri.value} is "
-                f"{f'a {suffix} file' if suffix else 'a file without extension'}, expected "
-                f"{', '.join(sorted(known))}{where}",
+                f"{f'a {suffix} file' if suffix else 'a file without extension'}, which "
+                f"{target} does not load: expected one of {', '.join(sorted(known))}",
                 severity=None if robot.is_for_gazebo else Severity.WARNING,
                 key=suffix.lower(),
             )

@@ -21,6 +21,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.resources import table
+from checker.base.words import and_list
 from checker.finding import Fix, Place
 from checker.launch.ros2.graph import Ros2Launch
 from checker.launch.ros2.package_launch import built_by_ament
@@ -148,10 +149,10 @@ def _distribution(
     place: PackageManifest | Place, uses: dict[str, Use], fix: Fix | None, severity: Severity | None
 ) -> Iterator[Finding]:
     if uses:
-        names = ", ".join(sorted(uses))
+        word = "dependency" if len(uses) == 1 else "dependencies"
         yield finding(
             place,
-            f"{names}: used, but missing from the dependencies in package.xml",
+            f"package.xml lacks the {word} {and_list(sorted(uses))}",
             severity=severity,
             related=[(use.place, f"{name} is used here") for name, use in sorted(uses.items())],
             fix=fix,

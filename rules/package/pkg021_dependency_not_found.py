@@ -62,9 +62,11 @@ def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]
     if dependencies:
         first, *others = dependencies
         names = ", ".join(map(_package_phrase, dependencies))
+        noun = "packages" if others else "package"
         yield finding(
             first.package,
-            f"{distro.capitalize()} and rosdep have no {names}: expected in the workspace",
+            f"ROS 2 {distro.capitalize()} and rosdep have no {noun} {names}: "
+            "expected in the workspace",
             severity=Severity.INFO,
             related=[(other.package, "and this") for other in others],
         )

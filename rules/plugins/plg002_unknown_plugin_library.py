@@ -99,7 +99,7 @@ def _elsewhere(stem: str, context: Context) -> str:
     if context.is_subt:
         return ""
     if lender := package_of_library(stem):
-        return f"; it is of {lender}, on which package.xml does not depend"
+        return f"; add its package to package.xml: <exec_depend>{lender}</exec_depend>"
     return "".join(f"; {label} is the first that has it" for label in releases_with(stem)[:1])
 
 

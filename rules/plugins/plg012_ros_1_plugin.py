@@ -87,7 +87,7 @@ def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Fin
         advice = f"ROS 2 reads {_replacement(instead)}" if instead else "ROS 2 does not read it"
         yield finding(
             element,
-            f"<{element.tag}> is a parameter of ROS 1 that {library} ignores: {advice}",
+            f"{library} ignores <{element.tag}>, a parameter of ROS 1: {advice}",
             severity=None if _is_missed(plugin, instead, element.value) else Severity.WARNING,
             key=library,
         )

@@ -41,7 +41,7 @@ def check(launch: LaunchGraph) -> Findings:
             count = f"{len(others) + 1} nodes"
             yield finding(
                 others[0],
-                f"{count} have the name {shown}, expected one; the first is {_program(first)}",
+                f"{count} have the name {shown}: give each its own; the first is {_program(first)}",
                 related=[
                     (first, "the first node with this name"),
                     *((node, "another node with this name") for node in others[1 : _SHOWN + 1]),

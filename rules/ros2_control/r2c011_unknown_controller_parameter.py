@@ -44,6 +44,7 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             continue
         names = _known_parameters(known, distribution)
         suggestions = Suggestions(names)
+        of_type = f"{controller.label} ({controller.type.value})"
         for name in sorted(controller.own) if names else ():
             if name in COMMON_PARAMETERS or name.startswith(_READ_OTHERWISE):
                 continue
@@ -52,14 +53,14 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             parameter = controller.parameters[name]
             elsewhere = known.parameter(name) is not None
             grave = name == _STAMPED and parameter.node.scalar is False
-            what = f"has no effect in ROS 2 {distribution.title()}"
+            message = f"{name} of {of_type} has no effect in ROS 2 {distribution.title()}"
             if grave:
-                what += ": the controller reads TwistStamped, and Twist does not move the robot"
+                message += ": the controller reads TwistStamped, and Twist does not move the robot"
             elif not elsewhere:
-                what = f"is not a parameter of it{suggestions.hint(name)}"
+                message = f"{of_type} has no parameter {name}{suggestions.hint(name)}"
             yield finding(
                 parameter.key,
-                f"{name} of {controller.label} ({controller.type.value}) {what}",
+                message,
                 severity=Severity.INFO if elsewhere and not grave else None,
             )
 

@@ -53,19 +53,19 @@ def _script(material: Element, script: Element, *, mapped: bool) -> Iterator[Fin
     if any(child.tag in _COLOURS for child in material.children):
         yield finding(
             script,
-            f"the material script{called} is not read: the other colours of the material are used",
+            f"Gazebo ignores the material script{called} and uses the material's other colours",
             severity=Severity.INFO,
             fix=Fix(Safety.SAFE, (removal(script),)),
         )
     elif name is not None and name.text.value.strip() in BLACK:
         yield finding(
             script,
-            f"the material script{called} is not read: the part is black without it",
+            f"Gazebo ignores the material script{called}: the part is black without it",
             severity=Severity.INFO,
         )
     else:
         yield finding(
-            script, f"the material script{called} is not read, and the part has no other colour"
+            script, f"Gazebo ignores the material script{called}, and the part has no other colour"
         )
 
 

@@ -82,8 +82,8 @@ def _too_far(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
     yield finding(
         far,
         f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {'measures' if depth else 'sees'} "
-        f"up to {far.value:g} m; the SubT standard is {limit:g} m in "
-        f"{tag}{', which is missing' if shared else ''}",
+        f"up to {far.value:g} m, expected at most {limit:g} m (the SubT standard): "
+        f"{'add' if shared else 'correct'} {tag}",
         key=f"{sensor.kind} {far.value:g}",
     )
 

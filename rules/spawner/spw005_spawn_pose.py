@@ -42,7 +42,10 @@ def _judge(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Iterator[Fi
     missing = [name for name in wanted if name not in used]
     if missing:
         yield finding(
-            pose.text_span, f"the spawn pose does not use {', '.join(missing)}", key="missing"
+            pose.text_span,
+            f"the spawn pose does not use {', '.join(missing)}: add "
+            + " ".join(f"#{{{name}}}" for name in missing),
+            key="missing",
         )
         return
     words = [spawned.parameters_of(word) for word in spawned.words_of(pose.text_span)]

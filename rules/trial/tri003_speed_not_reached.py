@@ -61,7 +61,7 @@ def check(
     is_grave = driven.robot.is_for_gazebo and not dragged
     yield finding(
         place or driven.drive,
-        f"commanded to drive at {leg.linear:.3g} m/s, the robot reaches {reached:g} m/s: a "
+        f"the robot drives at {reached:g} m/s when commanded to drive at {leg.linear:.3g} m/s: a "
         f"difference of {off:.0%}, expected at most {warning_beyond:.0%}{cause or dragged}",
         severity=Severity.ERROR if is_grave and off > error_beyond else Severity.WARNING,
         key="speed_ratio",

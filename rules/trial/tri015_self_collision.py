@@ -29,8 +29,8 @@ def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
         if overlap.value > warning_above:
             yield finding(
                 driven.part(overlap.part),
-                f"{overlap.part!r} enters {overlap.other!r} by {overlap.value * 1000:.0f} mm when "
-                "their joints move through their ranges",
+                f"{overlap.part!r} and {overlap.other!r} overlap by {overlap.value * 1000:.0f} mm "
+                "when their joints move through their ranges",
                 severity=None if {overlap.part, overlap.other} & wheels else Severity.INFO,
                 key="sweep_overlap",
                 related=[(driven.part(overlap.other), f"{overlap.other!r}")],

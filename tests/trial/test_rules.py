@@ -115,7 +115,7 @@ def message(id: str, **said: Any) -> str:
 def test_speed_that_the_wheel_radius_explains() -> None:
     said = message("TRI003", speed_ratio=0.5)
     assert said.startswith(
-        "commanded to drive at 0.5 m/s, the robot reaches 0.25 m/s: a difference of 50%"
+        "the robot drives at 0.25 m/s when commanded to drive at 0.5 m/s: a difference of 50%"
     )
     assert "wheel_radius" not in said
     said = message("TRI003", speed_ratio=0.5, robot=rover(wheel_radius=0.2))
