@@ -16,25 +16,23 @@ _KEY = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
     parser.description = (
-        "Look after the checks and workers of a service. Run it as the user of the service, with "
+        "Manage the checks and workers of a service. Run it as the user of the service, with "
         "its SUBT_CHECK_DATA, SUBT_CHECK_DATABASE_URL and SUBT_CHECK_STORE."
     )
     actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
-    listing = _action(actions, "list", "list the checks that wait, run or have failed")
+    listing = _action(actions, "list", "list waiting, running and failed checks")
     listing.add_argument("--json", action="store_true", help="as JSON, with whole keys")
     again = _action(actions, "requeue", "run failed checks again, under the same links")
     which = again.add_mutually_exclusive_group(required=True)
     which.add_argument("keys", nargs="*", default=[], metavar="KEY", help=_KEY)
     which.add_argument("--failed", action="store_true", help="all checks that have failed")
-    cancel = _action(actions, "cancel", "end checks that wait or run; their pages stay")
+    cancel = _action(actions, "cancel", "cancel waiting or running checks; their pages remain")
     cancel.add_argument("keys", nargs="+", metavar="KEY", help=_KEY)
-    drain = _action(
-        actions, "drain", "have workers take no more checks, finish those in hand, and end"
-    )
+    drain = _action(actions, "drain", "let workers finish their current checks, then stop")
     drain.add_argument(
         "names", nargs="*", metavar="NAME", help="name of a worker (default: all workers)"
     )
-    _action(actions, "retention", "delete now what is due, and say how much it was")
+    _action(actions, "retention", "delete expired data now, and print how much was deleted")
 
 
 def _action(

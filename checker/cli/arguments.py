@@ -15,7 +15,7 @@ EXITS = """exit codes:
   0    nothing at or above --fail-on
   1    findings at or above --fail-on
   2    wrong usage, input that cannot be read, or a request that cannot be met
-  3    a fault of the checker itself, or a service or database that does not answer
+  3    a bug in subt-check, or a service or database that does not answer
   130  interrupted (Ctrl-C)
 """
 
@@ -34,7 +34,7 @@ def add_report_options(parser: argparse.ArgumentParser) -> None:
         dest="format",
         choices=FORMAT_NAMES,
         default="text",
-        help="format of the result (default: text); concise: one line a finding",
+        help="format of the result (default: text); concise: one line per finding",
     )
     parser.add_argument(
         "--output", metavar="FILE", help="write the result to this file instead of stdout"
@@ -44,7 +44,12 @@ def add_report_options(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="also write report.html, report.json, report.sarif and robot.glb into this folder",
     )
-    parser.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+    parser.add_argument(
+        "--color",
+        choices=("auto", "always", "never"),
+        default="auto",
+        help="when to print in colour (default: auto)",
+    )
     parser.add_argument(
         "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
     )

@@ -188,7 +188,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output",
         metavar="FILE",
-        help="output file; or DIR/, a folder for the scene and its meshes, made if it is not there",
+        help="output file; or DIR/, a folder for the scene and its meshes, created if needed",
     )
     parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
 

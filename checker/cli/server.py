@@ -11,11 +11,13 @@ from checker.base.output import EXIT_CLEAN
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
     parser.description = (
-        "Start the language server: an editor starts it, and talks to it by standard input and "
+        "Start the language server. Editors start it and communicate over standard input and "
         "output. docs/editors.md says how to set up editors."
     )
     parser.add_argument(
-        "--stdio", action="store_true", help="by standard input and output (always; for editors)"
+        "--stdio",
+        action="store_true",
+        help="communicate over standard input and output (the default)",
     )
 
 

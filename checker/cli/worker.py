@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=positive,
         metavar="N",
         help=(
-            "trials that this worker runs at the same time, and one more of another sender "
+            "number of trials at the same time, plus one of another sender "
             "(default: 1); the processes of `serve` run 1 each"
         ),
     )
@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--name",
         default="",
         help=(
-            "unique name of the worker process; one that restarts with the same name continues its "
+            "unique name of the worker process; after a restart with the same name it resumes its "
             "checks at once (default: random)"
         ),
     )

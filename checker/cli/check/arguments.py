@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--info", action="store_true", help="text and concise: show infos too")
     parser.add_argument(
-        "-q", "--quiet", action="store_true", help="text and concise: print findings, nothing else"
+        "-q", "--quiet", action="store_true", help="text and concise: print only findings"
     )
     parser.add_argument(
         "--full", action="store_true", help="text: show source lines and reasons too"
@@ -51,26 +51,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--select", metavar="IDS", type=ids, help="run only these rules, groups, or concern:robot"
     )
-    parser.add_argument("--ignore", metavar="IDS", type=ids, help="do not run these")
+    parser.add_argument(
+        "--ignore", metavar="IDS", type=ids, help="do not run these rules or groups"
+    )
     parser.add_argument(
         "--package-path",
         metavar="DIR",
         action="append",
         type=Path,
-        help="also find packages in this folder, or this package; may be repeated",
+        help="also use the packages of this folder, or this package; may be repeated",
     )
     parser.add_argument(
         "--xacro-arg",
         metavar="NAME:=VALUE",
         action="append",
         type=argument,
-        help="give xacro files this argument; may be repeated",
+        help="argument for xacro files; may be repeated",
     )
     parser.add_argument(
         "--payload",
         metavar="KG",
         type=above_zero,
-        help="mass that an arm is to carry at its end: can its motors hold it in every pose?",
+        help="mass at the end of an arm: check that its motors hold it in every pose",
     )
     parser.add_argument("--fix", action="store_true", help="apply safe fixes, then check")
     parser.add_argument(
@@ -108,7 +110,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=positive,
         metavar="N",
-        help="number of processes (default: for several packages, that of the processors)",
+        help="number of processes (default: one per package, up to the number of processors)",
     )
 
 
