@@ -79,23 +79,23 @@ class EditedText:
 
 def take(fix: Fix, texts: Mapping[str, EditedText]) -> bool:
     """Add all edits of a fix to the texts, or none; return whether they could be added."""
-    wanted: list[tuple[EditedText, Stretch]] = []
+    stretches: list[tuple[EditedText, Stretch]] = []
     for edit in fix.edits:
         text = texts.get(edit.place.file)
         stretch = text.stretch(edit) if text is not None else None
         if text is None or stretch is None or not text.accepts(stretch):
             return False
-        wanted.append((text, stretch))
-    if _collide(wanted):
+        stretches.append((text, stretch))
+    if _collide(stretches):
         return False
-    for text, stretch in wanted:
+    for text, stretch in stretches:
         text.add(stretch)
     return True
 
 
-def _collide(wanted: Iterable[tuple[EditedText, Stretch]]) -> bool:
+def _collide(stretches: Iterable[tuple[EditedText, Stretch]]) -> bool:
     """Return whether edits of one fix contradict each other."""
-    ordered = sorted({(text.source.file, stretch) for text, stretch in wanted})
+    ordered = sorted({(text.source.file, stretch) for text, stretch in stretches})
     return any(a[0] == b[0] and a[1].collides(b[1]) for a, b in pairwise(ordered))
 
 
@@ -144,19 +144,19 @@ def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]
     edited: dict[str, SourceText] = {}
     fixed: list[ReportedFinding] = []
     findings: tuple[ReportedFinding, ...] = ()
-    wanted: list[ReportedFinding] = []
+    fixable: list[ReportedFinding] = []
     for rounds in range(MAX_ROUNDS + 1):
         findings = judge(package.with_texts(edited))
-        wanted = [finding for finding in findings if finding.fix and finding.fix.safety in allowed]
-        applied = _round(wanted, package, edited) if rounds < MAX_ROUNDS else []
+        fixable = [finding for finding in findings if finding.fix and finding.fix.safety in allowed]
+        applied = _round(fixable, package, edited) if rounds < MAX_ROUNDS else []
         fixed += applied
         if not applied:
             break
     return Fixed(
         tuple(_changes(package, edited)),
         tuple({reported.fingerprint: reported for reported in fixed}.values()),
-        tuple(reported for reported in wanted if not _elsewhere(reported)),
-        tuple(reported for reported in wanted if _elsewhere(reported)),
+        tuple(reported for reported in fixable if not _elsewhere(reported)),
+        tuple(reported for reported in fixable if _elsewhere(reported)),
         tuple(finding for finding in findings if finding.fix and finding.fix.safety not in allowed),
         rounds,
     )

@@ -41,13 +41,13 @@ def listening(host: str, port: int) -> socket.socket:
     Raises:
         CheckerError: It cannot be bound.
     """
-    shown = f"{plain(shortened(host, 200))} port {port}"
+    label = f"{plain(shortened(host, 200))} port {port}"
     try:
         return _bound(host, port)
     except (OSError, UnicodeError) as error:
         reason = getattr(error, "strerror", None) or error
         raise CheckerError(
-            f"{shown} cannot be used ({reason}); choose another --host or --port"
+            f"{label} cannot be used ({reason}); choose another --host or --port"
         ) from None
 
 

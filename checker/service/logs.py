@@ -135,8 +135,8 @@ def _fault(record: logging.LogRecord) -> Fault:
 
 def _without_trace(record: logging.LogRecord) -> logging.LogRecord:
     """Return a copy without references to the program's state."""
-    said = {"msg": record.getMessage(), "args": (), "exc_info": None, "exc_text": None}
-    return logging.makeLogRecord({**vars(record), **said})
+    changes = {"msg": record.getMessage(), "args": (), "exc_info": None, "exc_text": None}
+    return logging.makeLogRecord({**vars(record), **changes})
 
 
 def log_to_stderr() -> None:

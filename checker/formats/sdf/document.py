@@ -102,15 +102,15 @@ def _reads_well(value: float | None, *, finite: bool) -> bool:
 
 
 def _integer(text: Located[str], *, least: int = -_INT32, most: int = _INT32 - 1) -> list[Misread]:
-    shown = _short(text.value)
+    written = _short(text.value)
     if _INTEGER.match(text.value):
         value = int(text.value, 16 if "x" in text.value.lower() else 10)
         if least <= value <= most:
             return []
-        return [Misread(text.span, f"is {shown}, expected {least} to {most}")]
+        return [Misread(text.span, f"is {written}, expected {least} to {most}")]
     # Readers stop at the point: 10.0 is 10 to them anyway, 1e3 is 1.
     whole = re.fullmatch(r"[+-]?\d{1,9}\.0*", text.value, re.ASCII) is not None
-    return [Misread(text.span, f"is {shown}, expected a whole number", lossy=whole)]
+    return [Misread(text.span, f"is {written}, expected a whole number", lossy=whole)]
 
 
 def _boolean(text: Located[str]) -> list[Misread]:

@@ -116,7 +116,7 @@ def xacro_server() -> Server:
 class Expansions:
     """The expansion of some files of one package, begun at once and waited for later."""
 
-    def __init__(self, package: Package, wanted: Sequence[Wanted], expander: Expander) -> None:
+    def __init__(self, package: Package, wishes: Sequence[Wanted], expander: Expander) -> None:
         """Begin; files that were expanded before are taken from the cache."""
         self._expander = expander
         self._gathered = Gathered(package)
@@ -124,7 +124,7 @@ class Expansions:
             {"file": path_of(package, wish.path), "args": dict(wish.args)}
             | ({"as_melodic": True} if wish.as_melodic else {})
             | ({"call": dict(wish.call)} if wish.call is not None else {})
-            for wish in wanted
+            for wish in wishes
         ]
         self._gathered.follow(job["file"] for job in self._jobs)
         self._begun = self._begin()
@@ -169,19 +169,19 @@ class Expansions:
         return key_of(self._basis, json.dumps(job, sort_keys=True))
 
     def _outcome(self, file: str, answer: dict[str, Any] | WorkerFailed) -> Outcome:
-        shown = self._file_label(file)
+        label = self._file_label(file)
         if isinstance(answer, WorkerFailed):
-            return Unread(f"{shown} is not expanded: the process that expands it {answer.reason}")
+            return Unread(f"{label} is not expanded: the process that expands it {answer.reason}")
         if "xml" in answer:
             document = expanded_document(answer, self._gathered, file)
-            return document or Unread(f"the expanded text of {shown} cannot be read")
+            return document or Unread(f"the expanded text of {label} cannot be read")
         if "kind" in answer:
             return self._fault(file, answer)
         if "refused" in answer:
-            return Unread(f"{shown} is not expanded: {self._refusal(answer)}")
+            return Unread(f"{label} is not expanded: {self._refusal(answer)}")
         if "missing" in answer:
-            return Unread(f"{shown} includes too many files with computed names")
-        return Unread(f"{shown} is not expanded: {answer['unread']}")
+            return Unread(f"{label} includes too many files with computed names")
+        return Unread(f"{label} is not expanded: {answer['unread']}")
 
     def _file_label(self, file: str) -> str:
         source = self._gathered.sources.get(file)

@@ -224,8 +224,8 @@ class _Expansion:
             document = minidom.parseString(self._text(path))  # noqa: S318
         except FileNotFoundError as error:
             xacro.filestack.pop()
-            shown = posixpath.normpath(path).removeprefix(f"{ROOT}/")
-            raise xacro.XacroException(f"the file {shown} does not exist", exc=error) from None
+            label = posixpath.normpath(path).removeprefix(f"{ROOT}/")
+            raise xacro.XacroException(f"the file {label} does not exist", exc=error) from None
         if self._as_melodic:
             melodic.prefix(document.documentElement, self._macros)
         number = self._numbers[posixpath.normpath(path)]
@@ -277,9 +277,9 @@ class _Expansion:
         try:
             yield
         except RefusedExpression as refusal:
-            shown = _shortened(expression)
+            text = _shortened(expression)
             at = self._place(self._at)
-            raise _Stopped({"refused": str(refusal), "expression": shown, "at": at}) from None
+            raise _Stopped({"refused": str(refusal), "expression": text, "at": at}) from None
         except ExpressionLimit as limit:
             self._through = _macros()
             message = f"the expression '{_shortened(expression)}' {limit}"
@@ -290,11 +290,11 @@ class _Expansion:
         try:
             text = self._text(path)
         except FileNotFoundError:
-            shown = path.removeprefix(f"{ROOT}/")[:200]
+            label = path.removeprefix(f"{ROOT}/")[:200]
             name = _argument_in(path)
             if name is None:
-                raise xacro.XacroException(f"the file {shown} does not exist") from None
-            reason = f"needs another value of the argument {name!r}: {shown} does not exist"
+                raise xacro.XacroException(f"the file {label} does not exist") from None
+            reason = f"needs another value of the argument {name!r}: {label} does not exist"
             raise _Stopped({"unread": reason}) from None
         return read(text, budget)
 
@@ -339,8 +339,8 @@ def _macros() -> list[str]:
 
 
 def _shortened(expression: str) -> str:
-    shown = " ".join(expression[: 10 * _SHOWN].split())
-    return shown if len(shown) <= _SHOWN else f"{shown[:_SHOWN]}…"
+    text = " ".join(expression[: 10 * _SHOWN].split())
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
 
 
 def _is_name(name: str) -> bool:

@@ -142,12 +142,12 @@ def text_value(text: str, symbols: Any, allowance: Allowance) -> Any:
         for result in results:
             if type(result) is not str:
                 weigh(result, budget)
-        shown = [str(result) for result in results]
+        texts = [str(result) for result in results]
     finally:
         budget.close()
-    if sum(map(len, shown)) > LENGTH_LIMIT:
+    if sum(map(len, texts)) > LENGTH_LIMIT:
         raise ExpressionLimit(f"comes to more than {LENGTH_LIMIT} characters")
-    return "".join(shown)
+    return "".join(texts)
 
 
 def _parts_of(text: str) -> Iterator[re.Match[str]]:

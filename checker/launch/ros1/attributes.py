@@ -134,14 +134,14 @@ class Reader:
 
     def is_enabled(self, element: Element, scope: Scope) -> bool:
         """Return whether `if` and `unless` enable an element; unknown values disable it."""
-        for attribute, wanted in (("if", True), ("unless", False)):
+        for attribute, enabling_truth in (("if", True), ("unless", False)):
             condition = self.text(element, attribute, scope)
             if condition is None:
                 continue
             truth = truth_of(condition.value)
             if truth is None:
                 self._neither(attribute, condition)
-            if truth is not wanted:
+            if truth is not enabling_truth:
                 return False
         return True
 

@@ -48,11 +48,11 @@ def apply_remaps(
         namespace: Absolute namespace of the node.
         node: Its name, for private names.
     """
-    wanted = resolve_name(name, namespace, node)
+    full_name = resolve_name(name, namespace, node)
     for source, target in remaps:
-        if resolve_name(source, namespace, node) == wanted:
+        if resolve_name(source, namespace, node) == full_name:
             return resolve_name(target, namespace, node)
-    return wanted
+    return full_name
 
 
 _SIMULATOR = "gazebo_ros"

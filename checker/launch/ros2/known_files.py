@@ -100,8 +100,8 @@ def _value(name: str, file: KnownFile, context: Context, span: Span) -> str:
 def _conditions(
     when: Mapping[str, str], given: Mapping[str, str], span: Span
 ) -> Iterator[Condition]:
-    for name, wanted in when.items():
-        holds = given[name].lower() == wanted if is_known(given[name]) else None
+    for name, expected in when.items():
+        holds = given[name].lower() == expected if is_known(given[name]) else None
         yield Condition(Located(given[name], span), wanted=True, holds=holds)
 
 

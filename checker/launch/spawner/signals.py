@@ -66,10 +66,10 @@ class RubyError(Exception):
         super().__init__(message)
         self.kind, self.message, self.span = kind, message, span
 
-    def is_a(self, wanted: str) -> bool:
-        """Return whether Ruby's class of the error is `wanted` or below it."""
+    def is_a(self, class_name: str) -> bool:
+        """Return whether Ruby's class of the error is `class_name` or below it."""
         kind = self.kind
-        while kind != wanted:
+        while kind != class_name:
             if kind not in _PARENTS:
                 return False
             kind = _PARENTS[kind]

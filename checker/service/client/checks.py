@@ -103,14 +103,14 @@ class Check(Record):
         Raises:
             CheckerError: The service does not state it.
         """
-        shown, pause = "", _FIRST_PAUSE
+        last_message, pause = "", _FIRST_PAUSE
         while True:
             standing = self._standing()
             if standing.end is not None:
                 return standing
-            if str(standing) != shown:
-                shown, pause = str(standing), _FIRST_PAUSE
-                say(shown)
+            if str(standing) != last_message:
+                last_message, pause = str(standing), _FIRST_PAUSE
+                say(last_message)
             sleep(pause)
             pause = min(1.5 * pause, _LONGEST_PAUSE)
 

@@ -116,15 +116,15 @@ class Connection(Record):
         """
         ends, pause = monotonic() + self.patience.trouble, self.patience.pause
         while True:
-            wanted = 0.0
+            least_wait = 0.0
             try:
                 answer = self._once(method, path, upload, limit, headers or {})
                 if answer.status not in _BUSY:
                     return self._direct(answer)
-                trouble, wanted = f"answers {answer.status}", answer.retry_after
+                trouble, least_wait = f"answers {answer.status}", answer.retry_after
             except NoAnswer as problem:
                 trouble = str(problem)
-            wait = max(min(pause, self.patience.longest_pause), wanted)
+            wait = max(min(pause, self.patience.longest_pause), least_wait)
             if monotonic() + wait > ends:
                 raise Unreachable(f"{self.server} {trouble}; try again later")
             self.say(f"{self.server} {trouble}; trying again in {wait:.0f} s")

@@ -62,7 +62,7 @@ def parse_server(text: str) -> Server:
 
 
 def _no_server(text: str) -> CheckerError:
-    shown = plain(shortened(text, 200))
+    address = plain(shortened(text, 200))
     return CheckerError(
-        f"'{shown}' is not the address of a service, expected for example https://check.example"
+        f"'{address}' is not the address of a service, expected for example https://check.example"
     )

@@ -29,8 +29,8 @@ def pack(folder: Path) -> None:
         if not ARTEFACT_NAME.fullmatch(name) or path.stat().st_size > LARGEST:
             continue
         content = path.read_bytes()
-        shown = _with_way_back(content, name) if name.endswith(".html") else content
-        packed = gzip.compress(shown, compresslevel=6, mtime=0)
+        page = _with_way_back(content, name) if name.endswith(".html") else content
+        packed = gzip.compress(page, compresslevel=6, mtime=0)
         if len(packed) < _GAIN * len(content):
             path.with_name(path.name + SUFFIX).write_bytes(packed)
 

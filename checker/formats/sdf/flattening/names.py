@@ -63,10 +63,10 @@ class FlatNames(Record):
         changed: dict[str, str] = {}
         numbers: dict[str, int] = {}
         for scoped in dict.fromkeys(_names(robot, nested=True)):
-            flat = wanted = scoped.replace(_SCOPE, SEPARATOR)
+            flat = base_name = scoped.replace(_SCOPE, SEPARATOR)
             while flat in taken:
-                numbers[wanted] = numbers.get(wanted, 1) + 1
-                flat = f"{wanted}_{numbers[wanted]}"
+                numbers[base_name] = numbers.get(base_name, 1) + 1
+                flat = f"{base_name}_{numbers[base_name]}"
             taken.add(flat)
             changed[scoped] = flat
         return cls(changed)

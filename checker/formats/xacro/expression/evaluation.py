@@ -271,16 +271,16 @@ class _Evaluation:
             scope.values[target.id] = item
             return
         targets: list[ast.expr] = target.elts  # type: ignore[attr-defined]
-        wanted = len(targets)
+        count = len(targets)
         try:
-            values = list(islice(item, wanted + 1))
+            values = list(islice(item, count + 1))
         except TypeError:
             raise TypeError(f"cannot unpack non-iterable {type(item).__name__} object") from None
         self._budget.spend(len(values))
-        if len(values) > wanted:
-            raise ValueError(f"too many values to unpack (expected {wanted})")
-        if len(values) < wanted:
-            raise ValueError(f"not enough values to unpack (expected {wanted}, got {len(values)})")
+        if len(values) > count:
+            raise ValueError(f"too many values to unpack (expected {count})")
+        if len(values) < count:
+            raise ValueError(f"not enough values to unpack (expected {count}, got {len(values)})")
         for part, value in zip(targets, values, strict=True):
             self._bind(part, value, scope)
 

@@ -21,7 +21,7 @@ def read_conditions(made: Made, context: Context) -> Iterator[Condition]:
         span = span_of(condition, made.span)
         yield Condition(Located("a condition", span), wanted=True, holds=None)
         return
-    wanted = condition.name not in ("UnlessCondition", "LaunchConfigurationNotEquals")
+    enabling_truth = condition.name not in ("UnlessCondition", "LaunchConfigurationNotEquals")
     if "predicate_expression" in condition.values:
         value = condition.values["predicate_expression"]
     else:
@@ -29,15 +29,15 @@ def read_conditions(made: Made, context: Context) -> Iterator[Condition]:
     text = perform(value, context, condition.span)
     if isinstance(text, Unknown):
         located = Located(text.reason, condition.span)
-        yield Condition(located, wanted, None)
+        yield Condition(located, enabling_truth, None)
         return
     truth = truth_of(text) if is_known(text) else None
     written = isinstance(chosen_value(value), str)
     if truth is None and is_known(text):
         message = f"the condition is {display_path(text)[:80]!r}: expected true, false, 1 or 0"
         context.fault(LaunchFaultKind.CONDITION, condition.span, message, str(text)[:80])
-    holds = None if truth is None else truth is wanted
-    yield Condition(Located(str(text), condition.span), wanted, holds, written)
+    holds = None if truth is None else truth is enabling_truth
+    yield Condition(Located(str(text), condition.span), enabling_truth, holds, written)
 
 
 def _comparison(condition: Made) -> Made:

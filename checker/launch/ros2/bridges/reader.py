@@ -299,6 +299,6 @@ def _at(node: Node, given: dict[str, Located[str]]) -> _At:
 
 def _expands(parameters: Parameters, given: dict[str, Located[str]]) -> bool:
     """Return whether the names of Gazebo's topics get the namespace of the node."""
-    said = [p.value for p in parameters if isinstance(p, Parameter) and p.name == _EXPAND]
-    said += [given[_EXPAND].value] if _EXPAND in given else []
-    return bool(said) and str(said[-1]).lower() not in ("false", "0")
+    settings = [p.value for p in parameters if isinstance(p, Parameter) and p.name == _EXPAND]
+    settings += [given[_EXPAND].value] if _EXPAND in given else []
+    return bool(settings) and str(settings[-1]).lower() not in ("false", "0")

@@ -274,8 +274,8 @@ def _length(call: Call) -> Value:
 
 def _is_instance(call: Call) -> Value:
     names = {"str": str, "int": int, "float": float, "bool": bool, "list": list, "dict": dict}
-    wanted = call.arguments[1] if len(call.arguments) == 2 else ()
-    kinds = wanted if isinstance(wanted, tuple) else (wanted,)
+    classes = call.arguments[1] if len(call.arguments) == 2 else ()
+    kinds = classes if isinstance(classes, tuple) else (classes,)
     if kinds and all(isinstance(kind, Symbol) and kind.last in names for kind in kinds):
         value = chosen_value(call.arguments[0])
         if not isinstance(value, Unknown):

@@ -150,10 +150,10 @@ def _bind_positional(call: Call, function: Function, scope: Scope) -> None:
 
 def _bind_named(call: Call, function: Function, scope: Scope) -> None:
     named = dict(call.named)
-    wanted = [p for p in function.parameters if "keyword" in p.kind]
-    if named and not wanted:
+    keywords = [p for p in function.parameters if "keyword" in p.kind]
+    if named and not keywords:
         raise Unreadable(call.span, f"calls {call.name} with named arguments")
-    for parameter in wanted:
+    for parameter in keywords:
         if parameter.name in named:
             scope.variables[parameter.name] = named.pop(parameter.name)
         elif parameter.kind == "keyword":

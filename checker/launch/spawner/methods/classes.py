@@ -160,10 +160,10 @@ def _freeze(call: Call) -> Value:
     return call.receiver
 
 
-def _is_a(call: Call, wanted: Value) -> Value:
-    if not isinstance(wanted, Constant) or wanted.name in ERROR_CLASSES:
+def _is_a(call: Call, ruby_class: Value) -> Value:
+    if not isinstance(ruby_class, Constant) or ruby_class.name in ERROR_CLASSES:
         raise call.refuse()
-    name, own = wanted.name, class_name(call.receiver)
+    name, own = ruby_class.name, class_name(call.receiver)
     return name == own or (name == "Numeric" and own in {"Integer", "Float"})
 
 

@@ -84,11 +84,11 @@ def _answers(call: Call) -> Iterator[tuple[Value, Value]]:
         yield item, call.block_value(item)
 
 
-def _filtered(wanted: bool) -> Method:
+def _filtered(truth: bool) -> Method:
     def filtered(call: Call) -> Value:
         if isinstance(call.receiver, RubyHash):
             raise call.refuse()
-        kept = [item for item, value in _answers(call) if truthy(value) is wanted]
+        kept = [item for item, value in _answers(call) if truthy(value) is truth]
         return call.run.array(kept)
 
     return filtered
@@ -141,8 +141,8 @@ def _extreme(choose: Callable[..., Any]) -> Method:
     return extreme
 
 
-def _includes(call: Call, wanted: Value) -> Value:
-    return any(call.run.equal(item, wanted, call.span) for item in _all(call))
+def _includes(call: Call, element: Value) -> Value:
+    return any(call.run.equal(item, element, call.span) for item in _all(call))
 
 
 def _sort(call: Call) -> Value:

@@ -82,13 +82,13 @@ def _times(call: Call, factor: Value) -> Value:
     return call.run.string(TracedString(content.pieces * (count if content.pieces else 0)))
 
 
-def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
+def _occurrences(call: Call, pattern: str) -> Iterator[tuple[int, int]]:
     """Yield the ranges of a text that do not overlap; an empty one is between characters."""
     text, at = _text(call), 0
-    while (start := text.find(wanted, at)) >= 0:
+    while (start := text.find(pattern, at)) >= 0:
         call.run.budget.spend()
-        yield start, start + len(wanted)
-        at = start + max(1, len(wanted))
+        yield start, start + len(pattern)
+        at = start + max(1, len(pattern))
         if at > len(text):
             return
 
@@ -99,11 +99,11 @@ def _gaps(text: str, occurrences: list[tuple[int, int]]) -> list[tuple[int, int]
     return list(zip(starts, [*(start for start, _ in occurrences), len(text)], strict=True))
 
 
-def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> Value:
+def _replaced(call: Call, pattern: Value, replacement: Value, *, every: bool) -> Value:
     content, new = _receiver(call), call.traced(replacement)
     if "\\" in new.text:
         raise call.refuse("with a backslash in the replacement")
-    occurrences = list(_occurrences(call, call.text(wanted)))
+    occurrences = list(_occurrences(call, call.text(pattern)))
     occurrences = occurrences if every else occurrences[:1]
     kept = content.cut_many(_gaps(content.text, occurrences))
     call.run.budget.spend_text(len(new.text) * len(occurrences), len(new.pieces) * len(occurrences))
@@ -113,12 +113,12 @@ def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> 
     return call.run.string(join_strings(parts))
 
 
-def _gsub(call: Call, wanted: Value, replacement: Value) -> Value:
-    return _replaced(call, wanted, replacement, every=True)
+def _gsub(call: Call, pattern: Value, replacement: Value) -> Value:
+    return _replaced(call, pattern, replacement, every=True)
 
 
-def _sub(call: Call, wanted: Value, replacement: Value) -> Value:
-    return _replaced(call, wanted, replacement, every=False)
+def _sub(call: Call, pattern: Value, replacement: Value) -> Value:
+    return _replaced(call, pattern, replacement, every=False)
 
 
 def _split(call: Call, separator: Value = None) -> Value:

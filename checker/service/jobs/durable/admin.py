@@ -113,9 +113,9 @@ class Admin(Record):
 
     def _states(self, keys: Collection[str]) -> Iterator[tuple[State, Sequence[Row]]]:
         """Yield the states of checks, by their keys, and their rows."""
-        wanted = sorted({*keys})
-        for start in range(0, len(wanted), _AT_ONCE):
-            for key, rows in self.checks.rows(wanted[start : start + _AT_ONCE]).items():
+        unique_keys = sorted({*keys})
+        for start in range(0, len(unique_keys), _AT_ONCE):
+            for key, rows in self.checks.rows(unique_keys[start : start + _AT_ONCE]).items():
                 if state := state_of(key, rows):
                     yield state, rows
 

@@ -107,12 +107,12 @@ class Stages(Record):
 
     def _question(self, task: Task) -> Callable[[], bool]:
         """Return the test whether to stop: no time is left, or the check is not wanted here."""
-        asked, is_wanted = -_LOOK_SECONDS, True
+        last_look, is_wanted = -_LOOK_SECONDS, True
 
         def is_unwanted() -> bool:
-            nonlocal asked, is_wanted
-            if time.monotonic() - asked > _LOOK_SECONDS:
-                asked = time.monotonic()
+            nonlocal last_look, is_wanted
+            if time.monotonic() - last_look > _LOOK_SECONDS:
+                last_look = time.monotonic()
                 try:
                     with reachable():
                         is_wanted = self.checks.is_wanted(task)

@@ -92,14 +92,14 @@ _REPORT = (
 )
 
 
-def file_response(path: Path, asked: Headers | None = None) -> Response:
+def file_response(path: Path, request_headers: Headers | None = None) -> Response:
     """Return the answer that sends a file of a result, as what its name states.
 
     The file is open from here on: deleted meanwhile, it is sent anyway.
 
     Args:
         path: The path of the file.
-        asked: Headers of the request, which state whether the client accepts compression.
+        request_headers: Headers of the request, which state whether the client accepts compression.
 
     Raises:
         FileNotFoundError: It has been deleted.
@@ -111,7 +111,7 @@ def file_response(path: Path, asked: Headers | None = None) -> Response:
         file.seek(0)
     if path.name == "robot.glb":
         headers["content-disposition"] = f'attachment; filename="{path.name}"'
-    if asked is not None and _takes_packed(asked, kind):
+    if request_headers is not None and _takes_packed(request_headers, kind):
         with suppress(FileNotFoundError):
             packed = path.with_name(path.name + SUFFIX).open("rb")
             file.close()
@@ -125,10 +125,10 @@ def file_response(path: Path, asked: Headers | None = None) -> Response:
     return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
 
 
-def _takes_packed(asked: Headers, kind: str) -> bool:
+def _takes_packed(request_headers: Headers, kind: str) -> bool:
     """Return whether a client takes a compressed file: for pages, only browsers do."""
-    is_for_it = not kind.startswith("text/html") or "text/html" in asked.get("accept", "")
-    return is_for_it and takes_gzip(asked)
+    is_for_it = not kind.startswith("text/html") or "text/html" in request_headers.get("accept", "")
+    return is_for_it and takes_gzip(request_headers)
 
 
 def _pieces(file: BinaryIO) -> Iterator[bytes]:

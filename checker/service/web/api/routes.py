@@ -103,16 +103,18 @@ def router(services: Services) -> APIRouter:
 def _add_ends(router: APIRouter, api: Api) -> None:
     from fastapi import Header
 
-    told = "The secret that the answer to the upload had."
+    help_text = "The secret that the answer to the upload had."
 
     def cancel(
-        request: Request, id: str, secret: str = Header("", alias=receipts.SECRET, description=told)
+        request: Request,
+        id: str,
+        secret: str = Header("", alias=receipts.SECRET, description=help_text),
     ) -> CheckView:
         """End a check, and return its state; one that has ended stays as it is."""
         return api.cancel(request, id, secret)
 
     def delete(
-        id: str, secret: str = Header("", alias=receipts.SECRET, description=told)
+        id: str, secret: str = Header("", alias=receipts.SECRET, description=help_text)
     ) -> Response:
         """End a check and delete it: its link leads nowhere at once, its files go later."""
         return api.delete(id, secret)

@@ -94,9 +94,9 @@ class Space:
             Refused: There is no such room any more.
         """
         if claim.reserved < min(size, claim.size):
-            wanted = min(size + max(size, WINDOW), claim.size)
-            self._refuse_beyond(claim, wanted)
-            claim.reserved = wanted
+            reservation = min(size + max(size, WINDOW), claim.size)
+            self._refuse_beyond(claim, reservation)
+            claim.reserved = reservation
 
     def _refuse_beyond(self, claim: Claim, size: int) -> None:
         room = self._room()

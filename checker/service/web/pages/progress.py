@@ -79,8 +79,8 @@ def _read(path: Path) -> Glance | None:
         (package.name, finding) for package in report.packages for finding in package.findings
     ]
     findings.sort(key=lambda pair: importance(pair[1]))
-    shown = tuple(_first(name, finding) for name, finding in findings[:SHOWN])
-    return Glance(shown, len(findings) - len(shown))
+    first_findings = tuple(_first(name, finding) for name, finding in findings[:SHOWN])
+    return Glance(first_findings, len(findings) - len(first_findings))
 
 
 def _first(package: str, finding: ReportedFinding) -> FirstFinding:

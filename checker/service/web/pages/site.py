@@ -67,9 +67,9 @@ def html(template: str, *, status: int = 200, here: str = "", **values: Any) -> 
     """
     from starlette.responses import HTMLResponse
 
-    shown = _templates().get_template(template)
+    page = _templates().get_template(template)
     frame = {"static": f"{FOLDER}/{release()}", "version": version_of("subt-check")}
-    return HTMLResponse(shown.render(status=status, here=here, **frame, **values), status)
+    return HTMLResponse(page.render(status=status, here=here, **frame, **values), status)
 
 
 @cache

@@ -201,8 +201,8 @@ def _parser(content_type: str) -> PushMultipartParser:
 
 
 def _damaged(why: str) -> Refused:
-    shown = why[:1].lower() + why[1:]
-    return Refused(400, f"The upload form cannot be read: {shown}.", _HOW_TO_SEND, "form")
+    reason = why[:1].lower() + why[1:]
+    return Refused(400, f"The upload form cannot be read: {reason}.", _HOW_TO_SEND, "form")
 
 
 def signature_mismatch(name: str, head: bytes) -> str:

@@ -219,6 +219,6 @@ def _too_slow(patience: _Patience) -> Refused:
 def _profile(name: str) -> str:
     known = profile_names()
     if name and name not in known:
-        shown = ", ".join(known)
-        raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
+        choices = ", ".join(known)
+        raise Refused(422, "There is no such profile.", f"Choose one of {choices}.", "profile")
     return name
