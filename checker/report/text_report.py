@@ -143,7 +143,7 @@ class TextReport:
         self._owners: dict[Identity, str] = {}
         self._awaited = {posixpath.normpath(path) for path in awaited}
         self._waiting: list[PackageReport] = []
-        self._is_first = True
+        self._is_first, self._after_line = True, False
 
     def add(self, packages: Iterable[PackageReport], done: str = "") -> Iterator[str]:
         """Yield the text that can be printed now that some packages are checked.
@@ -174,9 +174,13 @@ class TextReport:
     def _package_text(self, package: PackageReport) -> str:
         if self._settings.concise:
             return concise_text(package, self._owners, self._settings)
-        gap = "" if self._is_first or self._settings.quiet else "\n"
-        self._is_first = False
-        return gap + _package(package, self._owners, self._settings)
+        text = _package(package, self._owners, self._settings)
+        # Packages of one line follow each other without a gap.
+        is_line = text.count("\n") == 1
+        gap = "" if self._settings.quiet or (is_line and self._after_line) else "\n"
+        self._after_line = is_line
+        gap, self._is_first = "" if self._is_first else gap, False
+        return gap + text
 
 
 def to_text(report: Report, settings: RenderSettings) -> str:
@@ -222,6 +226,8 @@ def _package(
     lines += _counted(own[SHOWN_LIMIT:])
     if settings.quiet:
         return "".join(f"{line}\n" for line in lines)
+    if not (share.own or share.elsewhere or settings.full or _has_more(package)):
+        return verdict_text(package, palette) + "\n"
     kind = package.kind.replace("_", " ") + _profile(package)
     head = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), *_unread_robots(package)]
     if lines:
@@ -243,6 +249,13 @@ def _package(
     lines += _robots(package, palette)
     lines.append(verdict_text(package, palette))
     return "\n".join(lines) + "\n"
+
+
+def _has_more(package: PackageReport) -> bool:
+    """Return whether there is more to state than the verdict, as of a package with a robot."""
+    unseen = any(each.cause is not Cause.NOT_APPLICABLE for each in package.not_checked)
+    shown = any(robot.facts or robot.trial for robot in robots_of(package))
+    return bool(unseen or shown or package.suppressed or package.inherited or package.settings)
 
 
 def _findings(

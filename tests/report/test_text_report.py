@@ -186,7 +186,7 @@ def test_a_package_waits_for_those_whose_files_it_reports() -> None:
     assert list(text.add([heir], "m/a")) == []
     assert list(text.add([replace(PACKAGE, name="b", path="m/b")], "m/b")) == []
     told = list(text.add([base], "m/base"))
-    assert [block.split()[0] for block in told] == ["a", "b", "base"]
+    assert [block.split()[0] for block in told] == ["a", "b:", "base"]
     assert "1 finding in base: listed there" in told[0]
     assert list(text.deferred_lines()) == []
 
@@ -315,6 +315,15 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
         "",
         "`subt-check rule SEN005` explains a rule, `--full` shows source lines and reasons",
     ]
+
+
+def test_packages_with_nothing_to_state_take_one_line() -> None:
+    names = ("a_msgs", "b_msgs")
+    ready = [replace(PACKAGE, name=name) for name in names]
+    with_robot = replace(PACKAGE, facts={"robot": "rover", "mass_kg": 1.0})
+    shown = text(*ready, with_robot).splitlines()
+    assert shown[:3] == ["a_msgs: Ready: nothing to fix", "b_msgs: Ready: nothing to fix", ""]
+    assert shown[3] == "rover  base model"
 
 
 def test_nothing_checked_says_nothing() -> None:
