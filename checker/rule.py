@@ -151,6 +151,7 @@ class Context(Record):
         reads: Newest SDF version that the target knows: it converts older files to that one, so
             that its new elements count in them too.
         distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile without one.
+        distro_is_known: True if the user or the package names it; False for the default.
         payload: Mass that an arm is to carry at its end, kg.
     """
 
@@ -159,6 +160,7 @@ class Context(Record):
     sdf_version: str = "1.6"
     reads: str = "1.7"
     distro: str = ""
+    distro_is_known: bool = False
     payload: float = 0.0
 
     @property

@@ -67,7 +67,7 @@ def profile(name: str, distro: str = "") -> Profile:
     return Profile(
         name,
         entry["title"],
-        context,
+        replace(context, distro_is_known=bool(distro)),
         tuple(entry["rules"]),
         (*entry["without"], *entry.get("also_without", ())),
         {rule: Severity(level) for rule, level in entry["severity"].items()},

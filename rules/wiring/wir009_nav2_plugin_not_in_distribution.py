@@ -1,0 +1,119 @@
+"""A plugin of Nav2 by a name that the ROS 2 distribution does not have.
+
+The server that loads it fails to configure, and the whole of Nav2 does not start. Up to Iron, the
+behaviors and several planners are named with a slash (`nav2_behaviors/Spin`), since Jazzy with two
+colons (`nav2_behaviors::Spin`). Since Jazzy, bt_navigator loads the libraries of Nav2's behavior
+tree nodes by itself: one that `plugin_lib_names` lists as well is registered twice ("ID already
+registered"), and bt_navigator fails to configure.
+
+It is reported if the package names its distribution, or `--distro` does. Files whose path names
+another distribution are not checked.
+
+Fix: write the name that the message gives; list only your own libraries in `plugin_lib_names`. Or
+check for the distribution that the robot runs on (`--distro`).
+Source: Nav2 migration guide, Iron to Jazzy; plugin descriptions of navigation2
+(`nav2_plugins.json`).
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from checker.base.resources import table
+from checker.model.ros_parameters import NodeBlock, read_blocks
+from checker.package.package import Package
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.source.text import SourceText
+from checker.source.yaml import read_yaml
+
+_LIBRARIES = "plugin_lib_names"
+
+
+@rule("WIR009", "nav2-plugin-not-in-distribution", Severity.ERROR, Concern.INTERFACE)
+def check(package: Package, context: Context) -> Findings:
+    """Compare the plugins in parameter files of Nav2 with those of the distribution."""
+    facts: Mapping[str, Any] = table("nav2_plugins")
+    slashed, colons = facts["slash_until"], facts["colons_since"]
+    sign = package.distribution_sign
+    is_known = context.distro_is_known or (sign is not None and sign.distro == context.distro)
+    if not is_known or context.distro not in (*slashed, *colons):
+        return
+    others = {*slashed, *colons} - {context.distro}
+    for file in package.index.with_suffix(".yaml", ".yml"):
+        if any(name in file.path.lower() for name in others):
+            continue
+        for block in _blocks(package, file.path):
+            yield from _misnamed(block, context.distro)
+            if context.distro in colons:
+                yield from _repeated(block, context.distro)
+
+
+def _blocks(package: Package, path: str) -> Iterator[NodeBlock]:
+    source = package.read(path)
+    if isinstance(source, SourceText) and "nav2_" in source.text:
+        root = read_yaml(source).root
+        yield from read_blocks(root) if root is not None else ()
+
+
+def _misnamed(block: NodeBlock, distro: str) -> Iterator[Finding]:
+    """Report names that are written as another distribution has them."""
+    facts: Mapping[str, Any] = table("nav2_plugins")
+    right, wrong = ("::", "/") if distro in facts["colons_since"] else ("/", "::")
+    names = {
+        f"{package}{wrong}{plugin}": f"{package}{right}{plugin}"
+        for package, plugins in facts["plugins"].items()
+        for plugin in plugins
+    }
+    for name, parameter in block.parameters.items():
+        for text in parameter.texts if name.endswith(".plugin") else ():
+            if text.value in names:
+                yield finding(
+                    text,
+                    f"{block.node} does not start: {distro.capitalize()} has no plugin "
+                    f"{text.value!r}, expected {names[text.value]!r}",
+                )
+
+
+def _repeated(block: NodeBlock, distro: str) -> Iterator[Finding]:
+    """Report the first library that bt_navigator has loaded already, with the number of all."""
+    parameter = block.parameters.get(_LIBRARIES) if block.node == "bt_navigator" else None
+    known = table("nav2_plugins")["tree_libraries"]
+    repeated = [it for it in parameter.texts if it.value in known] if parameter else []
+    if repeated:
+        more = f" and {len(repeated) - 1} more" if len(repeated) > 1 else ""
+        yield finding(
+            repeated[0],
+            f"bt_navigator does not start: {distro.capitalize()} loads {repeated[0].value}{more} "
+            f"by default, and {_LIBRARIES} registers them again: list only your own libraries",
+            key=_LIBRARIES,
+        )
+
+
+def _example(plugin: str, libraries: str, mark: str = "", path: str = "nav2") -> dict[str, str]:
+    return {
+        "@profile": "ros2",
+        "README.md": "A rover for ROS 2 Jazzy.\n",
+        f"config/{path}.yaml": f"""behavior_server:
+  ros__parameters:
+    behavior_plugins: [spin]
+    spin:
+      plugin: "{plugin}"{mark if libraries == _OWN else ""}
+bt_navigator:
+  ros__parameters:
+    plugin_lib_names: [{libraries}]{mark if libraries != _OWN else ""}
+""",
+    }
+
+
+_OWN = "acme_dock_bt_node"
+_STOCK = "nav2_spin_action_bt_node, nav2_wait_action_bt_node"
+_MARK = "  # ^ WIR009"
+GOOD = [
+    {**_example("nav2_behaviors/Spin", _STOCK), "README.md": "A rover.\n"},
+    _example("nav2_behaviors::Spin", _OWN),
+    _example("acme_behaviors/Spin", _OWN),
+    _example("nav2_behaviors/Spin", _STOCK, path="nav2_humble"),
+]
+BAD = [
+    _example("nav2_behaviors/Spin", _OWN, _MARK),
+    _example("nav2_behaviors::Spin", _STOCK, _MARK),
+]
