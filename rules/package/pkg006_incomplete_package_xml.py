@@ -1,6 +1,8 @@
 """A package.xml without an entry that its format requires.
 
-catkin refuses to build a workspace with such a package, so that no robot in it can be built. Users
+The parser of package.xml, catkin_pkg, rejects such a file, and the robot cannot be built. catkin
+refuses the whole workspace. In ROS 2, colcon only warns that it failed to parse the manifest, and
+ament_cmake then stops at the same file; a Python package is built, but ROS does not find it. Users
 need the license to use the model, and the maintainer's address for questions. In accepted packages,
 only maintainers without a name occur. An entry that is left from the template of another package,
 such as "The acme_rover_sensor_config_2 package" or a link to that package's page on ros.org, is
