@@ -4,6 +4,10 @@ The part is invisible, or has no collision and falls through the ground. Names m
 as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`. Without a texture the
 part is there and has another colour: this is a warning.
 
+`package://` of a package that does not exist finds nothing, even if this package has the file: the
+name is a former one, or a slip. It is reported if package.xml does not declare that package, no
+ROS distribution has it, and this package has every file that is named that way.
+
 `package://` leads to the installed package: a file that the build does not install there is not
 found either. Files in one folder of which nothing is installed are reported once; PKG008 reports
 meshes/ and other usual folders.
@@ -13,24 +17,32 @@ Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in
 resource_retriever: the share folder of the installed package.
 """
 
+import re
 from collections.abc import Iterator
 
 from checker.model.robot import Robot
 from checker.package.installed import left_out, resolve_listed
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.released import distributions_with
 from checker.package.uris import Unknown, path_behind
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
+_NAMED = re.compile(r"package://([^/]+)/(.+)")
+
 
 @rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
-def check(package: Package, robot: Robot) -> Findings:
+def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
     """Report URIs that lead to no file."""
     meshes = {shape.geometry.uri for shape in robot.shapes()}
+    misnamed = _former_names(package, paperwork, [uri.value for uri in robot.file_uris])
     for uri in robot.file_uris:
         path = path_behind(package, robot.folder_of(uri), uri.value)
         if isinstance(path, Unknown):
-            if path.package:
+            if path.package in misnamed:
+                yield _misnamed(package, uri, path.package, uri in meshes)
+            elif path.package:
                 yield unchecked(f"{uri.value} {path.reason}")
             continue
         if package.exists(path):
@@ -45,6 +57,35 @@ def check(package: Package, robot: Robot) -> Findings:
             key=path,
             covered_by=("REF004",),
         )
+
+
+def _former_names(package: Package, paperwork: Paperwork, uris: list[str]) -> frozenset[str]:
+    """Return names of packages that exist nowhere, and all of whose files this package has."""
+    manifest = paperwork.manifest
+    if manifest is None:
+        return frozenset()
+    own: dict[str, bool] = {}
+    for match in filter(None, map(_NAMED.fullmatch, uris)):
+        own[match[1]] = own.get(match[1], True) and package.exists(match[2])
+    return frozenset(
+        name
+        for name, every in own.items()
+        if every
+        and package.workspace.package(name) is None
+        and not manifest.depends_on(name)
+        and not distributions_with(name)
+    )
+
+
+def _misnamed(package: Package, uri: Located[str], name: str, mesh: bool) -> Finding:
+    path = uri.value.removeprefix(f"package://{name}/")
+    return finding(
+        uri,
+        f"{uri.value} does not exist: there is no package {name!r}, and this package has {path}: "
+        f"write package://{package.name}/{path}",
+        severity=None if mesh else Severity.WARNING,
+        key=name,
+    )
 
 
 def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:
@@ -95,6 +136,7 @@ _ARM = {
     "shapes/arm.dae": "<COLLADA/>",
     "urdf/arm.urdf": _ROBOT,
 }
+_FORMER = _ROBOT.replace("acme_arm/", "old_arm/")
 GOOD = [
     _ARM,
     {**_ARM, "CMakeLists.txt": _BUILD.replace("urdf shapes", "${FOLDERS}")},
@@ -106,6 +148,12 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        **_ARM,
+        "urdf/arm.urdf": _FORMER.replace("</visual>", "</visual> <!-- ^ REF002 -->").replace(
+            "</collision>", "</collision> <!-- ^ REF002 -->"
+        ),
+    },
     {
         **_ARM,
         "CMakeLists.txt": _BUILD.replace(" shapes", ""),
