@@ -60,7 +60,7 @@ def test_rules_of_another_distribution_run_with_their_options(
     distribution: Path, samples: Path
 ) -> None:
     package = samples / "husky_migration_sensor_config_1"
-    done = command(distribution, str(package), "--select", "CHE")
+    done = command(distribution, str(package), "--select", "CHE", "--full")
     assert "warning CHE001 cheese-wheel: smells of cheese, ripe: True" in done.stdout
     assert "why: It rolls away." in done.stdout
     assert done.returncode == 0
