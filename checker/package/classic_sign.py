@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from checker.package.files_above import files_above
-from checker.source.text import SourceText
+from checker.package.files_above import files_above, own_files
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -30,13 +29,7 @@ def classic_sign(package: Package) -> str:
 
     The files of the nearest folder that names one of both count; empty if that is a later one.
     """
-    own = [
-        source
-        for file in package.index.files
-        if _NAMES.search(file.path.lower())
-        and isinstance(source := package.read(file.path), SourceText)
-    ]
-    for sources in (own, *files_above(package, _NAMES)):
+    for sources in (own_files(package, _NAMES), *files_above(package, _NAMES)):
         if any(_LATER.search(source.text) for source in sources):
             return ""
         for source in sources:

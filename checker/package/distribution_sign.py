@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
-from checker.package.files_above import files_above
+from checker.package.files_above import files_above, own_files
 from checker.source.text import SourceText
 
 if TYPE_CHECKING:
@@ -40,14 +40,8 @@ def distribution_sign(package: Package) -> DistributionSign | None:
     with the package's siblings count like its own; those of the folders around it, as far as the
     user gave them, only where these name none.
     """
-    own = [
-        source
-        for file in package.index.files
-        if NAMES.search(file.path.lower())
-        and isinstance(source := package.read(file.path), SourceText)
-    ]
     nearest, *further = files_above(package, NAMES) or [()]
-    for sources in ((*own, *nearest), *further):
+    for sources in ((*own_files(package, NAMES), *nearest), *further):
         signs = _signs(sources)
         if signs:
             return signs[0] if len({sign.distro for sign in signs}) == 1 else None

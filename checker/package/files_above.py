@@ -1,4 +1,4 @@
-"""Files at the top of the folders around a package: README, container and CI files."""
+"""README, container and CI files: of a package, and at the top of the folders around it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,13 @@ _LEVELS = 8
 _SIZE_LIMIT = 500_000
 _ITEMS = 5_000
 _PLACES = (".", ".devcontainer", ".github/workflows")
+
+
+def own_files(package: Package, names: re.Pattern[str]) -> list[SourceText]:
+    """Return the files of a package whose paths in lower case `names` finds."""
+    paths = (file.path for file in package.index.files if names.search(file.path.lower()))
+    read = map(package.read, paths)
+    return [source for source in read if isinstance(source, SourceText)]
 
 
 def files_above(package: Package, names: re.Pattern[str]) -> list[tuple[SourceText, ...]]:

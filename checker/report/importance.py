@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from checker.finding import Concern
 from checker.report.report import ReportedFinding
 
@@ -20,3 +22,11 @@ def importance(finding: ReportedFinding) -> tuple[int, bool, int]:
     group = finding.rule.rstrip("0123456789")
     rank = _SOONEST.index(group) if group in _SOONEST else len(_SOONEST)
     return finding.severity.rank, finding.concern in _LATER, rank
+
+
+def by_rule(findings: Iterable[ReportedFinding]) -> list[list[ReportedFinding]]:
+    """Return findings by severity and rule, those to correct first in front."""
+    groups: dict[tuple[int, str], list[ReportedFinding]] = {}
+    for finding in sorted(findings, key=importance):
+        groups.setdefault((finding.severity.rank, finding.rule), []).append(finding)
+    return list(groups.values())

@@ -12,7 +12,7 @@ from checker.finding import Safety, Severity
 from checker.report.concise_report import concise_text
 from checker.report.figures import Row, facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
-from checker.report.importance import importance
+from checker.report.importance import by_rule, importance
 from checker.report.ownership import Identity, foreign_findings, owned_by, share_of
 from checker.report.render_settings import Palette, RenderSettings, is_shown, shown_findings
 from checker.report.report import (
@@ -281,9 +281,7 @@ def _groups(
     """Yield findings under the heads of the report: errors of five rules, then the rest."""
     ordered = sorted(findings, key=importance)
     errors = [found for found in ordered if found.severity is Severity.ERROR]
-    rules = [found.rule for found in errors]
-    # The first error of each rule.
-    causes = [errors[rules.index(rule)] for rule in list(dict.fromkeys(rules))[:FIRST]]
+    causes = [first for first, *_ in by_rule(errors)[:FIRST]]
     groups = {
         "Do first:": causes,
         "Other errors:": [found for found in errors if not any(found is each for each in causes)],

@@ -16,8 +16,8 @@ ign-physics 5 (DART).
 """
 
 from checker.formats.friction import FrictionReader
+from checker.model.locomotion.drive import body_velocity
 from checker.model.locomotion.locomotion import DriveKind
-from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -34,10 +34,7 @@ def check(robot: Robot) -> Findings:
         return
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
-    moved_by = {
-        name for p in robot.plugins for name in (p.class_name, library_stem(p.filename.value))
-    }
-    if moved_by & _MOVE_THE_BODY:
+    if any(body_velocity(plugin) for plugin in robot.plugins):
         return
     parents = {joint.scope + joint.parent.value for joint in robot.joints}
     reader = FrictionReader(robot)
@@ -53,10 +50,6 @@ def check(robot: Robot) -> Findings:
                 "and <mu2>0</mu2>",
                 key="rollers",
             )
-
-
-_MOVE_THE_BODY = frozenset({"VelocityControl", "gazebo_ros_planar_move"})
-"""Classes and libraries of plugins that set the velocity of the whole robot."""
 
 
 def _robot(friction: str = "", below: str = "", plugin: str = "", mark: str = "") -> str:

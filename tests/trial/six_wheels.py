@@ -63,7 +63,10 @@ def on_struts(stiffness: float, damping: float, reference: float = 0.0, lift: fl
 
 
 def on_trailing_arms(stiffness: float, damping: float, reference: float = 0.0) -> str:
-    """Return a robot whose wheels hang on arms 0.15 m long (N·m/rad, N·m·s/rad, rad)."""
+    """Return a robot with wheels on trailing arms of 0.15 m.
+
+    Stiffness in N·m/rad, damping in N·m·s/rad, spring reference in rad.
+    """
     axis = f"<xyz>0 1 0</xyz>{_sprung(stiffness, damping, reference, 0.6)}"
     arms = "".join(
         _arm(f"{end}{side}_arm", "base_link", f"{x + 0.15} {y * 0.9} 0.15", "revolute", axis)

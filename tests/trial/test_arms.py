@@ -18,6 +18,7 @@ from checker.physics.trial.measures.motion import Motion
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.profile import smoothed
 from checker.physics.trial.robot_trial import SettledTrial
+from checker.physics.trial.simulation.contacts import ContactQuery
 from checker.physics.trial.simulation.paths import with_path
 from checker.physics.trial.trial import Trial
 from checker.physics.trial.worker import driven
@@ -66,7 +67,7 @@ def moved(robot: Robot) -> Trial:
 
 def motion_of(robot: Robot) -> Motion:
     scene, plan = scene_of_trial(robot)
-    motion, _ = driven(scene, with_path(scene, plan)[0], STEP)
+    motion, _ = driven(scene, with_path(ContactQuery(scene), plan)[0], STEP)
     return motion
 
 
@@ -259,8 +260,8 @@ def test_parts_that_meet_on_the_path_of_all_joints_are_measured(tmp_path: Path) 
 
 def test_paths_touch_only_corners_that_they_share(tmp_path: Path) -> None:
     scene, plan = scene_of_trial(arm(tmp_path, THREE, "turn, lift, roll"))
-    path, _ = with_path(scene, plan)
-    again, _ = with_path(scene, plan)
+    path, _ = with_path(ContactQuery(scene), plan)
+    again, _ = with_path(ContactQuery(scene), plan)
     assert path == again
     for line in path.places.values():
         assert all(before < after for (before, _), (after, _) in pairwise(line))

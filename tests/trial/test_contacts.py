@@ -12,7 +12,7 @@ CUBE = collision(box(1, 1, 1))
 
 
 def found(content: str) -> dict[tuple[str, str, str], float]:
-    figures = overlaps(scene_of(content))
+    figures = overlaps(ContactQuery(scene_of(content)))
     assert all(isinstance(each, Measurement) for each in figures)
     return {(each.name, each.part, each.other): each.value for each in figures}
 
@@ -115,12 +115,12 @@ def test_the_ground_counts_where_the_robot_is_put_into_it() -> None:
 def test_many_parts_are_looked_at_within_bounds() -> None:
     links = "".join(link(f"l{i}", CUBE, f"{i * 0.9} 0 0 0 0 0") for i in range(300))
     ties = "".join(joint(f"l{i}", parent="l0") for i in range(1, 300))
-    figures = overlaps(scene_of(links + ties))
+    figures = overlaps(ContactQuery(scene_of(links + ties)))
     assert 0 < len(figures) <= 60
 
 
 def test_what_is_too_much_to_move_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("checker.physics.trial.simulation.contacts._EFFORT", 8)
     arms = "".join(link(f"arm{n}", CUBE, f"{3 * n} 0 3 0 0 0") + joint(f"arm{n}") for n in range(3))
-    figures = overlaps(scene_of(link("a", CUBE) + arms))
+    figures = overlaps(ContactQuery(scene_of(link("a", CUBE) + arms)))
     assert [each.value for each in figures if each.name == "unswept_joints"] == [3.0]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
-import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -99,6 +98,8 @@ def _name_page(page: Path, options: argparse.Namespace) -> None:
     else:
         say_progress(f"report: {page}")
     if options.open:
+        import webbrowser
+
         webbrowser.open(page.resolve().as_uri())
 
 

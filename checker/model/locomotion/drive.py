@@ -20,6 +20,9 @@ DRIVE_CLASSES = {
 }
 """Plugin classes that move a robot, and what a report calls that."""
 
+_BODY_VELOCITY = {"gazebo_ros_planar_move": "planar_move", "VelocityControl": "VelocityControl"}
+"""Libraries and classes of plugins that set the velocity of the whole robot, and their names."""
+
 WING_CLASSES = ("LiftDrag", "AdvancedLiftDrag")
 """Plugin classes that give a link lift."""
 
@@ -27,6 +30,12 @@ _READS_ONLY = frozenset({"JointStatePublisher", "gazebo_ros_joint_state_publishe
 """Plugin classes, and libraries of Gazebo Classic, that name joints and do not move them."""
 
 _WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
+
+
+def body_velocity(plugin: Plugin) -> str:
+    """Return the name of a plugin that sets the velocity of the whole robot; empty for others."""
+    names = (library_stem(plugin.filename.value), plugin.class_name)
+    return next((_BODY_VELOCITY[name] for name in names if name in _BODY_VELOCITY), "")
 
 
 NO_DRIVE = "no drive detected"

@@ -111,13 +111,15 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
 
 def _recording(item: Mapping[str, Any]) -> Recording:
+    from checker.physics.trial.simulation.contacts import ContactQuery
     from checker.physics.trial.simulation.paths import with_path
     from checker.physics.trial.worker import driven
 
     scene, plan = convert(item["scene"], Scene), convert(item["plan"], Plan)
     timestep = item["timestep"]
     try:
-        motion, _ = driven(scene, with_path(scene, plan)[0], timestep)
+        path = with_path(ContactQuery(scene), plan)[0] if plan.moves else plan
+        motion, _ = driven(scene, path, timestep)
     except ValueError as refusal:
         return Recording(timestep, refused=" ".join(str(refusal).split()))
     return _recording_of(motion.run)

@@ -16,7 +16,7 @@ from checker.physics.trial.measures.measurement import measure_motion, measure_t
 from checker.physics.trial.measures.motion import Motion, excess_links, replay_of, series_of
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
-from checker.physics.trial.simulation.contacts import overlaps
+from checker.physics.trial.simulation.contacts import ContactQuery, overlaps
 from checker.physics.trial.simulation.paths import with_path
 from checker.physics.trial.simulation.simulation import drive
 from checker.physics.trial.trial import Measurement, Trial, too_weak
@@ -52,7 +52,8 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
         not_driven=plan.not_driven,
     )
     try:
-        plan, on_path = with_path(scene, plan)
+        query = ContactQuery(scene)
+        plan, on_path = with_path(query, plan)
         motion, needed = driven(scene, plan, timestep)
     except ValueError as refusal:
         return _refused(trial, str(refusal), scene)
@@ -60,7 +61,7 @@ def run_trial(scene: Scene, plan: Plan, timestep: float) -> Trial:
     return replace(
         trial,
         legs=plan.legs,
-        measurements=(*measure_motion(motion, needed), *overlaps(scene), *on_path),
+        measurements=(*measure_motion(motion, needed), *overlaps(query), *on_path),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
         replay=replay_of(run),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -11,7 +10,7 @@ from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Severity
 from checker.report.figures import NOT_JUDGED, Row, rows_of
 from checker.report.html.findings import anchor_of, in_order
-from checker.report.importance import importance
+from checker.report.importance import by_rule
 from checker.report.report import PackageReport, VerdictKind
 
 FIRST = 3
@@ -47,18 +46,15 @@ def first_tasks(package: PackageReport) -> list[Task]:
 
 def _findings(package: PackageReport) -> Iterator[Task]:
     counting = [each for each in in_order(package.findings) if each.severity is not Severity.INFO]
-    counting.sort(key=importance)
-    number = Counter((each.severity, each.rule) for each in counting)
-    for each in counting:
-        if more := number.pop((each.severity, each.rule), 0):
-            place = each.places[0]
-            yield Task(
-                str(each.severity),
-                plain(shortened(each.message, _TEXT_LIMIT)),
-                anchor_of(each),
-                plain(f"{place.file}:{place.line}" if place.file else ""),
-                more - 1,
-            )
+    for first, *others in by_rule(counting):
+        place = first.places[0]
+        yield Task(
+            str(first.severity),
+            plain(shortened(first.message, _TEXT_LIMIT)),
+            anchor_of(first),
+            plain(f"{place.file}:{place.line}" if place.file else ""),
+            len(others),
+        )
 
 
 def _unseen(package: PackageReport) -> Iterator[Task]:

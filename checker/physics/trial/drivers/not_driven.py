@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from checker.base.words import and_list, count
 from checker.model.locomotion.commanded_joints import moving_controllers
 from checker.model.locomotion.controlled import DRIVING_CONTROLLERS
-from checker.model.locomotion.drive import WING_CLASSES
+from checker.model.locomotion.drive import WING_CLASSES, body_velocity
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
@@ -15,12 +15,8 @@ from checker.model.robot import Robot
 _WATER = frozenset({"Buoyancy", "BuoyancyEngine", "Hydrodynamics", "Thruster"})
 """Plugin classes of what swims."""
 
-_BODY_MOVERS = {
-    "gazebo_ros_planar_move": "planar_move sets the body's velocity: there is nothing to drive",
-    "VelocityControl": "VelocityControl sets the body's velocity: there is nothing to drive",
-    "gazebo_ros_force": "gazebo_ros_force pushes the body: there is nothing to drive",
-}
-"""Libraries and classes of plugins that move a body without its joints."""
+_PUSHES = "gazebo_ros_force"
+"""Library of a plugin that pushes a body."""
 
 _NAMED = 3
 """Names in a sentence, at most."""
@@ -49,8 +45,10 @@ def reason_not_tried(robot: Robot, locomotion: Locomotion) -> str:
 def _drives(robot: Robot) -> Iterator[str]:
     """Yield what moves the robot as a whole, with the reason why it is not driven."""
     for plugin in robot.all_plugins:
-        names = (library_stem(plugin.filename.value), plugin.class_name)
-        yield from (_BODY_MOVERS[name] for name in names if name in _BODY_MOVERS)
+        if mover := body_velocity(plugin):
+            yield f"{mover} sets the body's velocity: there is nothing to drive"
+        elif _PUSHES in (library_stem(plugin.filename.value), plugin.class_name):
+            yield f"{_PUSHES} pushes the body: there is nothing to drive"
     for controller in moving_controllers(robot):
         if controller.class_name in DRIVING_CONTROLLERS:
             what = "names no wheel of the model, or gives its wheels no radius"

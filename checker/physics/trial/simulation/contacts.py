@@ -163,13 +163,8 @@ _LONGEST = 10.0
 """Metres that a sliding joint is moved at most."""
 
 
-def overlaps(scene: Scene) -> tuple[Measurement, ...]:
-    """Return the overlaps of a robot at the start, and those that a joint's range adds.
-
-    Args:
-        scene: One that MuJoCo accepts.
-    """
-    query = ContactQuery(scene)
+def overlaps(query: ContactQuery) -> tuple[Measurement, ...]:
+    """Return the overlaps of a robot at the start, and those that a joint's range adds."""
     at_start = query.depths()
     swept = query.swept_overlaps(already=at_start)
     left_out = (Measurement("unswept_joints", float(query.unswept)),) if query.unswept else ()

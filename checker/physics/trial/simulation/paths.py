@@ -9,7 +9,7 @@ from zlib import crc32
 from msgspec.structs import replace
 
 from checker.physics.trial.course import CORNERS, TOGETHER
-from checker.physics.trial.mjcf.scene import GROUND, Scene
+from checker.physics.trial.mjcf.scene import GROUND
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.profile import Knots, smoothed
 from checker.physics.trial.simulation.contacts import ContactQuery, Pair
@@ -21,20 +21,16 @@ _LOOK_SECONDS = 0.25
 """Time between poses that are looked at."""
 
 
-def with_path(scene: Scene, plan: Plan) -> tuple[Plan, tuple[Measurement, ...]]:
+def with_path(query: ContactQuery, plan: Plan) -> tuple[Plan, tuple[Measurement, ...]]:
     """Return a plan with the path of all joints, and the overlaps on it that are new.
 
     Args:
-        scene: One that MuJoCo accepts.
+        query: Of the robot's scene.
         plan: A plan; one that moves no joints stays as it is.
-
-    Raises:
-        ValueError: MuJoCo refuses the scene.
     """
     leg = plan.leg(TOGETHER)
     if leg is None:
         return plan, ()
-    query = ContactQuery(scene)
     tried: list[tuple[Plan, dict[Pair, float]]] = []
     for seed in range(_TRIES):
         path = replace(plan, places={**plan.places, **_path(plan, leg, seed)})
