@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from checker.base.background import Background, Work, work_key
@@ -127,23 +128,34 @@ class Expansions:
             for wish in wishes
         ]
         self._gathered.follow(job["file"] for job in self._jobs)
-        self._begun = self._begin()
+        self._begun = self._begin(self._jobs)
 
     def outcomes(self) -> list[Outcome]:
         """Wait, and return the result of each file, in the order wanted."""
+        answers = self._answers
+        return [
+            self._outcome(job["file"], answers[number]) for number, job in enumerate(self._jobs)
+        ]
+
+    @cached_property
+    def _answers(self) -> Mapping[int, dict[str, Any] | WorkerFailed]:
+        """The answers by the numbers of jobs; those that lack a file are asked again with it."""
+        answers: dict[int, dict[str, Any] | WorkerFailed] = {}
+        asked: Sequence[int] = range(len(self._jobs))
         for _ in range(_ROUNDS):
-            answers = [*self._begun.results().values()]
-            missing = [
-                answer["missing"]
-                for answer in answers
+            results = self._begun.results()
+            answers |= {number: results[self._key(self._jobs[number])] for number in asked}
+            missing = {
+                number: answer["missing"]
+                for number, answer in answers.items()
                 if not isinstance(answer, WorkerFailed) and "missing" in answer
-            ]
+            }
             if not missing:
                 break
-            self._gathered.follow(missing)
-            self._begun = self._begin()
-        results = self._begun.results()
-        return [self._outcome(job["file"], results[self._key(job)]) for job in self._jobs]
+            self._gathered.follow(missing.values())
+            asked = [*missing]
+            self._begun = self._begin([self._jobs[number] for number in asked])
+        return answers
 
     @property
     def files(self) -> frozenset[str]:
@@ -154,12 +166,12 @@ class Expansions:
         """Stop the expansion if it still runs."""
         self._begun.stop()
 
-    def _begin(self) -> Background[dict[str, Any]]:
+    def _begin(self, jobs: Sequence[Mapping[str, Any]]) -> Background[dict[str, Any]]:
         """Look up each job, and run unknown ones in a child process."""
         common = self._gathered.request
         texts = json.dumps(common, sort_keys=True)
         self._basis = work_key([texts], ["formats/xacro"], ["xacro", "pyyaml"])
-        items = {self._key(job): job for job in self._jobs}
+        items = {self._key(job): job for job in jobs}
         work = Work("xacro", _WORKER, _LIMITS, items, _answer, common, lasts=_lasts)
         begun = Background(work, self._expander.cache, self._expander.server)
         begun.begin()

@@ -162,7 +162,8 @@ class Gathered:
             yield from self._all_candidates() if named is None else (named,)
 
     def _all_candidates(self) -> Iterator[str]:
-        """Yield every file of the package that could be meant."""
+        """Yield every file of the package that could be meant, also by `$(find)` of its name."""
+        folders = dict.fromkeys((self.package.root.name, self.package.declared_name))
         for file in self.package.index.with_suffix(*_SUFFIXES):
             if file.is_file:
-                yield path_of(self.package, file.path)
+                yield from (f"{ROOT}/{folder}/{file.path}" for folder in folders)
