@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 
+from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
@@ -62,8 +63,9 @@ def robots() -> Iterator[tuple[str, Robot]]:
     for folder in folders():
         with open_input(folder) as opened:
             for package in opened.packages:
-                for robot in Subject(package).all(Robot):
-                    yield package.name, robot
+                found = Subject(package).all(Robot)
+                if not isinstance(found, NotAvailable):
+                    yield from ((package.name, robot) for robot in found)
 
 
 def trial_of(robot: Robot) -> Callable[[], object] | None:

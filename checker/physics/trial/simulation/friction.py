@@ -58,15 +58,16 @@ class DirectedFriction:
         # The ground is the first geom.
         geoms = contact.geom.max(axis=1, initial=0)
         touching = np.flatnonzero(self._joint[geoms] >= 0)
-        normal = contact.frame[touching, :3]
-        axle = self._data.xaxis[self._joint[geoms[touching]]]
-        axle = axle - (axle * normal).sum(axis=1, keepdims=True) * normal
-        length = np.linalg.norm(axle, axis=1)
-        rolls = length > _ACROSS
-        touching, normal = touching[rolls], normal[rolls]
-        axle = axle[rolls] / length[rolls, None]
-        way, angle = np.cross(axle, normal), self._rollers[geoms[touching], None]
-        contact.frame[touching, 3:6] = np.cos(angle) * way + np.sin(angle) * axle
-        contact.frame[touching, 6:] = np.cos(angle) * axle - np.sin(angle) * way
-        contact.friction[touching, :2] = self._friction[geoms[touching]]
-        return bool(touching.size)
+        if not touching.size:
+            return False
+        geoms = geoms[touching]
+        tangents = contact.frame[touching, 3:].reshape(-1, 2, 3)
+        axle = np.matmul(tangents, self._data.xaxis[self._joint[geoms], :, None])[:, :, 0]
+        # In the plane of the contact, the first axis turns by this angle to the wheel's way.
+        turn = self._rollers[geoms] - np.arctan2(axle[:, 0], axle[:, 1])
+        cosine, sine = np.cos(turn), np.sin(turn)
+        turned = np.stack((cosine, sine, -sine, cosine), axis=1).reshape(-1, 2, 2) @ tangents
+        rolls = np.hypot(axle[:, 0], axle[:, 1]) > _ACROSS
+        contact.frame[touching[rolls], 3:] = turned[rolls].reshape(-1, 6)
+        contact.friction[touching[rolls], :2] = self._friction[geoms[rolls]]
+        return bool(rolls.any())
