@@ -51,6 +51,7 @@ DOCUMENTS = [
     ROOT / "docs/migrate.md",
     ROOT / "docs/oracles.md",
     ROOT / "docs/pre-commit.md",
+    ROOT / "docs/robot.md",
     ROOT / "docs/ros2.md",
     ROOT / "docs/security.md",
     ROOT / "docs/service.md",

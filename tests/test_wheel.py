@@ -229,6 +229,7 @@ def test_no_command_ends_in_a_traceback_without_the_extras(light: Path, tmp_path
         (["rule", "INE001"], 0),
         (["rules"], 0),
         (["init"], 0),
+        (["robot", BROKEN], 0),
         (["doctor"], 0),
         (["export", BROKEN, "--format", "urdf"], 2),
         (["migrate", str(SAMPLES / "husky_description"), "made"], 2),

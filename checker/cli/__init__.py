@@ -17,6 +17,7 @@ from checker.cli.arguments import EXITS
 
 COMMANDS = {
     "check": "check packages",
+    "robot": "print links, joints, sensors, drive and topics of a package's robots",
     "export": "write a package's robot as URDF or MJCF",
     "migrate": "convert a description for Gazebo 9 to a package for SubT",
     "submit": "check a package remotely, print locally",

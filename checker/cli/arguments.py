@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 PROFILES = (
     *("subt", "sdf", "urdf", "gazebo-harmonic", "gazebo-fortress", "gazebo-ionic", "gazebo-jetty"),
@@ -50,13 +51,43 @@ def add_report_options(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="when to print in colour (default: auto)",
     )
-    parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
-    )
+    add_profile(parser)
     parser.add_argument(
         "--fail-on",
         choices=("error", "warning"),
         help="lowest severity that fails (default: error)",
+    )
+
+
+def add_profile(parser: argparse.ArgumentParser) -> None:
+    """Add the target to check for."""
+    parser.add_argument(
+        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
+    )
+
+
+def add_distro(parser: argparse.ArgumentParser) -> None:
+    """Add the distribution of a ROS 2 target."""
+    parser.add_argument(
+        "--distro", choices=DISTROS, help="ROS 2 distribution to check for (default: jazzy)"
+    )
+
+
+def add_search_options(parser: argparse.ArgumentParser) -> None:
+    """Add where further packages are, and the arguments of xacro files."""
+    parser.add_argument(
+        "--package-path",
+        metavar="DIR",
+        action="append",
+        type=Path,
+        help="also use the packages of this folder, or this package; may be repeated",
+    )
+    parser.add_argument(
+        "--xacro-arg",
+        metavar="NAME:=VALUE",
+        action="append",
+        type=argument,
+        help="argument for xacro files; may be repeated",
     )
 
 

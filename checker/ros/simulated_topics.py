@@ -62,6 +62,29 @@ def simulated_topics(robot: Robot) -> Iterator[SimulatedTopic]:
             yield from _of_plugin(plugin)
 
 
+def likely_topics(robot: Robot) -> Iterator[SimulatedTopic]:
+    """Yield these topics; of two spellings of a default, the one for what carries the sensor."""
+    for topic in simulated_topics(robot):
+        owner = topic.owner
+        if isinstance(owner, Sensor) and not owner.topic.stated:
+            unlike = "/joint/" if owner.link in robot.links_by_name else "/link/"
+            if unlike in topic.topic:
+                continue
+        yield topic
+
+
+def topics_of_sensors(robot: Robot) -> dict[int, tuple[str, ...]]:
+    """Return the topics of each sensor, by its `id`: as stated, else the defaults."""
+    topics: dict[int, list[str]] = {id(sensor): [] for sensor in robot.sensors}
+    for topic in likely_topics(robot):
+        if isinstance(topic.owner, Sensor):
+            topics[id(topic.owner)].append(topic.topic)
+    for sensor in robot.sensors:
+        if sensor.topic.stated and not topics[id(sensor)]:
+            topics[id(sensor)].append(sensor.topic.value)
+    return {key: tuple(dict.fromkeys(names)) for key, names in topics.items()}
+
+
 def unknown_owner(robot: Robot) -> str:
     """Return which part of a robot may have topics that the table does not know; else nothing."""
     known = table("simulated_topics")

@@ -10,16 +10,13 @@ Fix: write `<gz_frame_id>` (from Ionic on `<frame_id>`) with the name of the lin
 Source: gz-sensors, frame of messages; ros_gz_project_template issue 23, gz-sensors issue 306.
 """
 
-from collections.abc import Iterator
-
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
-from checker.model.sensing.kind import SensorType, frame_ids
+from checker.model.sensing.kind import SensorType, frame_elements, stated_frame
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
-from checker.source.text import Located
 
 _STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNode")
 _PUBLISHES_POSES = "PosePublisher"
@@ -35,14 +32,14 @@ def check(simulations: Simulations, context: Context) -> Findings:
             for sensor in spawned.robot.sensors:
                 if not _counts(sensor) or not _is_bridged(simulation, sensor):
                     continue
-                stated = _stated_frame(sensor, context.release)
+                stated = stated_frame(sensor.element, context.release)
                 if stated is None:
                     model = spawned.name or "<model>"
                     yield finding(
                         sensor,
                         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
                         f"the frame {model}/<link>/{sensor.name.value}, which no transform "
-                        f"names; expected <{_element(context.release)}>{sensor.link}",
+                        f"names; expected <{frame_elements(context.release)[0]}>{sensor.link}",
                     )
                 elif _is_unknown(stated.value, spawned):
                     yield finding(
@@ -77,25 +74,6 @@ def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
         if entry.direction is not Direction.TO_IGN
         for topic in simulation.topics_of(entry)
     )
-
-
-def _stated_frame(sensor: Sensor, release: str) -> Located[str] | None:
-    """Return the frame that a sensor states, in the spelling of whichever release."""
-    for name in _elements(release):
-        child = sensor.element.child(name)
-        if child is not None and child.text.value.strip():
-            return child.text
-    return None
-
-
-def _elements(release: str) -> Iterator[str]:
-    known = frame_ids(release)
-    yield from (*known.read, *sorted(known.others)) if known is not None else ()
-    yield from ("gz_frame_id", "ignition_frame_id", "frame_id")
-
-
-def _element(release: str) -> str:
-    return next(_elements(release))
 
 
 def _is_unknown(frame: str, spawned: SpawnedRobot) -> bool:

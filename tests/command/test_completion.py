@@ -25,10 +25,10 @@ ASKED = [
     ("subt-check check --select GEO0", GEO),
     ("subt-check rule unknown-joint-l", {"unknown-joint-link"}),
     ("subt-check check --fail-on ", {"error", "warning"}),
-    ("subt-check check rob", {"robot.sdf"}),
-    ("subt-check robot.sdf --fail-on ", {"error", "warning"}),
-    ("subt-check robot.sdf --select GEO0", GEO),
-    ("subt-check robot.sdf --write-b", {"--write-baseline"}),
+    ("subt-check check mod", {"model.sdf"}),
+    ("subt-check model.sdf --fail-on ", {"error", "warning"}),
+    ("subt-check model.sdf --select GEO0", GEO),
+    ("subt-check model.sdf --write-b", {"--write-baseline"}),
 ]
 """What is asked, and all that may be answered; without a command, `check` is meant."""
 
@@ -36,7 +36,7 @@ ASKED = [
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("completion")
-    (folder / "robot.sdf").touch()
+    (folder / "model.sdf").touch()
     for shell in completion.SHELLS:
         (folder / f"script.{shell}").write_text(completion.script(shell), "utf-8")
     return folder
@@ -72,7 +72,7 @@ def test_bash_completes_files_where_there_is_no_command(folder: Path) -> None:
     assert "-o default" in bash(code, folder)
 
 
-@pytest.mark.parametrize(("line", "expected"), [*ASKED, ("subt-check rob", {"robot.sdf"})])
+@pytest.mark.parametrize(("line", "expected"), [*ASKED, ("subt-check mod", {"model.sdf"})])
 def test_fish(folder: Path, line: str, expected: set[str]) -> None:
     done = subprocess.run(
         [program("fish"), "--no-config", "-c", f"source script.fish; complete -C '{line}'"],
@@ -92,9 +92,9 @@ def test_fish(folder: Path, line: str, expected: set[str]) -> None:
         ("subt-check rule unknown-joint-l", "unknown-joint-link"),
         ("subt-check check --select GEO00", "GEO002"),
         ("subt-check comp", "completion"),
-        ("subt-check check rob", "robot.sdf"),
-        ("subt-check rob", "robot.sdf"),
-        ("subt-check robot.sdf --write-b", "--write-baseline"),
+        ("subt-check check mod", "model.sdf"),
+        ("subt-check mod", "model.sdf"),
+        ("subt-check model.sdf --write-b", "--write-baseline"),
     ],
 )
 def test_zsh(folder: Path, line: str, shown: str) -> None:

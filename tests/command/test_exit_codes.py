@@ -16,6 +16,7 @@ from checker.service.jobs.port import JobsUnreachable
 USAGE = Path(__file__).parents[2] / "docs" / "usage.md"
 CANNOT_BE_DONE = {
     "check": ("nowhere",),
+    "robot": ("nowhere",),
     "export": ("nowhere", "--format", "urdf", "--output", "made.urdf"),
     "migrate": ("nowhere", "made", "--organization", "acme"),
     "submit": ("nowhere", "--server", "http://127.0.0.1:1"),

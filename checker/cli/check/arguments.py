@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from checker.base.errors import CheckerError
 from checker.cli.arguments import (
-    DISTROS,
     above_zero,
+    add_distro,
     add_exit_codes,
     add_report_options,
-    argument,
+    add_search_options,
     ids,
     positive,
 )
@@ -45,29 +44,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--statistics", action="store_true", help="print the number of findings of each rule"
     )
-    parser.add_argument(
-        "--distro", choices=DISTROS, help="ROS 2 distribution to check for (default: jazzy)"
-    )
+    add_distro(parser)
     parser.add_argument(
         "--select", metavar="IDS", type=ids, help="run only these rules, groups, or concern:robot"
     )
     parser.add_argument(
         "--ignore", metavar="IDS", type=ids, help="do not run these rules or groups"
     )
-    parser.add_argument(
-        "--package-path",
-        metavar="DIR",
-        action="append",
-        type=Path,
-        help="also use the packages of this folder, or this package; may be repeated",
-    )
-    parser.add_argument(
-        "--xacro-arg",
-        metavar="NAME:=VALUE",
-        action="append",
-        type=argument,
-        help="argument for xacro files; may be repeated",
-    )
+    add_search_options(parser)
     parser.add_argument(
         "--payload",
         metavar="KG",

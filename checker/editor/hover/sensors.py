@@ -16,7 +16,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.lidar import Lidar, Scan
 from checker.model.sensing.noise import Noise
-from checker.ros.simulated_topics import simulated_topics
+from checker.ros.simulated_topics import topics_of_sensors
 
 _SHOWN = 3
 """Topics of one sensor, and sizes of pictures, that are shown."""
@@ -121,10 +121,5 @@ def _quantities(sensor: Sensor) -> list[str]:
 
 def _topics(robot: Robot, sensor: Sensor) -> str:
     """Return the topics in Gazebo: as stated, else the default, where the names are not known."""
-    unlike = "/joint/" if sensor.link in robot.links_by_name else "/link/"
-    known = (it.topic for it in simulated_topics(robot) if it.owner is sensor)
-    topics = [topic for topic in known if sensor.topic.stated or unlike not in topic]
-    if not topics and sensor.topic.stated:
-        topics = [sensor.topic.value]
-    shown = ", ".join(map(code, dict.fromkeys(topics[:_SHOWN])))
+    shown = ", ".join(map(code, topics_of_sensors(robot)[id(sensor)][:_SHOWN]))
     return shown if sensor.topic.stated or not shown else f"{shown} by default"

@@ -7,6 +7,8 @@ from functools import cache
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.source.text import Located
+from checker.source.xml import Element
 
 # Which types of sensors a release of Gazebo knows, and which of them it simulates.
 
@@ -69,6 +71,22 @@ def frame_ids(release: str) -> FrameIds | None:
     read = tuple(known[release]["read"])
     every = {tag for entry in known.values() for tag in entry["read"]}
     return FrameIds(read, frozenset(known[release]["deprecated"]), frozenset(every - set(read)))
+
+
+def frame_elements(release: str) -> tuple[str, ...]:
+    """Return the elements of any release that name the frame; those that this one reads first."""
+    known = frame_ids(release)
+    first = (*known.read, *sorted(known.others)) if known is not None else ()
+    return tuple(dict.fromkeys((*first, "gz_frame_id", "ignition_frame_id", "frame_id")))
+
+
+def stated_frame(sensor: Element, release: str) -> Located[str] | None:
+    """Return the frame that a sensor states, in the spelling of whichever release."""
+    for name in frame_elements(release):
+        child = sensor.child(name)
+        if child is not None and child.text.value.strip():
+            return child.text
+    return None
 
 
 def _spellings(entries: list[dict[str, list[str]]]) -> frozenset[str]:
