@@ -45,6 +45,8 @@ def driven(
     seconds: float,
     commands: Mapping[str, Mapping[str, Knots]],
     folders: Sequence[Path] = (),
+    *,
+    gravity: tuple[float, float, float] = (0.0, 0.0, -9.8),
 ) -> Drive:
     """Drive a robot.
 
@@ -55,6 +57,7 @@ def driven(
         seconds: The duration.
         commands: By the name of each joint, its `speed` over time (rad/s) or `place` (rad or m).
         folders: Where `model://` and `package://` look.
+        gravity: The acceleration, m/s²; of a slope where it is not vertical.
 
     Raises:
         Refused: The model is not loaded, or a joint does not exist.
@@ -65,7 +68,7 @@ def driven(
         for joint, knots in of_kind.items()
     ]
     done = subprocess.run(
-        [program, model, str(height), str(seconds), *folders],
+        [program, model, str(height), str(seconds), " ".join(map(str, gravity)), *folders],
         input="".join(lines), capture_output=True, text=True, check=False, timeout=300,
     )  # fmt: skip
     if done.returncode:

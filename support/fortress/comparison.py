@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from msgspec.structs import replace
+
 from checker.convert.mjcf_files import scene_of_trial
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -20,6 +22,8 @@ from support.fortress import Pose, driven
 
 STEADY = 1.0
 """Seconds at the end of a leg over which a speed is averaged."""
+_GRAVITY = 9.8
+"""m/s², Gazebo's default."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,9 @@ class Comparison:
     there: Figures
 
 
-def compared(program: Path, package: Package, robot: Robot) -> Comparison | Trial | str:
+def compared(
+    program: Path, package: Package, robot: Robot, slope: float = 0.0
+) -> Comparison | Trial | str:
     """Drive a robot in both; else return why not, as the end of a sentence.
 
     Of a robot whose joints are moved one by one, the trial in MuJoCo is returned.
@@ -67,6 +73,7 @@ def compared(program: Path, package: Package, robot: Robot) -> Comparison | Tria
         program: The compiled program.
         package: The package of the robot; its siblings are found too.
         robot: The robot.
+        slope: How steeply the ground rises along the robot's x axis at the start, radians.
 
     Raises:
         Refused: Gazebo's physics does not load it.
@@ -76,6 +83,9 @@ def compared(program: Path, package: Package, robot: Robot) -> Comparison | Tria
         return scene.unusable
     if not plan.speeds and not plan.moved:
         return plan.not_driven or f"its motion is {plan.kind}"
+    gravity = (-_GRAVITY * math.sin(slope), 0.0, -_GRAVITY * math.cos(slope))
+    sloping = f'<option gravity="{" ".join(map(repr, gravity))}"'
+    scene = replace(scene, mjcf=scene.mjcf.replace("<option", sloping, 1))
     trial = run_trial(scene, plan, TIMESTEP)
     if trial.refused or plan.moved:
         return trial.refused or trial
@@ -87,7 +97,7 @@ def compared(program: Path, package: Package, robot: Robot) -> Comparison | Tria
             (Path(folder) / each.name).symlink_to(each.root)
         folders = [Path(folder), package.root / Path(source.file).parent]
         commands = {"speed": plan.speeds, "place": plan.places}
-        drive = driven(program, model, scene.spawn_height, plan.seconds, commands, folders)
+        drive = driven(program, model, scene.spawn_height, plan.seconds, commands, folders, gravity)
     here = zip(*(trial.series[name] for name in ("time", "x", "y", "z", "yaw")), strict=True)
     there = [
         (time, *pose[:3], _yaw(pose)) for time, pose in zip(drive.time, drive.poses, strict=True)

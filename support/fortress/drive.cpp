@@ -1,9 +1,10 @@
 // Drives a robot in the physics of Gazebo Fortress: ign-physics 5 with its DART plugin, loaded and
 // commanded as the systems Physics, DiffDrive and JointPositionController do it, without Gazebo.
 //
-//   drive MODEL HEIGHT SECONDS FOLDER... < COMMANDS
+//   drive MODEL HEIGHT SECONDS GRAVITY FOLDER... < COMMANDS
 //
-// MODEL is an SDF or URDF file; its frame starts HEIGHT metres above a plane. Folders hold what
+// MODEL is an SDF or URDF file; its frame starts HEIGHT metres above a plane. GRAVITY is "x y z" in
+// m/s²; where it is not vertical, the plane is a slope. Folders hold what
 // `model://` and `package://` name. Each command is a line "speed JOINT TIME VALUE TIME VALUE …" or
 // "place …": piecewise linear, rad/s, rad or m. A sample each 50 ms is a line of CSV: the time, the
 // pose of the model's frame (x y z qw qx qy qz).
@@ -42,6 +43,7 @@ static const int EVERY = 50;         // steps between samples
 static const double GAIN = 10.0;     // 1/s, of commanded places
 
 static const char *WORLD = R"(<sdf version="1.9"><world name="flat">
+  <gravity>GRAVITY</gravity>
   <physics name="1ms" type="ode"><max_step_size>0.001</max_step_size></physics>
   <model name="ground"><static>true</static><link name="link"><collision name="plane">
     <geometry><plane><normal>0 0 1</normal><size>100 100</size></plane></geometry>
@@ -116,7 +118,7 @@ static void Read(std::istream &in, physics::Model3dPtr<Features> made, std::vect
 
 int main(int count, char **words) try
 {
-  std::vector<fs::path> folders(words + 4, words + count);
+  std::vector<fs::path> folders(words + 5, words + count);
   folders.push_back(fs::path(words[1]).parent_path());
   sdf::setFindCallback([&](const std::string &uri) { return Found(uri, folders); });
 
@@ -129,6 +131,7 @@ int main(int count, char **words) try
   std::string text = WORLD;
   text.replace(text.find("ROBOT"), 5, fs::absolute(words[1]));
   text.replace(text.find("HEIGHT"), 6, words[2]);
+  text.replace(text.find("GRAVITY"), 7, words[4]);
   sdf::Root root;
   for (auto &error : root.LoadSdfString(text)) throw std::runtime_error(error.Message());
   auto &model = *root.WorldByIndex(0)->ModelByName("robot");

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -21,12 +22,12 @@ from tests.trial.six_wheels import on_struts, on_trailing_arms, rigid, rocker_bo
 SAMPLES = Path(__file__).parents[2] / "samples"
 
 
-def comparison_of(folder: Path, program: Path) -> Comparison:
+def comparison_of(folder: Path, program: Path, slope: float = 0.0) -> Comparison:
     with open_input(folder) as opened:
         package = opened.packages[0]
         robots = Subject(package).all(Robot)
         assert not isinstance(robots, NotAvailable)
-        result = compared(program, package, robots[0])
+        result = compared(program, package, robots[0], slope)
     assert isinstance(result, Comparison), result
     return result
 
@@ -47,6 +48,16 @@ def test_a_robot_stands_drives_and_stops_as_in_gazebo(sample: str, fortress: Pat
 def test_a_steered_robot_drives_the_same_circle(fortress: Path) -> None:
     result = comparison_of(SAMPLES / "subtcheck_buggy_sensor_config_1", fortress)
     assert result.here.turn == pytest.approx(result.there.turn, rel=0.05)
+
+
+@pytest.mark.parametrize("degrees", [-10, 10, 20])
+@pytest.mark.parametrize("sample", ["acme_scout", "subtcheck_buggy_sensor_config_1"])
+def test_a_robot_drives_up_and_down_a_slope_as_in_gazebo(
+    sample: str, degrees: float, fortress: Path
+) -> None:
+    result = comparison_of(SAMPLES / sample, fortress, math.radians(degrees))
+    assert result.here.speed == pytest.approx(result.there.speed, rel=0.01)
+    assert result.here.stop == pytest.approx(result.there.stop, rel=0.05)
 
 
 @pytest.mark.parametrize("limit", ["<velocity>2</velocity>", "<effort>0.05</effort>"])
