@@ -3,9 +3,10 @@
 Joints that are moved one by one are not compared: their line has the largest distance from their
 paths and the largest share of an effort limit. The last line counts the robots that are moved.
 
-    python -m bench.oracle [FOLDER...]
+    python -m bench.oracle [--slope DEGREES] [FOLDER...]
 
-Without folders, SUBT_CHECK_CORPUS, SUBT_CHECK_MODERN and the samples. Debian's
+The ground is level, or rises along the robot's x axis. Without folders, SUBT_CHECK_CORPUS,
+SUBT_CHECK_MODERN and the samples. Debian's
 `libignition-physics-dev` and `libsdformat-dev` are needed.
 """
 
@@ -16,6 +17,7 @@ import os
 import statistics
 import sys
 import tempfile
+from argparse import ArgumentParser
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -35,10 +37,10 @@ from support.oracles import compiled, is_installed
 ROOT = Path(__file__).parent.parent
 
 
-def folders(named: list[str]) -> list[Path]:
+def folders(named: list[Path]) -> list[Path]:
     """Return the folders to look at."""
     if named:
-        return [Path(name) for name in named]
+        return named
     variables = ("SUBT_CHECK_CORPUS", "SUBT_CHECK_MODERN")
     return [*(Path(os.environ[name]) for name in variables if name in os.environ), ROOT / "samples"]
 
@@ -101,17 +103,21 @@ def _apart(here: Figures, there: Figures, member: str) -> float:
 
 def main() -> None:
     """Compare all robots."""
+    parser = ArgumentParser()
+    parser.add_argument("--slope", type=float, default=0.0, metavar="DEGREES")
+    parser.add_argument("folders", nargs="*", type=Path)
+    given = parser.parse_args()
     if not is_installed(LIBRARIES):
         sys.exit("libignition-physics-dev and libsdformat-dev are not installed")
     results: list[Comparison | Trial | str] = []
     counted: list[bool | None] = []
     with tempfile.TemporaryDirectory() as work:
         program = compiled(SOURCE, LIBRARIES, Path(work))
-        for folder in folders(sys.argv[1:]):
+        for folder in folders(given.folders):
             for package, robot in robots(folder):
                 result: Comparison | Trial | str
                 try:
-                    result = compared(program, package, robot)
+                    result = compared(program, package, robot, math.radians(given.slope))
                 except Refused as refusal:
                     result = f"Gazebo refuses it: {refusal}"
                 print(line(robot, result), flush=True)

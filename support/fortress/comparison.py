@@ -97,7 +97,9 @@ def compared(
             (Path(folder) / each.name).symlink_to(each.root)
         folders = [Path(folder), package.root / Path(source.file).parent]
         commands = {"speed": plan.speeds, "place": plan.places}
-        drive = driven(program, model, scene.spawn_height, plan.seconds, commands, folders, gravity)
+        drive = driven(
+            program, model, scene.spawn_height, plan.seconds, commands, folders, gravity=gravity
+        )
     here = zip(*(trial.series[name] for name in ("time", "x", "y", "z", "yaw")), strict=True)
     there = [
         (time, *pose[:3], _yaw(pose)) for time, pose in zip(drive.time, drive.poses, strict=True)

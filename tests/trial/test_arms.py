@@ -78,6 +78,19 @@ def test_an_arm_that_is_held_level_needs_m_g_l(tmp_path: Path) -> None:
     assert value(trial, "move_error", "tilt") < 1e-4
 
 
+def test_an_arm_without_shapes_is_moved_where_the_world_holds_it() -> None:
+    inertia = "<ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz>"
+    content = f"""<link name="base_link"/>
+<joint name="mount" type="fixed"><parent>world</parent><child>base_link</child></joint>
+<link name="boom"><inertial><pose>{LENGTH} 0 0 0 0 0</pose><mass>{MASS}</mass>
+  <inertia>{inertia}</inertia></inertial></link>
+<joint name="tilt" type="revolute"><parent>base_link</parent><child>boom</child>
+  <axis><xyz>0 1 0</xyz><limit><lower>0.5</lower><upper>1.5</upper></limit></axis></joint>"""
+    trial = moved(sdf(content + plugin("JointPositionController", "<joint_name>tilt</joint_name>")))
+    held = MASS * GRAVITY * LENGTH * math.cos(0.5)
+    assert value(trial, "torque", "tilt") == pytest.approx(held, rel=0.01)
+
+
 def least_jerk(share: float) -> tuple[float, float]:
     """Return the way and the acceleration of a step of 1 in 1 s."""
     return (

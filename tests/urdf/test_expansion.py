@@ -140,8 +140,9 @@ def test_a_lone_file_finds_what_it_includes(describe: Describe, only: str) -> No
     assert links(subject) == ["wheel", "base"]
 
 
-def test_meshes_of_a_found_package_are_those_of_the_package(describe: Describe) -> None:
-    mesh = f'<mesh filename="file://$(find {NAME})/meshes/a.stl"/>'
+@pytest.mark.parametrize("start", ["file://", "file:///"])
+def test_meshes_of_a_found_package_are_those_of_the_package(describe: Describe, start: str) -> None:
+    mesh = f'<mesh filename="{start}$(find {NAME})/meshes/a.stl"/>'
     body = f'<link name="a"><visual><geometry>{mesh}</geometry></visual></link>'
     subject = describe({FILE: robot(body)})
     (uri,) = files_of(subject).descriptions[0].robot.file_uris

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -14,6 +15,8 @@ from checker.source.xml import Element, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
 
 _BLANKS = " \t\r\n"
+_PACKAGES = f"file:///?{ROOT}/"
+"""Pattern of the URI of a path: `file://$(find p)/`, also with a third slash."""
 
 
 class ExpandedText(SourceText, dict=True, kw_only=True):
@@ -57,8 +60,8 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
 
     def states_path(self, uri: str) -> bool:
         """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
-        path = f"file://{ROOT}/{uri.removeprefix('package://')}"
-        return any(f"{path}{end}" in str(self.answer["xml"]) for end in ('"', "<"))
+        path = re.escape(uri.removeprefix("package://"))
+        return re.search(f'{_PACKAGES}{path}["<]', str(self.answer["xml"])) is not None
 
     def place(self, start: int, end: int) -> Place:
         """Return the place in a written file of the characters from `start` to `end`."""
@@ -76,7 +79,7 @@ def expanded_document(
         file: The expanded file, as xacro saw it.
     """
     # A mesh below `file://$(find p)/` is one of package p, wherever that is installed.
-    text = str(answer["xml"]).replace(f"file://{ROOT}/", "package://")
+    text = re.sub(_PACKAGES, "package://", str(answer["xml"]))
     written = gathered.sources[file]
     plain = parse_xml(SourceText(written.file, text))
     if isinstance(plain, XmlFault) or len(plain.positions) != len(answer["origins"]):

@@ -24,8 +24,11 @@ _UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSC
 """Kinds of unread collision meshes: without such a mesh, the trial would be of another robot."""
 
 
-def unusable_because(robot: Robot, layout: Layout) -> str:
-    """Return why no trial is possible, as the end of a sentence; empty if one is."""
+def unusable_because(robot: Robot, layout: Layout, servos: Sequence[str]) -> str:
+    """Return why no trial is possible, as the end of a sentence; empty if one is.
+
+    What does not stand on the ground needs no shape, where servos move its joints.
+    """
     if robot.missing_parts:
         return f"parts of the robot are not available: {robot.missing_parts}"
     if not robot.links:
@@ -38,7 +41,8 @@ def unusable_because(robot: Robot, layout: Layout) -> str:
             if isinstance(mesh, MeshFault) and mesh.trouble in _UNSEEN:
                 uri = collision.geometry.uri
                 return f"the collision mesh {uri.value if uri else ''} {mesh.reason}"
-    if not any(layout.geoms.values()):
+    mounted = not layout.stands or layout.held
+    if not any(layout.geoms.values()) and not (mounted and servos):
         return "the robot has no collision shape that can be used"
     return ""
 
@@ -140,7 +144,7 @@ def build_scene(
     """
     layout = Layout(robot)
     ledger = layout.ledger
-    unusable = unusable_because(robot, layout)
+    unusable = unusable_because(robot, layout, servos)
     if unusable:
         return Scene(repairs=tuple(ledger.repairs), notes=ledger.notes, unusable=unusable)
     height = DROP - layout.lowest

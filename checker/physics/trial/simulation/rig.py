@@ -161,7 +161,8 @@ class Rig:
         for name, position in starts:
             self.data.qpos[self.model.jnt_qposadr[self._joint(name)]] = position
         mujoco.mj_forward(self.model, self.data)
-        lift = DROP - self._lowest()
+        # What has no free joint may have no shapes.
+        lift = DROP - self._lowest() if self.scene.free_joints else 0.0
         for joint in self.scene.free_joints.values():
             self.data.qpos[self.model.jnt_qposadr[self.model.joint(joint).id] + 2] += lift
         mujoco.mj_forward(self.model, self.data)
