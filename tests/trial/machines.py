@@ -66,6 +66,7 @@ def wheel(
     parent: str = "base_link",
     effort: float = 50.0,
     width: float = 0.06,
+    damping: float = 0.0,
 ) -> str:
     return f"""
 <link name="{name}"><pose>{x} {y} {radius} 0 0 0</pose>
@@ -75,7 +76,7 @@ def wheel(
 </link>
 <joint name="{name}_joint" type="revolute"><parent>{parent}</parent><child>{name}</child>
   <axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper><effort>{effort}</effort>
-  </limit></axis></joint>"""
+  </limit><dynamics><damping>{damping}</damping></dynamics></axis></joint>"""
 
 
 def chassis(mass: float = 20.0, com: str = "0 0 0", height: float = 0.15) -> str:
@@ -114,15 +115,17 @@ def four_wheels(
     axis: str = "0 1 0",
     plugin_separation: float | None = None,
     plugin_radius: float = 0.1,
+    damping: float = 0.0,
     **options: str,
 ) -> Robot:
     places = {name: (base / 2 * (1 if name[0] == "f" else -1)) for name in (*LEFT, *RIGHT)}
     wheels = "".join(
         wheel(
-            name, x, separation / 2 * (1 if name[1] == "l" else -1), radius=radius, axis=axis, mu=mu
+            name, x, separation / 2 * (1 if name[1] == "l" else -1),
+            radius=radius, axis=axis, mu=mu, damping=damping,
         )
         for name, x in places.items()
-    )
+    )  # fmt: skip
     drive = diff_drive(
         LEFT,
         RIGHT,

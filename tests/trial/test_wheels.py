@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 import msgspec
+import pytest
 
 from checker.formats.sdf.reader import read_sdf
 from checker.model.robot import Robot
@@ -41,6 +42,12 @@ def test_a_sound_robot_drives_as_told() -> None:
     assert value(trial, "rest_penetration") < 3e-4
     assert value(trial, "energy_gain") < 0.1
     assert value(trial, "turn_drift") < 0.02
+
+
+def test_damping_of_its_joint_does_not_slow_a_wheel() -> None:
+    """Its motor gives the torque, 2 N·m·s/rad times the speed; so does Gazebo's."""
+    trial = sound(four_wheels(damping=2.0))
+    assert value(trial, "speed_ratio") == pytest.approx(1.0, abs=0.01)
 
 
 def test_full_speed_keeps_the_limits_of_the_plugin() -> None:

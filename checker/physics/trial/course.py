@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from checker.physics.trial.profile import Knots, Limits, ramp_to
 from checker.physics.trial.trial import Leg
 
-VERSION = "1"
+VERSION = "2"
 """The version of the course; it changes when figures of older trials are no longer comparable."""
 
 SETTLE, DRIVE, STOP_DRIVE = "settle", "drive", "stop after drive"

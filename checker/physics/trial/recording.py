@@ -125,17 +125,16 @@ def _recording(item: Mapping[str, Any]) -> Recording:
     return _recording_of(motion.run)
 
 
+def _servo(model: Any, number: int, name: str) -> Servo:
+    gain, (_, place, speed) = model.actuator_gainprm[number, 0], model.actuator_biasprm[number, :3]
+    # What a velocity servo adds for its joint's damping is no gain.
+    damping = -speed if place else gain
+    return Servo(name, -float(place), float(damping), float(model.actuator_forcerange[number, 1]))
+
+
 def _recording_of(run: Run) -> Recording:
     model = run.rig.model
-    servos = (
-        Servo(
-            name,
-            -float(model.actuator_biasprm[i, 1]),
-            -float(model.actuator_biasprm[i, 2]),
-            float(model.actuator_forcerange[i, 1]),
-        )
-        for i, name in enumerate(run.rig.names)
-    )
+    servos = (_servo(model, number, name) for number, name in enumerate(run.rig.names))
     states = {
         name: RecordedState(
             state.step, tuple(state.positions.tolist()), tuple(state.velocities.tolist())

@@ -262,8 +262,10 @@ class Rig:
         return reaches
 
     def _velocity_servo(self, number: int, gain: float) -> None:
+        """Make a servo hold a speed; it adds what the damping of its joint takes."""
+        damping = self.model.dof_damping[self.model.jnt_dofadr[self.joints[number]]]
         self.model.actuator_gainprm[number, 0] = gain
-        self.model.actuator_biasprm[number, :3] = 0.0, 0.0, -gain
+        self.model.actuator_biasprm[number, :3] = 0.0, 0.0, damping - gain
 
     def _place_by(self, number: int, inertia: float, seconds: float) -> None:
         """Make a servo hold a place, critically damped."""
