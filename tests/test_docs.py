@@ -48,6 +48,7 @@ DOCUMENTS = [
     ROOT / "docs/editors.md",
     ROOT / "docs/github-actions.md",
     ROOT / "docs/how-a-finding-is-made.md",
+    ROOT / "docs/mcp.md",
     ROOT / "docs/migrate.md",
     ROOT / "docs/oracles.md",
     ROOT / "docs/pre-commit.md",

@@ -13,7 +13,7 @@ import yaml
 
 from checker import cli
 from checker.base import child_process, extras
-from checker.base.extras import PHYSICS, SERVICE, Extra
+from checker.base.extras import MCP, PHYSICS, SERVICE, Extra
 from checker.cli.doctor import installation
 from checker.cli.doctor.library_imports import module_of
 from checker.pipeline import check_package
@@ -108,6 +108,7 @@ def test_a_report_without_physics_is_not_remembered_once_it_is_there(
         (["serve", "--workers", "0"], PHYSICS),
         (["worker"], SERVICE),
         (["admin", "list"], SERVICE),
+        (["mcp"], MCP),
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )
@@ -142,7 +143,7 @@ def test_doctor_names_the_remedy(
     assert re.search(r"(?m)^ok      self-test: a sample robot is checked in", said)
 
 
-@pytest.mark.parametrize("extra", [PHYSICS, SERVICE], ids=lambda extra: extra.name)
+@pytest.mark.parametrize("extra", [PHYSICS, SERVICE, MCP], ids=lambda extra: extra.name)
 def test_modules_are_those_of_the_extra(extra: Extra) -> None:
     listed = {_name(each) for each in PROJECT["optional-dependencies"][extra.name]}
     modules = {module_of(each) for each in listed}

@@ -237,13 +237,16 @@ def test_no_command_ends_in_a_traceback_without_the_extras(light: Path, tmp_path
         (["serve"], 2),
         (["worker"], 2),
         (["admin", "list"], 2),
+        (["mcp"], 2),
     ):
         done = run(light, *words, cwd=tmp_path)
         assert done.returncode == code, f"{words}\n{done.stdout}{done.stderr}"
         assert "Traceback" not in done.stdout + done.stderr
         assert "internal error" not in done.stdout + done.stderr
         if code == 2:
-            assert re.search(r"pip install 'subt-check\[(physics|service)\]'$", done.stderr.strip())
+            assert re.search(
+                r"pip install 'subt-check\[(physics|service|mcp)\]'$", done.stderr.strip()
+            )
     assert {path.name for path in (tmp_path / "report").iterdir()} >= {"index.html"}
 
 

@@ -1,4 +1,4 @@
-"""Optional extras: physics, the service, and the language server.
+"""Optional extras: physics, the service, the language server, and the server for assistants.
 
 Only this module decides whether an extra of `pyproject.toml` is installed, without importing it.
 """
@@ -88,6 +88,9 @@ S3 = Extra("s3", ("obstore",))
 """Keeps uploads and results of a service in S3, for several machines."""
 EDITOR = Extra("editor", ("lsprotocol", "pygls"))
 """Reports faults to editors while a package is written."""
+
+MCP = Extra("mcp", ("mcp",))
+"""Lets assistants check packages over the Model Context Protocol."""
 
 
 @cache

@@ -22,6 +22,7 @@ COMMANDS = {
     "migrate": "convert a description for Gazebo 9 to a package for SubT",
     "submit": "check a package remotely, print locally",
     "server": "start the language server for editors",
+    "mcp": "start the server for assistants (Model Context Protocol)",
     "serve": "start the web service with its worker processes",
     "worker": "start another worker process of a service",
     "admin": "list, rerun and cancel checks of a service, drain workers, delete expired data",
@@ -32,7 +33,7 @@ COMMANDS = {
     "completion": "print the completion script for bash, zsh or fish",
 }
 """Help text of each command; its module has the same name."""
-_MODULES = {"check": "check.command", "doctor": "doctor.command"}
+_MODULES = {name: f"{name}.command" for name in ("check", "doctor", "mcp")}
 _PRODUCTS = {
     "migrate": "migrate",
     "server": "editor",

@@ -24,7 +24,7 @@ from checker.report.robot_facts import PackageFacts, facts_json
 from checker.report.robot_mermaid import robots_mermaid
 from checker.report.robot_text import robots_text
 
-_FORMATS = {"text": robots_text, "json": facts_json, "mermaid": robots_mermaid}
+FORMATS = {"text": robots_text, "json": facts_json, "mermaid": robots_mermaid}
 _NAMED = 8
 """Robots that a message names."""
 
@@ -95,7 +95,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--format",
-        choices=tuple(_FORMATS),
+        choices=tuple(FORMATS),
         default="text",
         help="mermaid: the graph of links and joints (default: text)",
     )
@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
         "distro": options.distro,
         "cache": False if options.no_cache else None,
     }
-    text = _FORMATS[options.format](facts_at(Path(options.path), wishes, options.robot or ""))
+    text = FORMATS[options.format](facts_at(Path(options.path), wishes, options.robot or ""))
     if options.output:
         write(Path(options.output), text)
     else:

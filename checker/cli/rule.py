@@ -60,17 +60,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> int:
-    """Print a rule's page."""
-    wanted, rules = options.id, all_rules()
-    names = (wanted.upper(), wanted.lower())
+def explanation(wanted: str) -> str:
+    """Return the page of a rule by its id or name, or the lines of a group.
+
+    Raises:
+        CheckerError: There is no such rule.
+    """
+    rules, names = all_rules(), (wanted.upper(), wanted.lower())
     rule = next((rule for rule in rules if not set(rule.names).isdisjoint(names)), None)
     if rule is not None:
-        show(page_text(rule) + "\n")
-        return EXIT_CLEAN
+        return page_text(rule) + "\n"
     begun = [rule for rule in rules if wanted and rule.id.startswith(wanted.upper())]
     if not begun:
         known = [name for rule in rules for name in (rule.id, rule.name)]
         raise CheckerError(no_such_rule(wanted, known))
-    show("".join(map(rule_line, begun)))
+    return "".join(map(rule_line, begun))
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print a rule's page."""
+    show(explanation(options.id))
     return EXIT_CLEAN

@@ -21,6 +21,7 @@ CANNOT_BE_DONE = {
     "migrate": ("nowhere", "made", "--organization", "acme"),
     "submit": ("nowhere", "--server", "http://127.0.0.1:1"),
     "server": ("--port", "1"),
+    "mcp": ("nowhere",),
     "serve": ("--host", "no host", "--data", "data"),
     "worker": ("--data", "file/data"),
     "admin": ("list", "--data", "nowhere"),
