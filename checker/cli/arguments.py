@@ -62,7 +62,9 @@ def add_report_options(parser: argparse.ArgumentParser) -> None:
 def add_profile(parser: argparse.ArgumentParser) -> None:
     """Add the target to check for."""
     parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: detected from the package)"
+        "--profile",
+        choices=PROFILES,
+        help="target, with its set of rules (default: detected from the package)",
     )
 
 

@@ -220,6 +220,23 @@ def test_what_goes_wrong_is_a_message(
     anyio.run(_with_client, server_of(Tools(Workspace.at(tmp_path))), work)
 
 
+def test_the_page_has_each_tool_and_argument(tmp_path: Path) -> None:
+    page = (SAMPLES.parent / "docs/mcp.md").read_text("utf-8")
+
+    async def compare() -> None:
+        for writes in (False, True):
+            async with Client(server_of(Tools(Workspace.at(tmp_path), writes))) as client:
+                for tool in (await client.list_tools()).tools:
+                    (row,) = (line for line in page.splitlines() if f"| `{tool.name}(" in line)
+                    assert [
+                        name for name in tool.input_schema["properties"] if name not in row
+                    ] == []
+                    assert tool.annotations is not None
+                    assert tool.annotations.read_only_hint == (tool.name != "fix" or not writes)
+
+    anyio.run(compare)
+
+
 def test_other_commands_do_not_load_the_protocol() -> None:
     code = (
         "import sys; from checker.cli import build_parser; build_parser();"
