@@ -22,6 +22,7 @@ Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_loca
 from itertools import combinations
 
 from checker.model.components import Joint
+from checker.ros.wiring.frames import is_static
 from checker.ros.wiring.transforms import Transform
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -48,9 +49,13 @@ def check(wiring: Wiring) -> Findings:
 
 
 def _cure(first: Transform, second: Transform) -> str:
-    """Return what to do; a joint is never at fault, and its robot starts at its root."""
-    repeats = isinstance(second.source, Joint) and first.parent == second.parent
-    return first.cure if repeats or not second.cure else f"{first.cure}, or {second.cure}"
+    """Return what to do; a joint is never at fault, and its robot starts at its root.
+
+    A filter is there to publish, so what it filters stops, and a constant transform beside it.
+    """
+    if isinstance(second.source, Joint):
+        return first.cure if first.parent == second.parent else second.cure or first.cure
+    return second.cure if is_static(second) else first.cure
 
 
 def _fault(first: Transform, second: Transform) -> str:
@@ -176,6 +181,14 @@ _STATIC = """LaunchDescription([
 """
 
 
+_EKF_AND_STATIC = """LaunchDescription([
+        Node(package="robot_localization", executable="ekf_node",%
+             parameters=[os.path.join(HERE, "config", "ekf.yaml")]),
+        Node(package="tf2_ros", executable="static_transform_publisher",
+             arguments=["--frame-id", "odom", "--child-frame-id", "base_link"]),
+"""
+
+
 def _static(words: str, mark: str = "") -> dict[str, object]:
     """Return a rover, whose lidar has a joint, with a static transform."""
     return {"@bridge": True, "@launch": {_LAUNCHED: _STATIC.replace("@", words).replace("%", mark)}}
@@ -276,6 +289,11 @@ BAD = [
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
     _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),
     _on_footprint("publish_tf: true", _MARK),
+    {
+        **_filter("world_frame: odom"),
+        "@bridge": True,
+        "@launch": {_LAUNCHED: _EKF_AND_STATIC.replace("%", _MARK)},
+    },
     _filter("publish_tf: true", _MARK),
     _filter("odom_frame: map, world_frame: map", _MARK),
     _filter("publish_tf: false", _MARK, name=' name="ekf",'),

@@ -55,6 +55,12 @@ def static_transforms(node: WiredNode) -> Iterator[Transform]:
         yield Transform(parent, child, topic, span, node.label, cure, node)
 
 
+def is_static(transform: Transform) -> bool:
+    """Return whether a static_transform_publisher publishes a transform."""
+    source = transform.source
+    return isinstance(source, WiredNode) and source.program == _STATIC_PUBLISHER
+
+
 def _tree(node: WiredNode, topic: str) -> str:
     """Return the topic of the moving transforms that go with a topic of static ones."""
     return node.resolve(topic).removesuffix(_SUFFIX)
