@@ -1,4 +1,4 @@
-"""README, container and CI files: of a package, and at the top of the folders around it."""
+"""README, container, CI and build files: of a package, and at the top of the folders around it."""
 
 from __future__ import annotations
 

@@ -12,6 +12,8 @@ ROS distribution has it, and this package has every file that is named that way.
 found either. Files in one folder of which nothing is installed are reported once; PKG008 reports
 meshes/ and other usual folders.
 
+A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked.
+
 Fix: add the file, correct the path, or install the folder.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package;
 resource_retriever: the share folder of the installed package.
@@ -21,6 +23,7 @@ import re
 from collections.abc import Iterator
 
 from checker.model.robot import Robot
+from checker.package.downloaded import downloaded_by
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -48,6 +51,9 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
         if package.exists(path):
             if uri.value.startswith("package://"):
                 yield from _not_installed(package, uri, path, uri in meshes)
+            continue
+        if place := downloaded_by(package, path):
+            yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
         where = f" (looked for {path})" if path != uri.value else ""
         yield finding(
