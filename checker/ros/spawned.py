@@ -38,6 +38,12 @@ SPAWNS = tuple((package, "create") for package in GAZEBO)
 CLASSIC_SPAWNS = ((CLASSIC_PACKAGE, "spawn_entity.py"),)
 
 
+def may_spawn(graph: LaunchGraph) -> bool:
+    """Return whether a launch file spawns something into Gazebo, or includes Gazebo's own."""
+    programs = ((node.package.value, node.executable.value) for node in graph.nodes)
+    return any(map(is_gazebo_include, graph.includes)) or any(it in SPAWNS for it in programs)
+
+
 class SpawnedRobot(Record, eq=False):
     """A robot that a launch file puts into Gazebo.
 

@@ -3,6 +3,10 @@
 Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Classic: it prints one
 line and continues without the drive, the sensor or the light that the plugin provides.
 
+In a URDF that no launch file spawns into Gazebo it is a warning: RViz, MoveIt and other simulators
+do not read it, and the file may be kept for Gazebo Classic. Where there is no launch file at all,
+it stays an error.
+
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
 
@@ -16,17 +20,28 @@ Source: Model Migration Guide, "Remove/replace unsupported plugins".
 from typing import Any
 
 from checker.finding import Fix
+from checker.launch.ros2.graph import Ros2Launch
+from checker.launch.ros2.package_launch import launches_naming
 from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import classic_plugin, library_stem, newer_name
+from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.robots.simulator import classic_by_default
+from checker.ros.simulation import Simulations
+from checker.ros.spawned import may_spawn
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
-def check(host: PluginHost, package: Package, context: Context) -> Findings:
+def check(
+    host: PluginHost,
+    package: Package,
+    context: Context,
+    launch: Ros2Launch | None,
+    simulations: Simulations | None,
+) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic.
 
     One of a world that nothing takes the place of is a warning: the world works without it.
@@ -38,19 +53,40 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
     if host.robot is not None and (reason := classic_by_default(host.robot, package)):
         yield unchecked(reason)
         return
-    for plugin in host.plugins:
-        known = classic_plugin(plugin.filename.value)
-        if known is None:
-            continue
+    named = [(plugin, classic_plugin(plugin.filename.value)) for plugin in host.plugins]
+    found = [(plugin, known) for plugin, known in named if known is not None]
+    loaded = (
+        not found
+        or host.robot is None
+        or context.profile.startswith("gazebo")
+        or _is_loaded(host.robot, package, launch, simulations)
+    )
+    for plugin, known in found:
         needless = host.robot is None and known.get("action") == "remove"
         advice = _advice(known) if context.is_subt else _later_advice(known)
         yield finding(
             plugin.filename,
             f"{plugin.filename.value} is a plugin of Gazebo {_whose(context)}: {advice}",
-            severity=Severity.WARNING if needless else None,
+            severity=Severity.WARNING if needless or not loaded else None,
             key=library_stem(plugin.filename.value),
             fix=Fix(Safety.UNSAFE, (removal(plugin.element),)) if _in_vain(plugin, known) else None,
         )
+
+
+def _is_loaded(
+    robot: Robot, package: Package, launch: Ros2Launch | None, simulations: Simulations | None
+) -> bool:
+    """Return whether Gazebo loads a robot, or may: a URDF if a launch file may spawn it."""
+    if robot.conventions.read_by_gazebo or not package.workspace.launch_words:
+        return True
+    if any(may_spawn(graph) for _, graph in launches_naming(package)):
+        return True
+    if launch is None or not any(map(may_spawn, launch.entries)):
+        return False
+    starting = simulations.launched if simulations is not None else ()
+    spawned = {each.robot.document.source.file for it in starting for each in it.robots}
+    unknown = not spawned or any(it.unknown_robots for it in starting)
+    return unknown or robot.document.source.file in spawned
 
 
 def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
@@ -112,4 +148,5 @@ BAD = [
 </sensor>
 """,
     {**_HARMONIC, "@fragment": _WORLD.format("libgazebo_ros_state.so", "state", "^ PLG001")},
+    {"@profile": "ros2", "@urdf": f"<gazebo>{_DRIVE}</gazebo>  <!-- ^ PLG001 -->"},
 ]
