@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
 
 from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
@@ -61,9 +62,14 @@ class Candidate(Record):
 
 
 class StartedLoad(Record):
-    """File that a launch file loads; see `Candidate`."""
+    """File that a launch file loads; see `Candidate`.
+
+    Attributes:
+        counts: Whether the launch file can run: one of ROS 1 in a package of ROS 2 cannot.
+    """
 
     load: Load
+    counts: bool = True
     missing: Mapping[str, str] = field(default_factory=dict)
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
@@ -92,10 +98,14 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
         # A missing file is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
             allowed = started.choices, started.offered
-            candidate = Candidate(path, load.args, True, load.by_xacro, missing, *allowed)
+            counts, by_xacro = started.counts, load.by_xacro
+            candidate = Candidate(path, load.args, counts, by_xacro, missing, *allowed)
             before = chosen.get(path, candidate)
             # Of several ways to start it, one that is known counts before one that is not.
-            chosen[path] = candidate if before.missing and not missing else before
+            known = before.missing and not missing
+            runs = candidate.loaded and not before.loaded
+            taken = candidate if known or runs else before
+            chosen[path] = replace(taken, loaded=before.loaded or candidate.loaded)
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]
         chosen |= {path: Candidate(path) for path in others}

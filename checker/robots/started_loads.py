@@ -13,7 +13,7 @@ from checker.launch.ros1.expansion import expand_launch
 from checker.launch.ros1.launch_file import loads
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
-from checker.launch.ros2.package_launch import launches_naming
+from checker.launch.ros2.package_launch import is_ros2_only, launches_naming
 from checker.package.package import Package
 from checker.robots.candidates import StartedLoad
 from checker.robots.other_robots import TRIED_LIMIT
@@ -53,7 +53,7 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
 
     for described in loaded_descriptions(package, graph):
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
-        yield StartedLoad(described.load, missing, described.choices, described.offered)
+        yield StartedLoad(described.load, True, missing, described.choices, described.offered)
 
 
 def _of_other_choices(
@@ -74,8 +74,9 @@ def _classic_loads(package: Package) -> list[StartedLoad]:
     launch_files = package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
     paths = [file.path for file in launch_files if _loads_something(package, file.path)]
     files, documents = LaunchFiles(package), map(package.xml, paths)
+    runs = not is_ros2_only(package)
     return [
-        StartedLoad(load, dict.fromkeys(load.unknown, document.source.file))
+        StartedLoad(load, runs, dict.fromkeys(load.unknown, document.source.file))
         for document in documents
         if isinstance(document, XmlDocument)
         for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))

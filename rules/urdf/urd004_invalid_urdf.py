@@ -3,6 +3,9 @@
 URDF readers refuse the whole robot: RViz shows nothing, and spawn_model ends with an error. URDF
 requires a tree of links with one root, and effort and velocity limits for each joint that moves.
 
+A package of ROS 2 may still contain launch files of ROS 1: a file of macros that only these load is
+checked by a call of its macro.
+
 In URDF packages, KIN001 to KIN003 report links that do not exist, loops and disconnected links.
 
 Fix: correct the joint that the message names.
@@ -126,8 +129,38 @@ def _joint(inside: str, kind: str = "revolute", name: str = "j", mark: str = "")
 
 
 _MARK = "  <!-- ^ URD004 -->"
+_ROS_2 = """<package format="3">
+  <name>acme_arm_description</name>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+</package>
+"""
+
+
+def _macro(mark: str = "", manifest: str = "") -> dict[str, object]:
+    """Return a file with only a macro, and a launch file of ROS 1 that loads it."""
+    changed = {"package.xml": manifest} if manifest else {}
+    return {
+        "@urdf": True,
+        "launch/cart.launch": (
+            '<launch><param name="robot_description" '
+            'command="xacro $(find acme_arm_description)/urdf/cart.xacro"/></launch>\n'
+        ),
+        "urdf/cart.xacro": f"""<robot name="cart" xmlns:xacro="http://ros.org/wiki/xacro">{mark}
+<xacro:macro name="cart" params="parent">
+<link name="${{parent}}"/>
+<link name="box"/>
+<joint name="j" type="fixed"><parent link="${{parent}}"/><child link="box"/></joint>
+</xacro:macro>
+<gazebo reference="box"><mu1>1</mu1></gazebo>
+</robot>
+""",
+        **changed,
+    }
+
+
 _ENDS = '<parent link="base"/><child link="arm"/>'
 GOOD = [
+    _macro(manifest=_ROS_2),
     _robot(_joint(_ENDS + _LIMIT)),
     _robot(_joint(_ENDS, "continuous")),
     {"@urdf": True},
@@ -140,6 +173,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _macro(_MARK),
     _robot(_joint(_ENDS, mark=_MARK)),
     _robot(_joint(f'{_ENDS}\n<limit lower="0" upper="1"/>{_MARK}')),
     _robot(_joint(_ENDS, "hinge", mark=_MARK)),

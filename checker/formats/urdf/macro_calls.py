@@ -19,6 +19,8 @@ _PARAMETERS_LIMIT = 5000
 _ORIGIN = "origin"
 WORLD = "world"
 """The link to which a macro is connected; it is fixed in Gazebo."""
+_ROOT = "base_link"
+"""The usual name of the first link, for a macro that makes its parent itself."""
 _GIVEN = {"parent": WORLD, "parent_link": WORLD, "prefix": "", "tf_prefix": ""}
 
 
@@ -99,6 +101,7 @@ def _call(macro: Element, number: int) -> MacroCall | None:
     """Return the call of a macro; None if it needs what only its user can know."""
     arguments: dict[str, str] = {}
     blocks: list[str] = []
+    made = {(link.get("name") or "").strip("${} ") for link in macro.descendants("link")}
     text = macro.get("params") or ""
     if len(text) > _PARAMETERS_LIMIT or PARAMETER.sub("", text).strip():
         return None
@@ -107,7 +110,7 @@ def _call(macro: Element, number: int) -> MacroCall | None:
         if parameter.block and name.endswith(_ORIGIN) and default is None:
             blocks.append(name)
         elif name in _GIVEN and not parameter.block and (default is None or _is_left(parameter)):
-            arguments[name] = _GIVEN[name]
+            arguments[name] = _ROOT if name in made else _GIVEN[name]
         elif default is None or default == FROM_OUTSIDE:
             return None
     return MacroCall(_name(macro), arguments, tuple(blocks), number, macro.span)

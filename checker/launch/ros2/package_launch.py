@@ -123,6 +123,11 @@ def built_by_ament(package: Package) -> bool:
     return _holds(package, "package.xml", _BUILT_BY_AMENT)
 
 
+def is_ros2_only(package: Package) -> bool:
+    """Return whether package.xml states a package of ROS 2 that ROS 1 cannot build."""
+    return built_by_ament(package) and not _holds(package, "package.xml", _CATKIN)
+
+
 def _read(package: Package, file: str, arguments: Mapping[str, str] | None = None) -> LaunchGraph:
     """Read a launch file; packages without any need not load what evaluates them."""
     from checker.launch.ros2.reader import read_launch
