@@ -27,6 +27,8 @@ LEVELS_ABOVE = 2
 THUMBNAILS = "thumbnails"
 _LAUNCH_FILE = re.compile(r"(?:^|/)launch/.*\.(?:py|xml|ya?ml|sh)$|[._]launch(?:\.\w+)?$")
 _WORD = re.compile(r"\w+")
+_GAZEBO = frozenset({"gazebo", "gazebo_ros", "gz", "gzserver", "ros_gz_sim", "ros_ign_gazebo"})
+"""Words of launch files that start Gazebo or spawn into it."""
 
 
 class Workspace(Record, eq=False, dict=True):
@@ -41,7 +43,7 @@ class Workspace(Record, eq=False, dict=True):
         within: The folder that an archive was unpacked into, which nothing leaves; else None.
         overlay: Texts that replace the content of files.
         given: The folder that the user gave, above the packages; else None. Of the folders up to
-            it, only the README, container and CI files at their top are read.
+            it, only the README, container, CI and build files at their top are read.
     """
 
     directories: tuple[Path, ...]
@@ -132,6 +134,11 @@ class Workspace(Record, eq=False, dict=True):
         )
         readable = (text for text in texts if not isinstance(text, NotReadable))
         return frozenset(word for text in readable for word in _WORD.findall(text.text))
+
+    @property
+    def may_start_gazebo(self) -> bool:
+        """True if a launch file of an available package names Gazebo, or if there is none."""
+        return not self.launch_words or not self.launch_words.isdisjoint(_GAZEBO)
 
     def holds(self, real: Path) -> bool:
         """Return whether a real path is within a package of the workspace."""

@@ -3,7 +3,8 @@
 A camera or an antenna in the air next to the robot usually has a wrong pose: a decimal point, a
 sign, a unit, or the pose of another configuration. A box of a centimetre that marks a frame, such
 as `base_footprint`, is not a part. In published robots, intended gaps measure up to 16 mm, and
-mistakes 38 mm or more.
+mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin, it is an info: two
+tables in one file stand apart by intent.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.
@@ -15,7 +16,7 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _EQUAL = 1e-6
 """Metres by which computed distances may be off: 20.0 mm are not more than 20 mm."""
@@ -23,7 +24,12 @@ _EQUAL = 1e-6
 
 @rule("GEO012", "floating-part", Severity.WARNING, Concern.ROBOT)
 def check(
-    robot: Robot, *, gap: float = 0.02, gap_of_wheels: float = 0.06, marker: float = 0.02
+    robot: Robot,
+    context: Context,
+    *,
+    gap: float = 0.02,
+    gap_of_wheels: float = 0.06,
+    marker: float = 0.02,
 ) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 
@@ -50,13 +56,15 @@ def check(
         reason = reason or f"the size of {unknown[0].name.value!r} is not known"
         yield unchecked(f"{reason}; parts that seem to float may be attached to it")
         return
+    is_scenery = robot.is_prop and not context.is_subt
     members = [[shapes[number] for number in group] for group in groups]
     body = max(members, key=_diagonal)
     for group in members:
         if group is not body and _diagonal(group) > marker:
             own = {*group}
             others = (piece for piece in shapes if piece not in own)
-            yield _floating_part(group, _distance(group, [piece.box for piece in others]), gap)
+            distance = _distance(group, [piece.box for piece in others])
+            yield _floating_part(group, distance, gap, Severity.INFO if is_scenery else None)
 
 
 def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
@@ -97,7 +105,9 @@ def _distance(group: Sequence[Placed], others: Sequence[Box]) -> float:
     )
 
 
-def _floating_part(group: Sequence[Placed], distance: float, gap: float) -> Finding:
+def _floating_part(
+    group: Sequence[Placed], distance: float, gap: float, severity: Severity | None
+) -> Finding:
     first = group[0]
     more = f" and {len(group) - 1} more" if len(group) > 1 else ""
     x, y, z = first.box.centre
@@ -106,6 +116,7 @@ def _floating_part(group: Sequence[Placed], distance: float, gap: float) -> Find
         f"{first.shape.name.value!r}{more} of {first.link.name.value!r} at ({x:.3g}, {y:.3g}, "
         f"{z:.3g}) m: the nearest other part is {distance * 1e3:.3g} mm away, expected at most "
         f"{gap * 1e3:g} mm",
+        severity=severity,
     )
 
 

@@ -1,8 +1,9 @@
 """A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
-change a colour, or how a joint is computed, is a warning. A `<ros2_control>` inside a `<gazebo>` is
-not read, so controllers find no joints.
+change a colour, or how a joint is computed, is a warning, and so is one in a file of macros, whose
+user may have the link. A sensor under a joint is an error, as Gazebo makes none. A
+`<ros2_control>` inside a `<gazebo>` is not read, so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
 for joints under a joint; put `<ros2_control>` directly into `<robot>`.
@@ -16,7 +17,8 @@ from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
+from checker.package.package import Package
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
 
 _WITHOUT_EFFECT = frozenset(
     {
@@ -28,12 +30,15 @@ _WITHOUT_EFFECT = frozenset(
 
 
 @rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)
-def check(description: UrdfDescription) -> Findings:
+def check(description: UrdfDescription, package: Package, context: Context) -> Findings:
     """Report `<gazebo>` tags that refer to nothing, and elements without effect."""
     if description.for_rviz:
         return
     robot = description.robot
     names = Suggestions([*robot.links_by_name, *robot.joints_by_name])
+    # The robot that calls a macro may have more links.
+    is_whole = description.call is None
+    in_gazebo = context.profile.startswith("gazebo") or package.workspace.may_start_gazebo
     for tag in description.gazebo:
         name = tag.reference.value
         known = name in robot.links_by_name or name in robot.joints_by_name
@@ -42,11 +47,11 @@ def check(description: UrdfDescription) -> Findings:
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint",
                 names,
-                severity=None if _simulates(tag) else Severity.WARNING,
+                severity=None if is_whole and _simulates(tag) else Severity.WARNING,
                 key=name,
             )
         else:
-            yield from _useless(tag, robot)
+            yield from _useless(tag, robot, in_gazebo=in_gazebo)
 
 
 def _simulates(tag: GazeboTag) -> bool:
@@ -54,7 +59,7 @@ def _simulates(tag: GazeboTag) -> bool:
     return any(child.tag not in _WITHOUT_EFFECT for child in tag.element.children)
 
 
-def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
+def _useless(tag: GazeboTag, robot: Robot, *, in_gazebo: bool) -> Iterator[Finding]:
     if not tag.element.children:
         yield finding(tag, "<gazebo> is empty", severity=Severity.INFO, key="nothing")
         return
@@ -80,7 +85,8 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
             message = f"<{child.tag}> is for a link, but {name!r} is a joint"
         else:
             continue
-        yield finding(child, message, severity=Severity.WARNING)
+        lost = child.tag == "sensor" and in_gazebo
+        yield finding(child, message, severity=None if lost else Severity.WARNING)
 
 
 def _tag(inside: str, reference: str = "") -> dict[str, str]:
@@ -90,8 +96,26 @@ def _tag(inside: str, reference: str = "") -> dict[str, str]:
 
 _MARK = "  <!-- ^ URD006 -->"
 _PLUGIN = '<plugin name="p" filename="libgazebo_ros_control.so"/>'
+_TOOL = """<robot name="tool" xmlns:xacro="http://ros.org/wiki/xacro">
+<xacro:macro name="tool" params="parent">
+<link name="tool"/>
+<joint name="mount" type="fixed"><parent link="${parent}"/><child link="tool"/></joint>
+</xacro:macro>
+<gazebo reference="@"><mu1>1</mu1></gazebo>%
+</robot>
+"""
+
+
+def _macro(reference: str, mark: str = "") -> dict[str, object]:
+    return {
+        "@urdf": True,
+        "urdf/tool.xacro": _TOOL.replace("@", reference).replace("%", mark),
+    }
+
+
 GOOD = [
     {"@urdf": True},
+    _macro("tool"),
     _tag("<mu1>1</mu1><own_extension/>", "upper_arm"),
     _tag('<sensor name="s" type="force_torque"/>', "shoulder"),
     _tag("<provideFeedback>true</provideFeedback>", "shoulder"),
@@ -99,9 +123,11 @@ GOOD = [
     {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
 ]
 BAD = [
+    _macro("toool", _MARK),
     {"@urdf": f'<gazebo reference="uper_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
     _tag(f"<mu1>1</mu1>{_MARK}"),
     _tag(f"<stopErp>0.2</stopErp>{_MARK}", "upper_arm"),
+    _tag(f'<sensor name="eye" type="camera"/>{_MARK}', "shoulder"),
     _tag(f"<selfCollide>true</selfCollide>{_MARK}", "shoulder"),
     {"@urdf": f'<gazebo reference="upper_arm"/>{_MARK}'},
     _tag(f'<ros2_control name="arm" type="system">{_MARK}\n</ros2_control>'),

@@ -3,7 +3,7 @@
 Gazebo drops a link without `<inertial>`, or with a mass of zero, with its sensors and all links
 below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
 so they need no inertial. In a URDF without a `<gazebo>` element this is a warning: other tools keep
-such links.
+such links. It is an info if there are launch files and none of them names Gazebo.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -14,13 +14,16 @@ from collections.abc import Iterator
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.package.package import Package
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"
 
 
 @rule("URD007", "link-dropped-by-gazebo", Severity.ERROR, Concern.ROBOT)
-def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
+def check(
+    description: UrdfDescription, package: Package, context: Context, *, share: float = 0.01
+) -> Findings:
     """Report links without inertia, and links with mass that lack shapes.
 
     Options:
@@ -30,16 +33,20 @@ def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
     if description.for_rviz:
         return
     robot = description.robot
+    in_gazebo = context.profile.startswith("gazebo") or package.workspace.may_start_gazebo
+    severity = Severity.WARNING if in_gazebo else Severity.INFO
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:
             continue
         if not any(link.mass for link in links):
-            yield _left_out(description, robot.links_by_name[name], links)
+            yield _left_out(description, robot.links_by_name[name], links, severity)
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
             yield from _without_shapes(robot.links_by_name[name], links)
 
 
-def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Finding:
+def _left_out(
+    description: UrdfDescription, link: Link, links: list[Link], severity: Severity
+) -> Finding:
     sensors = [sensor.name.value for link in links for sensor in link.sensors]
     merged = {link.name.value for link in links}
     below = [
@@ -51,11 +58,12 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
     lost += [f"link {below[0]!r} below it"] if below else []
     with_it = f", with {' and '.join(lost)}" if lost else ""
     missed = lost or any(link.collisions or link.visuals for link in links)
+    is_grave = missed and description.robot.is_for_gazebo
     lacks = "<inertial>" if link.inertial is None else "mass"
     return finding(
         link,
         f"link {link.name.value!r} has no {lacks}, so Gazebo drops it{with_it}",
-        severity=None if missed and description.robot.is_for_gazebo else Severity.WARNING,
+        severity=None if is_grave else severity,
     )
 
 
