@@ -4,7 +4,8 @@ Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` 
 Parsers refuse the file, or read only the first part, so that the robot weighs 1 kg instead of 101
 kg. Words after the numbers that are expected have no effect: a warning; from libsdformat 12 on a
 pose may not have any. This rule also checks numbers that the specification limits (a stddev below
-0) and words that it lists (the type of a light).
+0), as the newest version that the target reads has them, and words that it lists (the type of a
+light).
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
@@ -80,7 +81,9 @@ def _text(
             yield finding(element, "<pose> gives a quaternion, but says that it is in degrees")
     faults = misread_values(text, value_type)
     if all(fault.lossy for fault in faults):
-        faults += values_out_of_bounds(text, kind.bounds)
+        # A file of an older version is read by the newest description that the target has.
+        newest = type_of(element, context.reads) or kind
+        faults += values_out_of_bounds(text, newest.bounds)
     taken = kind.value_type != "pose" or not _counts_words_of_poses(context)
     for fault in faults:
         severity = Severity.WARNING if fault.lossy and taken else None
@@ -117,13 +120,32 @@ def _inertial(mass: str, pose: str = "0 0 0 0 0 0</pose>") -> str:
 """
 
 
+def _depth(far: str) -> str:
+    return f"""
+<sdf version="1.4"><model name="rover">
+<link name="l">
+<sensor name="depth" type="depth">
+  <camera>
+    <horizontal_fov>2</horizontal_fov>
+    <image><width>64</width><height>48</height></image>
+    <clip><near>0.1</near><far>{far}
+    </clip>
+  </camera>
+</sensor>
+</link>
+</model></sdf>
+"""
+
+
 GOOD = [
+    _depth("3</far>"),
     _inertial("1.01e2</mass>"),
     _inertial(".5</mass>", "\n0 0 0\n0 0 -1.5707963267948966</pose>"),
     "<light name='lamp' type='point'><diffuse>1 1 1</diffuse></light>",
     "<link name='arm'><gravity>false</gravity><pose/></link>",
 ]
 BAD = [
+    _depth("-1</far>  <!-- ^ SDF006 -->"),
     _inertial("1.O1e2</mass>  <!-- ^ SDF006 -->"),
     _inertial("nan</mass>  <!-- ^ SDF006 -->"),
     _inertial("3.6 kg</mass>  <!-- ^ SDF006 -->"),
