@@ -17,6 +17,9 @@ from checker.physics.mass.link_geometry import displacement, known_reach, unknow
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
+_ROUND = 1e-6
+"""Distance of a logarithm from a whole number, at most, for a power of ten."""
+
 
 @rule("INE004", "inertia-larger-than-link", Severity.ERROR, Concern.ROBOT)
 def check(
@@ -27,6 +30,7 @@ def check(
     warning_above: float = 1.0,
     warning_below: float = 0.02,
     share: float = 0.02,
+    placeholder: float = 0.01,
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
 
@@ -40,6 +44,8 @@ def check(
             mass near the centre (a solid ball has 0.63).
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
             is too large is an info, one that is too small is skipped.
+        placeholder: kg; a link of at most this mass whose mass and moments are powers of ten, the
+            moments all equal, was never weighed: a warning.
     """
     if masses.robot.is_static:
         return
@@ -62,6 +68,7 @@ def check(
             fixed = is_prop or name in masses.robot.tree.links_fixed_to_world
             heavy = masses.share(name) > share and not fixed
             grave = ratio > error_above and not masses.robot.is_mounted(name)
+            grave = grave and not (inertia.mass <= placeholder and _is_made_up(inertia))
             severity = Severity.ERROR if grave else Severity.WARNING
             yield finding(
                 inertia.moments_span,
@@ -79,6 +86,14 @@ def _message(inertia: LinkInertia, reach: float, how: str) -> str:
         f"of mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are too {how} "
         f"for {inertia.mass:.4g} kg"
     )
+
+
+def _is_made_up(inertia: LinkInertia) -> bool:
+    """Return whether mass and moments are powers of ten, and the moments equal."""
+    least, *_, most = inertia.principal
+    powers = (math.log10(value) for value in (inertia.mass, most))
+    equal = math.isclose(least, most, rel_tol=1e-6)
+    return equal and all(abs(power - round(power)) < _ROUND for power in powers)
 
 
 def _possible(inertia: LinkInertia) -> bool:

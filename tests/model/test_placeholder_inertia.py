@@ -1,0 +1,40 @@
+"""A link of 10 g with round, equal moments is a placeholder: a warning, where others are errors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.settings import Settings
+
+MODEL = """<sdf version="1.9"><model name="rope">
+<link name="a">
+  <inertial><mass>{mass}</mass>
+    <inertia><ixx>{ixx}</ixx><iyy>0.001</iyy><izz>0.001</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision>
+</link>
+<link name="b"><inertial><mass>0.05</mass></inertial></link>
+<joint name="j" type="revolute">
+  <parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+</model></sdf>
+"""
+
+
+@pytest.mark.parametrize(
+    ("mass", "ixx", "severity"),
+    [
+        (0.01, 0.001, Severity.WARNING),
+        (0.009, 0.001, Severity.ERROR),
+        (0.01, 0.0015, Severity.ERROR),
+        (0.1, 0.001, Severity.ERROR),
+    ],
+)
+def test_severity(tmp_path: Path, mass: float, ixx: float, severity: Severity) -> None:
+    (tmp_path / "rope.sdf").write_text(MODEL.format(mass=mass, ixx=ixx))
+    settings = Settings(trial=False, select=("INE004",), profile="gazebo-harmonic")
+    (report,) = check_package(tmp_path / "rope.sdf", settings).packages
+    found = [it for it in report.findings if "'a'" in it.message]
+    assert [finding.severity for finding in found] == [severity]
