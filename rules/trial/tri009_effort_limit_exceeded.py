@@ -2,7 +2,8 @@
 
 The simulated motor stops at its limit: the robot starts slower, does not reach its speed, or drops
 its load. The torque is that of servos without limits. A joint whose effort limit specifications.md
-explains is not checked.
+explains is not checked, nor is a joint that no plugin, controller or transmission moves: a passive
+hinge needs no motor.
 
 The joints of an arm, which controllers move, go a small step from their start and back, one by one
 and then together, within their velocity limits: where that needs more than the limit, the arm
@@ -16,7 +17,10 @@ the effort limit.
 
 import re
 
+from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
+from checker.model.locomotion.commanded_joints import commanded_joints
+from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -40,7 +44,8 @@ def check(
             is reported.
     """
     limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
-    needed = [(it, "") for it in driven.trial.all("torque")]
+    motors = _with_motor(driven.robot)
+    needed = [(it, "") for it in driven.trial.all("torque") if it.part in motors]
     needed += [(it, _path(driven, it.part)) for it in driven.trial.all("move_torque")]
     weak: set[str] = set()
     for torque, path in needed:
@@ -58,6 +63,17 @@ def check(
                 f"limit is {limit:.3g} {unit}{remedy}",
                 key="torque",
             )
+
+
+def _with_motor(robot: Robot) -> frozenset[str]:
+    """Return the joints that something moves: a plugin, a controller, a motor, or a wheel's drive.
+
+    The trial also holds joints that nothing moves; the limit of a passive hinge is no motor's.
+    """
+    wheels = {wheel.scoped_name for wheel in robot.wheels}
+    turning = {tie.joint.scoped_name for tie in robot.tree.ties if tie.child in wheels}
+    driven = {*robot.driven_joints, *joints_with_motor(robot), *commanded_joints(robot)}
+    return frozenset(driven | turning)
 
 
 def _path(driven: SettledTrial, joint: str) -> str:
@@ -145,13 +161,43 @@ def _arm(effort: float, mark: str = "") -> str:
 """
 
 
+def _lid(motor: str, mark: str = "") -> dict[str, object]:
+    """Return a chest with a heavy lid that leans to the side, and what moves its hinge."""
+    moment = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    return {
+        "@urdf": True,
+        "urdf/arm.urdf": f"""<robot name="chest">
+<link name="base_link">
+  <inertial><mass value="80"/>{moment}</inertial>
+  <collision><geometry><box size="1 1 1"/></geometry></collision>
+</link>
+<link name="lid">
+  <inertial><origin xyz="0.5 0 0"/><mass value="5"/>{moment}</inertial>
+</link>
+<joint name="hinge" type="revolute">{mark}
+  <parent link="base_link"/><child link="lid"/><origin xyz="0 0 0.6"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="2" velocity="1"/>
+</joint>
+{motor}
+</robot>
+""",
+    }
+
+
+_MOTOR = """<transmission name="t">
+  <type>transmission_interface/SimpleTransmission</type>
+  <joint name="hinge"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+  <actuator name="m"/>
+</transmission>"""
 GOOD = [
+    _lid(""),
     _rover(50.0),
     _rover(-1.0),
     {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
     _arm(6.0),
 ]
 BAD = [
+    _lid(_MOTOR, _MARK),
     _rover(0.1, _MARK),
     _arm(1.5, _MARK),
     {"model.sdf": _rover(0.1, _MARK), "specifications.md": _REFERENCE},
