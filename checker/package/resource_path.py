@@ -144,8 +144,43 @@ def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
                 yield Span(source, *match.span())
 
 
-def names_plugin_path(package: Package) -> bool:
-    """Return whether anything in a package names the path on which Gazebo searches plugins."""
-    texts = (package.read(file.path) for file in package.index.with_suffix(*_TEXTS))
-    found = (text.text for text in texts if isinstance(text, SourceText))
-    return any(_PLUGINS_NAMED.search(text) for text in found)
+def plugin_folders(package: Package) -> frozenset[str] | None:
+    """Return the folders that a package puts on the path of plugins, below the install prefix.
+
+    None if it also names that path in another way than by a list of operations (`.dsv`) or
+    package.xml, or a folder that is not known.
+    """
+    known = {path for path in hooks(package) if ".dsv" in posixpath.basename(path)}
+    folders: set[str] = set()
+    for file in package.index.with_suffix(*_TEXTS):
+        source = package.read(file.path)
+        if not isinstance(source, SourceText) or not _PLUGINS_NAMED.search(source.text):
+            continue
+        if file.path == "package.xml":
+            folders.update(_plugin_exports(package))
+        elif file.path in known:
+            folders.update(_plugin_operations(source, package.declared_name))
+        else:
+            return None
+    return (
+        None
+        if any({"$", "@", ""} & {*folder, folder} for folder in folders)
+        else frozenset(folders)
+    )
+
+
+def _plugin_operations(source: SourceText, name: str) -> Iterator[str]:
+    for line in source.text.replace("@PROJECT_NAME@", name).splitlines():
+        operation, *words = line.strip().split(";")
+        if _PLUGINS_NAMED.search(line) and not line.lstrip().startswith("#"):
+            yield from words[1:] if operation in _ADDS else ("",)
+
+
+def _plugin_exports(package: Package) -> Iterator[str]:
+    """Yield what `<gazebo_ros plugin_path>` adds: `${prefix}` is the package's share folder."""
+    manifest = package.xml("package.xml")
+    export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
+    for element in export.all("gazebo_ros") if export is not None else ():
+        for path in (element.get("plugin_path") or "").split(":"):
+            share = f"share/{package.declared_name}"
+            yield posixpath.normpath(path.strip().replace("${prefix}", share)) if path else ""

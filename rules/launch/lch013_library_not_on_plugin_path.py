@@ -4,8 +4,9 @@ Gazebo prints one line and continues without the plugin. It searches its own fol
 `GZ_SIM_SYSTEM_PLUGIN_PATH`; `gz_sim.launch.py` adds the folders of `LD_LIBRARY_PATH`, which include
 `lib` but not `lib/<package>`.
 
-The rule checks robots spawned by a launch file that also starts Gazebo. It reports nothing if a
-hook, package.xml, launch file, document or script of the available packages names the plugin path.
+The rule checks robots spawned by a launch file that also starts Gazebo. Hooks (`.dsv`) and
+`<gazebo_ros plugin_path="…"/>` of package.xml are read. It reports nothing if a launch file, a
+document or a script of the available packages names the plugin path.
 
 Fix: install the library into `lib`, or register an environment hook with the line
 `prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@`.
@@ -17,7 +18,7 @@ from collections.abc import Iterator
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.package.package import Package
-from checker.package.resource_path import names_plugin_path
+from checker.package.resource_path import plugin_folders
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -33,15 +34,21 @@ def check(simulations: Simulations, package: Package) -> Findings:
         for holder in packages
         for folder in _private_folder(holder, library_stem(plugin.filename.value))
     ]
-    if not named or any(map(names_plugin_path, packages)):
+    searched = [plugin_folders(each) for each in packages] if named else []
+    known = [folders for folders in searched if folders is not None]
+    if len(known) < len(searched):
         return
+    others = frozenset().union(*known)
+    there = f", which is {' and '.join(sorted(others))}" if others else ""
     for plugin, holder, folder in named:
-        yield finding(
-            plugin.filename,
-            f"{plugin.filename.value} is installed into {folder} of {holder.name}, which is not "
-            "on the plugin path of Gazebo: set GZ_SIM_SYSTEM_PLUGIN_PATH",
-            key=plugin.filename.value,
-        )
+        if folder not in others:
+            yield finding(
+                plugin.filename,
+                f"{plugin.filename.value} is installed into {folder} of {holder.name}, which is "
+                f"not on the plugin path of Gazebo{there}: write "
+                f"`prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;{folder}` in a hook",
+                key=plugin.filename.value,
+            )
 
 
 def _plugins(simulation: Simulation) -> Iterator[Plugin]:
@@ -80,14 +87,37 @@ _PLAIN = _URDF.replace("  <!-- ^ LCH013 -->", "")
 _FILES = {"@bridge": True, "urdf/rover.urdf": _PLAIN, "CMakeLists.txt": _BUILD}
 _HOOK = "prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@\n"
 
+_REGISTERED = _BUILD.replace(
+    "ament_package()", 'ament_environment_hooks("hooks/rover.dsv.in")\nament_package()'
+)
+_EXPORT = """<package format="3">
+  <name>acme_rover_bringup</name>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type><gazebo_ros plugin_path="{}"/></export>
+</package>
+"""
+
 GOOD = [
     {"@bridge": True},
+    {**_FILES, "CMakeLists.txt": _REGISTERED, "hooks/rover.dsv.in": _HOOK},
+    {**_FILES, "package.xml": _EXPORT.format("${prefix}/../../lib/acme_rover_bringup")},
     {**_FILES, "hooks/rover.dsv.in": _HOOK},
     {**_FILES, "CMakeLists.txt": _BUILD.replace("lib/${PROJECT_NAME}", "lib")},
     {**_FILES, "CMakeLists.txt": _BUILD.replace("acme_drive SHARED", "other SHARED")},
 ]
 BAD = [
     {**_FILES, "urdf/rover.urdf": _URDF},
+    {
+        **_FILES,
+        "urdf/rover.urdf": _URDF,
+        "CMakeLists.txt": _REGISTERED,
+        "hooks/rover.dsv.in": _HOOK.replace("/@PROJECT_NAME@", ""),
+    },
+    {
+        **_FILES,
+        "urdf/rover.urdf": _URDF,
+        "package.xml": _EXPORT.format("${prefix}/../../lib"),
+    },
     {
         **_FILES,
         "urdf/rover.urdf": _URDF,
