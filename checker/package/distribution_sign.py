@@ -15,12 +15,16 @@ if TYPE_CHECKING:
 
 _DISTROS = "foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling"
 _NAMED = re.compile(
-    rf"(?:\bros[ -]?2?[ :_/-]{{1,3}}|\bros_distro\W{{1,4}}|\bros_distribution\W{{1,4}})"
+    r"(?:\bros[ -]?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}|\bros_distribution\W{1,4}"
+    r"|\$\{\w{1,60}:?-)"
     rf"\(?({_DISTROS})\b",
     re.IGNORECASE,
 )
-"""`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `ros-humble-xacro`."""
-_CONTAINER = re.compile(r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile|devcontainer\.json)\Z")
+"""`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`."""
+_CONTAINER = re.compile(
+    r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile|devcontainer\.json"
+    r"|(?:docker-)?compose[\w.-]{0,40}\.ya?ml)\Z"
+)
 _CI = re.compile(r"(?:\A|/)(?:\.github/workflows/[^/]+\.ya?ml|\.gitlab-ci\.yml)\Z")
 _README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,4})?\Z")
 NAMES = re.compile("|".join(pattern.pattern for pattern in (_CONTAINER, _CI, _README)))
