@@ -17,7 +17,7 @@ _DISTROS = "foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling"
 _NAMED = re.compile(
     r"(?:\bros[ -]?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}|\bros_distribution\W{1,4}"
     r"|\$\{\w{1,60}:?-)"
-    rf"\(?({_DISTROS})\b",
+    rf"\(?({_DISTROS})\b\}}?",
     re.IGNORECASE,
 )
 """`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`."""
