@@ -14,7 +14,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs linkcheck test gate test-more test-all viewer vscode lint types format bench picture editor-picture \
+.PHONY: demo dev docs linkcheck test gate test-more test-all viewer vscode lint types types-elsewhere format bench picture editor-picture \
   constraints clean golden
 
 demo: .venv/installed
@@ -46,7 +46,7 @@ test-more: .venv/tested $(VIEWER)
 	$(TEST) $(THOROUGH) -m "$(MORE)"
 
 # Lint, types and all tiers, with all examples of each property.
-test-all: lint types
+test-all: lint types types-elsewhere
 	$(TEST) $(THOROUGH) -m "not ($(MORE))"
 	$(MAKE) test-more
 
@@ -58,6 +58,11 @@ lint: .venv/dev
 
 types: .venv/dev
 	$(BIN)/mypy
+
+# What type checkers can see of other systems; the tests of tests/portable take Unix away.
+types-elsewhere: .venv/dev
+	$(BIN)/mypy --platform win32
+	$(BIN)/mypy --platform darwin
 
 format: .venv/dev
 	$(BIN)/ruff check --fix .

@@ -18,7 +18,7 @@ from checker.base.files import NotReadable
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Damaged, from_disk, read, write
 from checker.base.sandbox.launcher import OwnLauncher
-from checker.base.sandbox.task import tighter_limits
+from checker.base.system import tighter_limits
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import gc
 import math
-import os
-import resource
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from time import process_time
+
+from checker.base.system import limits_of, resident_bytes, unlimited
 
 SECONDS = 60.0
 """Limit for one piece, in processor time; rules take 0.01 s, and reading a robot 1 s."""
@@ -62,7 +62,7 @@ class Allowance:
         """
         self._seconds, self._left, self._memory = seconds, seconds_for_all, memory
         self._spent = f"the package takes more than {seconds_for_all:g} s of processor time"
-        self._most = _resident() + 2 * memory
+        self._most = resident_bytes() + 2 * memory
         self._interrupted = False
 
     @contextmanager
@@ -70,13 +70,16 @@ class Allowance:
         """Interrupt what is done inside when it has used too much.
 
         A piece within a piece is part of it. Python interrupts its main thread alone: in others,
-        nothing is.
+        nothing is, and neither on Windows, which has no timer for it.
 
         Raises:
             Exceeded: It was interrupted, there is no memory left, or the pieces before have used
                 up what there is for all.
         """
         in_main_thread = threading.current_thread() is threading.main_thread()
+        if sys.platform == "win32" or not hasattr(signal, "setitimer"):
+            yield
+            return
         if not in_main_thread or isinstance(signal.getsignal(signal.SIGPROF), _Watch):
             yield
             return
@@ -95,7 +98,7 @@ class Allowance:
             # What was half made holds itself, while collection is put off.
             gc.collect()
             self._interrupted = False
-        left, resident = min(self._left, _left_of_process()), _resident()
+        left, resident = min(self._left, _left_of_process()), resident_bytes()
         if left <= 0.0:
             raise Exceeded(f"was not begun: {self._spent}")
         if resident >= self._most:
@@ -107,6 +110,8 @@ class Allowance:
 
 
 def _watched(watch: _Watch) -> Iterator[None]:
+    if sys.platform == "win32":
+        raise OSError("Windows has no timers of processor time")
     before = signal.signal(signal.SIGPROF, watch)
     signal.siginterrupt(signal.SIGPROF, False)
     signal.setitimer(signal.ITIMER_PROF, _INTERVAL, _INTERVAL)
@@ -150,7 +155,7 @@ class _Watch:
             return
         if self.spent > self._seconds:
             raise Exceeded(self._too_long)
-        if _resident() > self._most:
+        if resident_bytes() > self._most:
             raise Exceeded(self._too_large)
 
 
@@ -160,14 +165,5 @@ def _too_large(memory: int) -> str:
 
 def _left_of_process() -> float:
     """Return the seconds of processor time that are left of those that the process has, if any."""
-    soft = resource.getrlimit(resource.RLIMIT_CPU)[0]
-    return math.inf if soft == resource.RLIM_INFINITY else soft - _RESERVE - process_time()
-
-
-def _resident() -> int:
-    """Return the bytes of memory that this process uses; if unknown, the most so far."""
-    try:
-        pages = int(Path("/proc/self/statm").read_text("ascii").split()[1])
-    except OSError:
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # macOS counts in bytes
-    return pages * os.sysconf("SC_PAGE_SIZE")
+    soft, _ = limits_of("RLIMIT_CPU")
+    return math.inf if soft == unlimited() else soft - _RESERVE - process_time()

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import json
 import os
-import select
 import signal
 import tempfile
 from collections.abc import Iterable
-from contextlib import suppress
 from pathlib import Path
 from time import monotonic
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, cast
 
 from checker.base.exit_causes import cause_of
 from checker.base.parts import WorkerFailed
@@ -24,7 +22,9 @@ from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.launcher import Launcher, Order, launcher
+from checker.base.sandbox.plain_launcher import PlainLauncher
 from checker.base.sandbox.task import FAILED
+from checker.base.system import FORKS
 
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
@@ -34,7 +34,6 @@ _CLOCK = 10.0
 """Seconds by the clock for one of processor time: a busy machine is no reason to stop anything."""
 _ENDS_SECONDS = 5.0
 """Until a process that is killed has ended, at most."""
-_CODE_LIMIT = 16
 
 
 class Limits(Record):
@@ -89,8 +88,8 @@ class Child:
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
         # No names: one that is killed leaves none, and no other process can open them.
-        self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
-        self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
+        self._request = cast("BinaryIO", tempfile.TemporaryFile(dir=folder))  # noqa: SIM115 - closed by `stop`
+        self._answer = cast("BinaryIO", tempfile.TemporaryFile(dir=folder))  # noqa: SIM115
         order = Order(
             module,
             int(limits.seconds),
@@ -100,7 +99,7 @@ class Child:
             lasts=done is not None,
         )
         # Kept, since all of its processes end with it.
-        self._starter = starter or launcher()
+        self._starter = starter or (launcher() if FORKS else PlainLauncher())
         more = () if done is None else (done,)
         self._started = self._starter.start(order, self._request, self._answer, *more)
         self.code: int | None = None
@@ -122,9 +121,7 @@ class Child:
         """Send the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
         handed.write(self._request, request, contents)
-        # A dead process reports why when its answer is requested.
-        with suppress(OSError):
-            os.write(self._started.input, b"!")
+        self._started.begin(b"!")
         return self
 
     def answer(self) -> bytes | WorkerFailed:
@@ -148,11 +145,9 @@ class Child:
         """Wait for its end; False if it still runs after so many seconds."""
         if self._stopped:
             return True
-        poll = select.poll()
-        poll.register(self._started.code, select.POLLIN)
-        if not poll.poll(max(0.0, seconds) * 1000.0):
+        data = self._started.wait(seconds)
+        if data is None:
             return False
-        data = os.read(self._started.code, _CODE_LIMIT)
         if self.code is None:
             self.code = _code(data)
         return True
@@ -183,10 +178,10 @@ class Child:
         """End the process, whatever it does; nothing happens if it has ended."""
         if self._stopped:
             return
-        os.close(self._started.input)
+        self._started.kill()
         self.ends(_ENDS_SECONDS)
         self._stopped = True
-        os.close(self._started.code)
+        self._started.close()
         self._request.close()
         self._answer.close()
 

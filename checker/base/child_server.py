@@ -7,9 +7,7 @@ each. No socket is needed, so that a process in the sandbox can have such a proc
 from __future__ import annotations
 
 import os
-import select
 from collections.abc import Iterable
-from contextlib import suppress
 from time import monotonic
 
 from checker.base import child_process
@@ -19,6 +17,7 @@ from checker.base.parts import WorkerFailed
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content
 from checker.base.sandbox.task import PLACE
+from checker.base.system import FORKS, readable
 
 _ENDS_SECONDS = 5.0
 """Until the exit code of a process that has died is known, at most."""
@@ -41,9 +40,7 @@ class _Process(Child):
         """Send a request."""
         start = self._request.seek(0, os.SEEK_END)
         handed.write(self._request, request, contents)
-        # A dead process reports why when its answer is requested.
-        with suppress(OSError):
-            os.write(self._started.input, PLACE.pack(start, self._request.tell()))
+        self._started.begin(PLACE.pack(start, self._request.tell()))
         self._given += 1
         return Asked(self, self._given - 1)
 
@@ -54,10 +51,8 @@ class _Process(Child):
 
     def answer_to(self, number: int, deadline: float) -> bytes | WorkerFailed:
         """Wait for the answer to a request; a process that takes too long is stopped."""
-        poll = select.poll()
-        poll.register(self._done, select.POLLIN)
         while not self._stopped and len(self._places) <= number:
-            if not poll.poll(max(0.0, deadline - monotonic()) * 1000.0):
+            if not readable(self._done, deadline - monotonic()):
                 self.stop()
                 return overdue(self.limits)
             place = os.read(self._done, PLACE.size)
@@ -122,11 +117,17 @@ class Server:
 
     def start(self) -> Server:
         """Start the process, if there is none."""
-        self._running()
+        if FORKS:
+            self._running()
         return self
 
-    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Asked:
-        """Send a request; it is answered after those before it."""
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Asked | Child:
+        """Send a request; it is answered after those before it.
+
+        Where nothing forks, it gets a process of its own.
+        """
+        if not FORKS:
+            return Child(self._module, request, self._limits, contents)
         return self._running().ask(request, contents)
 
     def stop(self) -> None:

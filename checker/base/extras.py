@@ -10,6 +10,7 @@ from importlib.util import find_spec
 
 from checker.base.errors import CheckerError
 from checker.base.record import Record
+from checker.base.system import FORKS
 
 
 class Extra(Record):
@@ -18,10 +19,12 @@ class Extra(Record):
     Attributes:
         name: The name as pip knows it.
         modules: What of it is imported; without one of them the extra is not installed.
+        forks: Whether it needs a system on which processes fork.
     """
 
     name: str
     modules: tuple[str, ...]
+    forks: bool = False
 
     @property
     def is_installed(self) -> bool:
@@ -46,7 +49,11 @@ class Extra(Record):
 
         Raises:
             MissingExtra: It is not.
+            CheckerError: The system cannot run it.
         """
+        if self.forks and not FORKS:
+            where = "on Linux and macOS; on Windows, use WSL or a container"
+            raise CheckerError(f"{what} runs {where}")
         if not self.is_installed:
             raise MissingExtra(self, what)
 
@@ -82,6 +89,7 @@ SERVICE = Extra(
         *("blake3", "dbos", "fastapi", "httpx", "multipart"),
         *("prometheus_client", "psycopg", "sqlalchemy", "uvicorn"),
     ),
+    forks=True,
 )
 """Serves checks, and sends packages to such a service."""
 S3 = Extra("s3", ("obstore",))

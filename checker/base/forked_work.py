@@ -1,12 +1,16 @@
-"""Work in a forked process that may crash: faster than a new interpreter."""
+"""Work in a forked process that may crash: faster than a new interpreter.
+
+Where the system has no forks, work is done in this process, which a crash then ends.
+"""
 
 from __future__ import annotations
 
 import gc
 import json
 import math
+import mmap
 import os
-import resource
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
@@ -15,7 +19,8 @@ from typing import BinaryIO
 
 from checker.base.exit_causes import cause_of, timeout_failure
 from checker.base.parts import WorkerFailed
-from checker.base.sandbox.task import code_of, end_with_parent, tighter
+from checker.base.sandbox.task import code_of, end_with_parent
+from checker.base.system import FORKS, limits_of, tighter
 
 _RESULT_LIMIT = 200_000_000
 """Bytes."""
@@ -48,8 +53,17 @@ def run_in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed
         work: Called in the fork. This process must have no threads.
         seconds: Seconds of processor time.
     """
+    if not FORKS:
+        return _done_here(work, seconds)
     read, code = _forked([work], seconds, math.inf)
     return read[0] if read and code == 0 else _cause(code, seconds)
+
+
+def _done_here(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
+    try:
+        return work()
+    except Exception as error:  # noqa: BLE001 - the works after it continue
+        return _cause(code_of(error), seconds)
 
 
 def forks_time() -> float:
@@ -73,6 +87,8 @@ def run_all_in_forks(
         until: The end of the time for all, by `forks_time`; none is started in its last second.
         late: The reason why those that are left then have no result.
     """
+    if not FORKS:
+        return [_done_here(work, seconds) for work in works]
     brief = min(_BRIEF, seconds)
     results = _in_turn(works, brief, until, late)
     if brief < seconds:
@@ -100,6 +116,8 @@ def _forked(
     works: Sequence[Callable[[], bytes]], seconds: int, all_seconds: float
 ) -> tuple[list[bytes], int]:
     """Do works in one fork; return the results of those that it finished, and its exit code."""
+    if sys.platform == "win32":
+        raise OSError("Windows has no forks")
     results_from, results_to = os.pipe()
     process = os.fork()
     if process == 0:
@@ -149,6 +167,10 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, all_seconds: float
 def _allow(seconds: int, all_seconds: float) -> None:
     """Let this process run for so many seconds of processor time, or to the end of all."""
     end = min(process_time() + seconds, all_seconds)
+    if sys.platform == "win32":
+        return
+    import resource
+
     soft, hard = math.ceil(min(end, _FOREVER)), resource.getrlimit(resource.RLIMIT_CPU)[1]
     resource.setrlimit(resource.RLIMIT_CPU, (tighter(hard, max(soft, 1)), hard))
 
@@ -156,10 +178,10 @@ def _allow(seconds: int, all_seconds: float) -> None:
 def _memory() -> int:
     """Return the bytes of address space of this process; 0 if the system does not state it."""
     try:
-        return int(Path("/proc/self/statm").read_text("ascii").split()[0]) * resource.getpagesize()
+        return int(Path("/proc/self/statm").read_text("ascii").split()[0]) * mmap.PAGESIZE
     except OSError:
         return 0
 
 
 def _cause(code: int, seconds: int) -> WorkerFailed:
-    return cause_of(code, seconds, resource.getrlimit(resource.RLIMIT_AS)[0])
+    return cause_of(code, seconds, limits_of("RLIMIT_AS")[0])

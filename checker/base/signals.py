@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Collection
 
@@ -21,7 +22,8 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
         do: The actions, in this order; further signals do nothing.
     """
     reader, writer = os.pipe()  # open until the process ends
-    os.set_blocking(writer, False)
+    if sys.platform != "win32":
+        os.set_blocking(writer, False)
 
     def in_turn() -> None:
         for action in do:

@@ -63,7 +63,7 @@ def test_a_folder_without_a_package(run: Run, tmp_path: Path) -> None:
     assert refused(run("notes"), "notes contains no package")
 
 
-@pytest.mark.parametrize("name", ["readme.txt", "robot"])
+@pytest.mark.parametrize("name", ["readme.txt", "chassis"])
 def test_a_file_that_is_no_package(run: Run, tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text("milk")
     assert refused(run(name), f"{name} is not a package, archive or model file")

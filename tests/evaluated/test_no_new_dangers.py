@@ -24,6 +24,8 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/base/sandbox/landlock.py", BYTES): "system calls that enter the sandbox",
     ("checker/base/sandbox/namespaces.py", BYTES): "system calls that enter the sandbox",
     ("checker/base/sandbox/seccomp.py", BYTES): "system calls that enter the sandbox",
+    ("checker/base/sandbox/windows_job.py", BYTES): "system calls that set limits",
+    ("checker/base/system.py", ATTRIBUTE): "limits of the system, named by our own code",
     ("checker/base/sandbox/task.py", BYTES): "a system call that ends it with its parent",
     ("checker/base/sandbox/launcher_process.py", BYTES): "a system call that hands orphans over",
     ("checker/base/sandbox/task.py", MODULE): "named by the parent, before anything is read",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 
 from attempts import tried
 
@@ -19,7 +20,7 @@ def answer(request: bytes, _files: Files) -> bytes:
     """Make attempts, as `hostile` does."""
     asked = json.loads(request)
     worker.sys.addaudithook = lambda _: None  # type: ignore[assignment]
-    worker.resource.setrlimit = lambda *_: None  # type: ignore[assignment]
+    resource.setrlimit = lambda *_: None
     assets = asked["assets"] | {"launcher": os.getppid(), "place": asked["assets"]["folder"]}
     said = {name: tried(name, assets, worker.put_up) for name in asked["names"]}
     return json.dumps(said).encode()

@@ -7,6 +7,7 @@ import os
 import secrets
 import stat
 import struct
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -18,7 +19,7 @@ _FIRST, _LAST = 61184, 65519
 
 def free_account() -> int:
     """Return a user id that hardly any other process has; 0 if this process is not root's."""
-    if os.getuid() != 0:
+    if sys.platform != "linux" or os.getuid() != 0:
         return 0
     return _FIRST + secrets.randbelow(_LAST - _FIRST + 1)
 
@@ -41,7 +42,7 @@ def switch_user(
     Raises:
         NotHeld: This process is not root's, or the user could not reach what it needs.
     """
-    if os.getuid() != 0 or not account:
+    if sys.platform != "linux" or os.getuid() != 0 or not account:
         raise NotHeld("it is not started by root")
     kept = 0
     try:

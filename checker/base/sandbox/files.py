@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from checker.base.files import NotReadable, read_bytes
+from checker.base.system import read_at
 
 FILES_LIMIT = 2_000_000_000
 """Bytes of all files of one message."""
@@ -60,7 +61,7 @@ class Files:
         """Return what is in a file, or why it is not known."""
         match self._table.get(name):
             case [int(at), int(length)]:
-                return os.pread(self._descriptor, length, self._start + at)
+                return read_at(self._descriptor, length, self._start + at)
             case str(reason):
                 return NotReadable(name, reason)
         return NotReadable(name, "was not passed to this process")
@@ -71,7 +72,7 @@ class Files:
             case [int(at), int(length)]:
                 for begin in range(at, at + length, _PIECE):
                     piece = min(_PIECE, at + length - begin)
-                    to.write(os.pread(self._descriptor, piece, self._start + begin))
+                    to.write(read_at(self._descriptor, piece, self._start + begin))
 
 
 NO_FILES = Files({}, -1)
@@ -130,15 +131,15 @@ def read(
         Damaged: It is something else, or too long.
     """
     size = (os.fstat(descriptor).st_size if end is None else end) - start
-    tail = os.pread(descriptor, _TAIL, start + max(0, size - _TAIL))
+    tail = read_at(descriptor, _TAIL, start + max(0, size - _TAIL))
     message, table = (int.from_bytes(field, "big") for field in (tail[:_LENGTH], tail[_LENGTH:]))
     at = size - _TAIL - table - message
     if len(tail) < _TAIL or at < 0:
         raise Damaged("is cut off")
     if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
         raise Damaged(f"has {size / 1e6:.1f} MB, which is more than the limit")
-    data = os.pread(descriptor, message, start + at)
-    entries = _checked(os.pread(descriptor, table, start + at + message), at)
+    data = read_at(descriptor, message, start + at)
+    entries = _checked(read_at(descriptor, table, start + at + message), at)
     return data, Files(entries, descriptor, start)
 
 

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import cache as once
 from functools import cached_property
 from pathlib import Path
@@ -29,10 +30,12 @@ from checker.base.sandbox.layers import Layer, Sandbox
 from checker.base.sandbox.priority import lower_priority
 from checker.base.sandbox.program_files import program_paths
 from checker.base.sandbox.usage import Usage, descendant_ids, usage_below
+from checker.base.system import readable
 
+_CODE_LIMIT = 16
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
-_PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "TZ", DEBUG)
+_PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "SYSTEMROOT", "TEMP", "TZ", DEBUG)
 _DRAWING = ("EGL_", "GALLIUM_", "LIBGL_", "LP_", "MESA_", "__EGL_")
 # What chooses the code that libraries of linear algebra run on this processor.
 _NUMERIC = ("BLIS_", "MKL_", "NVPL_", "OMP_", "OPENBLAS_", "VECLIB_")
@@ -74,6 +77,24 @@ class Started(Record):
     input: int
     code: int
 
+    def begin(self, message: bytes) -> None:
+        """Tell the process that its request is there."""
+        # A dead process reports why when its answer is requested.
+        with suppress(OSError):
+            os.write(self.input, message)
+
+    def wait(self, seconds: float) -> bytes | None:
+        """Return its exit code in digits; None if it still runs after so many seconds."""
+        return os.read(self.code, _CODE_LIMIT) if readable(self.code, seconds) else None
+
+    def kill(self) -> None:
+        """End it, whatever it does."""
+        os.close(self.input)
+
+    def close(self) -> None:
+        """Let go of it once it has ended."""
+        os.close(self.code)
+
 
 class Launcher:
     """Starts processes by a socket to the launcher process."""
@@ -95,6 +116,8 @@ class Launcher:
         Raises:
             OSError: No launcher runs.
         """
+        if sys.platform == "win32":
+            raise OSError("Windows hands no descriptors on: PlainLauncher starts processes there")
         input, ours = os.pipe()
         code, theirs = os.pipe()
         handed = (input, request.fileno(), answer.fileno(), theirs, *more)
@@ -152,7 +175,7 @@ class OwnLauncher(Launcher):
                 stderr=None if os.environ.get(DEBUG) else subprocess.DEVNULL,
                 pass_fds=(theirs.fileno(),),
                 cwd="/",
-                env=_environment(sandbox.work),
+                env=environment(sandbox.work),
                 # A key that interrupts this program does not interrupt its processes before it.
                 start_new_session=True,
             )
@@ -249,7 +272,7 @@ def module_path() -> str:
     return os.pathsep.join((here, *filter(os.path.isabs, others)))
 
 
-def _environment(work: str) -> dict[str, str]:
+def environment(work: str) -> dict[str, str]:
     """Return the part of our environment that a process gets: no token, no password, no home."""
     known = {
         name: value

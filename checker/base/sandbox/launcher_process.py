@@ -29,6 +29,8 @@ from checker.base.sandbox.layers import ACCOUNT, NAMESPACES, Layer, Sandbox, ent
 from checker.base.sandbox.priority import lower_priority
 from checker.base.sandbox.task import FAILED, load_prepared, run
 
+assert sys.platform != "win32"  # noqa: S101 - states to type checkers that it never runs there
+
 # Processes whose parents have ended: they become children of the launcher, which ends them.
 #
 # Without this, a process that leaves its session would continue after the check that it belongs to.

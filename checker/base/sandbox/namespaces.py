@@ -11,6 +11,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from functools import cache as once
@@ -59,7 +60,7 @@ _OWN = (
 
 
 def _rights() -> tuple[str, ...]:
-    if os.getuid() == 0:
+    if sys.platform == "linux" and os.getuid() == 0:
         # It becomes another user itself, after Python has started.
         added = ("CAP_SETUID", "CAP_SETGID", "CAP_CHOWN")
         return ("--cap-drop", "ALL", *(word for name in added for word in ("--cap-add", name)))
@@ -94,6 +95,8 @@ def end(wrapper: int) -> None:
     Args:
         wrapper: Its process, which has not ended.
     """
+    if sys.platform != "linux":
+        return
     with suppress(OSError):
         started = Path(f"/proc/{wrapper}/task/{wrapper}/children").read_text("ascii")
         for word in started.split():
@@ -109,6 +112,8 @@ def leave_network() -> None:
     Raises:
         NotHeld: The system, or a container, does not allow it.
     """
+    if sys.platform != "linux":
+        raise NotHeld("only Linux has namespaces")
     user, group = os.getuid(), os.getgid()
     flags = _UTS | _IPC | _NET | (0 if user == 0 else _USER)
     libc = ctypes.CDLL(None, use_errno=True)

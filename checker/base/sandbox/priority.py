@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -19,6 +20,8 @@ def lower_priority(processes: Sequence[int], by: int) -> None:
         processes: Their ids, at least one; all of one session.
         by: The increase of their niceness.
     """
+    if sys.platform == "win32":
+        return
     for process in processes:
         with suppress(OSError):
             for path in Path(f"/proc/{process}/task").iterdir():

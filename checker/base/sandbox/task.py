@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import sys
 from collections.abc import Iterable
 from contextlib import suppress
 from errno import ENOMEM
@@ -20,6 +21,8 @@ from typing import Any, BinaryIO
 from checker.base.errors import DEBUG, is_momentary
 from checker.base.sandbox.files import Content, read, write
 from checker.base.sandbox.layers import Sandbox, narrow
+from checker.base.sandbox.windows_job import limit_by_job
+from checker.base.system import tighten
 
 Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 """Answer of a process; files are made one by one, while they are written."""
@@ -65,14 +68,25 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
         elif order.get("lasts"):
             _answer_all(module, request, answer, done)
         elif os.read(INPUT, 1):
-            message, files = read(request, _REQUEST_LIMIT)
-            with os.fdopen(os.dup(answer), "wb") as file:
-                _write(file, module.answer(message, files))
+            _answer_one(module, request, answer)
     except BaseException as error:  # noqa: BLE001 - the caller learns that there is no answer
-        code = code_of(error)
-        if code != OUT_OF_MEMORY:
-            _tell_fault(answer)
-        return code
+        return _told(error, answer)
+    return 0
+
+
+def do(order: dict[str, Any], request: int, answer: int) -> int:
+    """Answer the request that is there, outside a sandbox; return the exit code.
+
+    Args:
+        order: See `run`.
+        request: The file of the request.
+        answer: The file of the answer.
+    """
+    try:
+        hold_to(order["seconds"], order["memory"])
+        _answer_one(load_prepared(order["module"]), request, answer)
+    except BaseException as error:  # noqa: BLE001 - the caller learns that there is no answer
+        return _told(error, answer)
     return 0
 
 
@@ -91,6 +105,12 @@ def code_of(error: BaseException) -> int:
     return DISTURBED if is_momentary(error) else FAILED
 
 
+def _answer_one(module: ModuleType, request: int, answer: int) -> None:
+    message, files = read(request, _REQUEST_LIMIT)
+    with os.fdopen(os.dup(answer), "wb") as file:
+        _write(file, module.answer(message, files))
+
+
 def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> None:
     """Answer one request after the other (see `checker.base.child_server`)."""
     with os.fdopen(os.dup(answer), "wb") as file:
@@ -101,9 +121,15 @@ def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> Non
             os.write(done, PLACE.pack(start, file.tell()))
 
 
+def _told(error: BaseException, answer: int) -> int:
+    """Return the exit code of an error; leave what went wrong in place of an answer, for a log."""
+    code = code_of(error)
+    if code != OUT_OF_MEMORY:
+        _tell_fault(answer)
+    return code
+
+
 def _tell_fault(answer: int) -> None:
-    """Leave what went wrong in place of an answer, for a log."""
-    import sys
     import traceback
 
     words = traceback.format_exc()
@@ -134,6 +160,8 @@ def _speak_to_nobody(input: int) -> None:
 
 def end_with_parent() -> None:
     """Kill this process when its parent ends, where the system can (Linux: prctl)."""
+    if sys.platform != "linux":
+        return
     import ctypes
 
     with suppress(OSError, AttributeError):
@@ -142,45 +170,19 @@ def end_with_parent() -> None:
 
 def hold_to(seconds: int, memory: int) -> None:
     """Take from this process what it must not use; no limit that it has already is raised."""
-    from resource import RLIMIT_AS, RLIMIT_CPU
-
-    tighten(RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1)
-    tighten(RLIMIT_AS, memory, memory)
+    if sys.platform == "win32":
+        limit_by_job(seconds, memory)
+        return
+    tighten("RLIMIT_CPU", max(seconds, 1), max(seconds, 1) + 1)
+    tighten("RLIMIT_AS", memory, memory)
     hold_files_to(_FILE_BYTES, _OPEN_FILES)
 
 
 def hold_files_to(file_bytes: int, open_files: int) -> None:
     """Take from this process larger files, more open ones at a time, and all core dumps."""
-    from resource import RLIMIT_CORE, RLIMIT_FSIZE, RLIMIT_NOFILE
-
-    for kind, most in (
-        (RLIMIT_FSIZE, file_bytes),
-        (RLIMIT_NOFILE, open_files),
-        (RLIMIT_CORE, 0),
+    for name, most in (
+        ("RLIMIT_FSIZE", file_bytes),
+        ("RLIMIT_NOFILE", open_files),
+        ("RLIMIT_CORE", 0),
     ):
-        tighten(kind, most, most)
-
-
-def tighten(kind: int, soft: int, hard: int) -> None:
-    """Set one limit of this process, of `resource.RLIMIT_…`; none that there is is raised."""
-    import resource
-
-    resource.setrlimit(kind, tighter_limits(resource.getrlimit(kind), soft, hard))
-
-
-def tighter_limits(limits: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
-    """Return the soft and the hard limit to set where others are set already: the tighter of each.
-
-    Args:
-        limits: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
-        soft: The soft limit that is wanted.
-        hard: The hard limit that is wanted, not below `soft`.
-    """
-    return tighter(limits[0], soft), tighter(limits[1], hard)
-
-
-def tighter(limit: int, wanted: int) -> int:
-    """Return what is wanted, or the limit that there is if it allows less."""
-    from resource import RLIM_INFINITY
-
-    return wanted if limit == RLIM_INFINITY else min(limit, wanted)
+        tighten(name, most, most)

@@ -7,6 +7,7 @@ all of them in /proc: one whose parent has ended becomes a child of the launcher
 from __future__ import annotations
 
 import errno
+import mmap
 import os
 from collections.abc import Iterator
 from contextlib import suppress
@@ -63,7 +64,7 @@ def usage_below(ancestor: int, folder: Path, most: Usage) -> Usage:
             return Usage(memory, disk, most.files + 1, len(processes))
         if (file := (status.st_dev, status.st_ino)) not in known:
             known.add(file)
-            disk += status.st_blocks * _BLOCK
+            disk += getattr(status, "st_blocks", 0) * _BLOCK
     return Usage(memory, disk, len(known), len(processes))
 
 
@@ -91,7 +92,7 @@ def _memory(process: int) -> int:
                 return int(line.split()[1]) * _KILOBYTE
     with suppress(OSError):  # the system may hide the rest from other users
         pages = int(Path(f"/proc/{process}/statm").read_bytes().split()[1])
-        return pages * os.sysconf("SC_PAGE_SIZE")
+        return pages * mmap.PAGESIZE
     return 0
 
 

@@ -22,8 +22,9 @@ from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.resources import UNKNOWN, templates, tool_version, version_of
 from checker.base.sandbox.launcher import OwnLauncher
-from checker.base.sandbox.layers import ACCOUNT, LANDLOCK, NAMESPACES, SECCOMP, Layer
+from checker.base.sandbox.layers import ACCOUNT, ALL, LANDLOCK, NAMESPACES, SECCOMP, Layer
 from checker.base.sandbox.namespaces import bubblewrap
+from checker.base.system import FORKS
 from checker.base.words import plain, shortened
 from checker.cli.doctor.library_imports import import_troubles
 
@@ -78,6 +79,11 @@ _ADVICE = {
 
 def sandbox() -> Iterator[Result]:
     """Yield each layer, whether it is active on this machine, and how to get it."""
+    if not FORKS:
+        what = f"sandbox: none; {platform.system()} has no {', '.join(ALL)}"
+        advice = "check packages of others on Linux: in WSL, a container, or the web service"
+        yield Result(State.NOTE, what, advice)
+        return
     with closing(OwnLauncher()) as starter:
         layers = starter.layers
     if not layers:

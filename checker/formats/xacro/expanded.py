@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -15,8 +14,8 @@ from checker.source.xml import Element, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
 
 _BLANKS = " \t\r\n"
-_PACKAGES = f"file:///?{ROOT}/"
-"""Pattern of the URI of a path: `file://$(find p)/`, also with a third slash."""
+_PACKAGES = (f"file://{ROOT}/", f"file:///{ROOT}/")
+"""Starts of the URI of a path: `file://$(find p)/`, also with a third slash."""
 
 
 class ExpandedText(SourceText, dict=True, kw_only=True):
@@ -60,8 +59,8 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
 
     def states_path(self, uri: str) -> bool:
         """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
-        path = re.escape(uri.removeprefix("package://"))
-        return re.search(f'{_PACKAGES}{path}["<]', str(self.answer["xml"])) is not None
+        text, path = str(self.answer["xml"]), uri.removeprefix("package://")
+        return any(f"{start}{path}{end}" in text for start in _PACKAGES for end in ('"', "<"))
 
     def place(self, start: int, end: int) -> Place:
         """Return the place in a written file of the characters from `start` to `end`."""
@@ -79,7 +78,9 @@ def expanded_document(
         file: The expanded file, as xacro saw it.
     """
     # A mesh below `file://$(find p)/` is one of package p, wherever that is installed.
-    text = re.sub(_PACKAGES, "package://", str(answer["xml"]))
+    text = str(answer["xml"])
+    for start in _PACKAGES:
+        text = text.replace(start, "package://")
     written = gathered.sources[file]
     plain = parse_xml(SourceText(written.file, text))
     if isinstance(plain, XmlFault) or len(plain.positions) != len(answer["origins"]):

@@ -7,30 +7,34 @@ from __future__ import annotations
 
 import json
 import os
-import resource
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import cache
 from typing import Any
 
 from checker.base.forked_work import forks_time, run_in_fork
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox import seccomp
 from checker.base.sandbox.files import NO_FILES, Files
+from checker.base.system import tighten
 
 ANSWER_LIMIT = 60_000_000
 """Bytes that the process may write."""
 
 
+@cache
 def put_up() -> None:
     """Permanently take from this process all that expanding a text does not need.
+
+    Once: afterwards it cannot do it again, where several texts share a process.
 
     The expander checks expressions too. This is the layer behind it, for what slips through.
     """
     os.environ.clear()
-    resource.setrlimit(resource.RLIMIT_NOFILE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (ANSWER_LIMIT, ANSWER_LIMIT))
+    tighten("RLIMIT_NOFILE", 0, 0)
+    tighten("RLIMIT_NPROC", 0, 0)
+    tighten("RLIMIT_FSIZE", ANSWER_LIMIT, ANSWER_LIMIT)
     # The kernel holds native code as well, which no audit hook sees; where it does not, the rest
     # still holds Python.
     with suppress(seccomp.NotHeld):

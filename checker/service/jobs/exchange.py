@@ -13,8 +13,9 @@ from typing import Any
 from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
 from checker.base.sandbox.files import Content, Files
-from checker.base.sandbox.task import hold_files_to, tighten
+from checker.base.sandbox.task import hold_files_to
 from checker.base.sandbox.usage import Usage
+from checker.base.system import tighten
 from checker.base.words import and_list, plain, shortened
 from checker.finding import Severity
 from checker.report.files import package_folders
@@ -58,12 +59,10 @@ class StageLimits(Record):
 
 def limit(limits: StageLimits) -> None:
     """Take too much of everything away from this process; nothing that is tighter is loosened."""
-    from resource import RLIMIT_AS, RLIMIT_CPU
-
     seconds = max(1, int(limits.seconds))
     # At the soft limit the system sends SIGXCPU: SIGKILL would look as if it came from outside.
-    tighten(RLIMIT_CPU, seconds, seconds + 1)
-    tighten(RLIMIT_AS, limits.memory, limits.memory)
+    tighten("RLIMIT_CPU", seconds, seconds + 1)
+    tighten("RLIMIT_AS", limits.memory, limits.memory)
     hold_files_to(limits.file_bytes, limits.open_files)
 
 

@@ -22,7 +22,8 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from checker.base.errors import CheckerError
 from checker.base.files import UMASK
 from checker.base.output import EXIT_CRASH, EXIT_USAGE, say_progress
-from checker.base.sandbox.task import end_with_parent, tighter
+from checker.base.sandbox.task import end_with_parent
+from checker.base.system import tighter
 from checker.service.jobs.port import JobsUnreachable
 from checker.service.web.limits.rates import network_of
 
@@ -118,6 +119,8 @@ class Connection(H11Protocol):
 
     def _waiting(self) -> int:
         """Return the bytes that the client has not taken: megabytes of them the system holds."""
+        if sys.platform == "win32":
+            raise OSError("the service does not run on Windows")
         held = 0
         with suppress(OSError):  # of a socket, it is what is not acknowledged (SIOCOUTQ, tcp(7))
             answer = fcntl.ioctl(
@@ -179,6 +182,8 @@ def web(descriptor: int, proxies: str) -> None:
 
 def _allow_open_files() -> None:
     """Raise the limit of open files for all connections: many systems start with 1024."""
+    if sys.platform == "win32":
+        raise OSError("the service does not run on Windows")
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
