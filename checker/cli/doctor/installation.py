@@ -172,7 +172,7 @@ def _viewer() -> Result:
 
 LEAST_PYTHON = (3, 11)
 _NEEDED = re.compile(
-    r"(([\w.-]+)(?:\[\w+\])?\s*>=\s*([\d.]+))(?:\s*;\s*extra\s*==\s*['\"](\w+)['\"])?"
+    r"(([\w.-]+)(?:\[\w+\])?\s*>=\s*([\d.]+))(?:\s*;(?:.* and)?\s*extra\s*==\s*['\"](\w+)['\"])?"
 )
 """A requirement of `pyproject.toml`, of everybody or of an extra."""
 
