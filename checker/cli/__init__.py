@@ -13,7 +13,9 @@ from pathlib import Path
 from types import ModuleType
 
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, EXIT_INTERRUPTED, EXIT_USAGE
+from checker.base.words import Suggestions
 from checker.cli.arguments import EXITS
+from checker.cli.parser import Parser
 
 COMMANDS = {
     "check": "check packages",
@@ -52,13 +54,13 @@ def installed_commands() -> dict[str, str]:
     }
 
 
-def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
+def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> Parser:
     """Return the parser.
 
     Args:
         wanted: The commands of which arguments are known; the modules of others are not loaded.
     """
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="subt-check",
         description="Check robot model packages for simulation. "
         "`subt-check PATH` is short for `subt-check check PATH`.",
@@ -89,13 +91,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> int:
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    words = [*given]
     if words and words[0] not in (*installed_commands(), "-h", "--help", "--version"):
         words.insert(0, "check")
     _end_in_good_order()
     parser = build_parser(words[:1])
+    if words[:1] == ["check"] != given[:1]:
+        _refuse_misspelt_command(parser, given[0])
     options = parser.parse_args(words)
-    options.words = list(sys.argv[1:] if arguments is None else arguments)
+    options.words = given
     if options.version:
         from checker.base.resources import tool_version
 
@@ -105,6 +110,12 @@ def _run(arguments: Sequence[str] | None) -> int:
         parser.print_help()
         return EXIT_USAGE
     return _guarded(options)
+
+
+def _refuse_misspelt_command(parser: Parser, word: str) -> None:
+    near = Suggestions(installed_commands()).closest(word)
+    if near is not None and not Path(word).exists():
+        parser.error(f"{word!r} is neither a command nor a path; did you mean {near!r}?")
 
 
 def _end_in_good_order() -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from checker.base.errors import UnreadableInput
 from checker.base.record import Record
+from checker.base.words import Suggestions
 from checker.package.formats import single_file_suffixes
 from checker.package.kind import (
     enclosing_package,
@@ -90,12 +92,26 @@ def open_input(
         raise UnreadableInput(path, *reason_not_checked(shown))
 
 
+_NAMES_LIMIT = 1000
+"""Names beside a path that are compared with it."""
+
+
+def _near(path: Path) -> str:
+    """Return the advice about a path that does not exist."""
+    try:
+        names = [entry.name for entry in islice(path.parent.iterdir(), _NAMES_LIMIT)]
+    except OSError:
+        names = []
+    near = Suggestions(names).closest(path.name)
+    return f"did you mean {path.with_name(near)}?" if near else "check the spelling"
+
+
 def _resolved(path: Path) -> Path:
     try:
         real = path.resolve(strict=True)
         real.stat()
     except FileNotFoundError:
-        raise UnreadableInput(path, "does not exist", "check the spelling") from None
+        raise UnreadableInput(path, "does not exist", _near(path)) from None
     except (OSError, RuntimeError, ValueError) as error:
         reason = f"cannot be opened: {getattr(error, 'strerror', None) or error}"
         raise UnreadableInput(path, reason, "check its permissions and links") from None

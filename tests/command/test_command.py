@@ -291,6 +291,25 @@ def test_wrong_usage_ends_with_2(run: Run, arguments: list[str], said: str) -> N
     assert said in done.stdout + done.stderr
 
 
+@pytest.mark.parametrize(
+    ("arguments", "near"),
+    [
+        (["chek", "rover"], "'chek' is neither a command nor a path; did you mean 'check'?"),
+        (["check", "rover", "--no-trail"], "did you mean '--no-trial'?"),
+        (["check", "rover", "--distro", "jazy"], "did you mean 'jazzy'?"),
+        (["roover"], "roover does not exist; did you mean rover?"),
+    ],
+)
+def test_wrong_usage_names_what_is_near(
+    run: Run, tmp_path: Path, arguments: list[str], near: str
+) -> None:
+    (tmp_path / "rover").mkdir()
+    done = run(*arguments)
+    assert done.returncode == 2
+    assert near in done.stderr
+    assert done.stderr.count("\n") <= 2
+
+
 def test_the_version_is_that_of_the_distribution(run: Run) -> None:
     done = run("--version")
     assert done.stdout.startswith("subt-check ")

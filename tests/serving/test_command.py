@@ -28,7 +28,9 @@ def test_what_the_command_line_does_not_take(
     with pytest.raises(SystemExit) as ended:
         cli.main(words)
     assert ended.value.code == 2
-    assert "usage: subt-check" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert said.startswith(f"subt-check {words[0]}")
+    assert said.count("\n") == 2
 
 
 @pytest.mark.parametrize("name", ["serve", "worker", "submit", "admin"])
