@@ -92,12 +92,15 @@ def open_input(
         raise UnreadableInput(path, *reason_not_checked(shown))
 
 
+_ADDRESSES = ("http:", "https:", "ssh:", "git:", "git@")
 _NAMES_LIMIT = 1000
 """Names beside a path that are compared with it."""
 
 
 def _near(path: Path) -> str:
     """Return the advice about a path that does not exist."""
+    if str(path).startswith(_ADDRESSES):
+        return "nothing is fetched: `git clone` it first and check the folder"
     try:
         names = [entry.name for entry in islice(path.parent.iterdir(), _NAMES_LIMIT)]
     except OSError:

@@ -298,6 +298,7 @@ def test_wrong_usage_ends_with_2(run: Run, arguments: list[str], said: str) -> N
         (["check", "rover", "--no-trail"], "did you mean '--no-trial'?"),
         (["check", "rover", "--distro", "jazy"], "did you mean 'jazzy'?"),
         (["roover"], "roover does not exist; did you mean rover?"),
+        (["https://example.org/acme/rover.git"], "nothing is fetched: `git clone` it first"),
     ],
 )
 def test_wrong_usage_names_what_is_near(
