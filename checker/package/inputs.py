@@ -18,9 +18,17 @@ from checker.package.kind import (
     holds_loose_models,
     looks_like_package,
 )
-from checker.package.no_package import WHAT_TO_GIVE, content_of, reason_not_checked
+from checker.package.no_package import (
+    CHECKED_FORMATS,
+    WHAT_TO_GIVE,
+    content_of,
+    head_of,
+    models_of,
+    reason_not_checked,
+)
 from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
+from checker.package.unchecked_models import is_mjcf
 from checker.package.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -174,6 +182,8 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
         missing = f"contains no package except those that {found.ignored[0]} excludes"
+    elif models := models_of(folder):
+        missing, advice = f"contains no package; {models}", CHECKED_FORMATS
     elif not enclosing and (instead := content_of(folder)) is not None:
         missing = f"contains no package, but {instead.kind} ({instead.name})"
         advice = instead.advice
@@ -219,12 +229,17 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
         elif not any(unit.folder.is_relative_to(place) for unit in found.units):
             marks = [mark.name for mark in found.ignored if mark.is_relative_to(place)]
             why = f"is excluded by {marks[0]}" if marks else "contains no package"
-            yield Skipped(place.name, why)
+            models = "" if marks else models_of(place)
+            yield Skipped(place.name, f"{why}; {models}" if models else why)
 
 
 def _open_single(path: Path, file: Path) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
+    if is_mjcf(head_of(file)):
+        raise UnreadableInput(
+            path, "is a MuJoCo model (MJCF), which this version does not check", CHECKED_FORMATS
+        )
     beside = _siblings(file, None)
     workspace = Workspace(homes_of(beside, file.parent))
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))

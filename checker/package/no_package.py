@@ -8,6 +8,7 @@ from itertools import islice
 from pathlib import Path
 
 from checker.base.record import Record
+from checker.package.unchecked_models import HEAD, unchecked_models
 
 _FILES_LIMIT = 5_000
 """Files that are read, by their names."""
@@ -15,7 +16,8 @@ _SHOWN = 200
 _OTHER_ARCHIVES = (".zip", ".tar.gz", ".tgz", ".tar", ".tar.xz", ".tar.bz2", ".7z", ".rar")
 _MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")
 _CAD = (".step", ".stp", ".iges", ".sldasm", ".sldprt", ".f3d", ".blend", ".fcstd", ".ipt", ".iam")
-_OTHER_MODELS = (".mjcf", ".usd", ".usda", ".usdc", ".usdz", ".wbt", ".proto")
+_OTHER_MODELS = (".wbt", ".proto")
+CHECKED_FORMATS = "give the robot as URDF, xacro or SDF"
 _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
     _OTHER_ARCHIVES: (
         "an archive that is not read",
@@ -23,7 +25,7 @@ _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
     ),
     _OTHER_MODELS: (
         "a model for another simulator",
-        "give the robot as URDF, xacro or SDF; other formats are not checked yet",
+        f"{CHECKED_FORMATS}; other formats are not checked yet",
     ),
     _MESHES: (
         "a mesh",
@@ -51,15 +53,34 @@ class Instead(Record):
 
 def reason_not_checked(name: str) -> tuple[str, str]:
     """Return why a file that is neither archive nor model is not checked, and what to give."""
+    if found_models := unchecked_models([name], lambda _: ""):
+        return found_models[0].removeprefix(f"{name} "), CHECKED_FORMATS
     found = _instead([name])
     if found is None:
         return "is not a package, archive or model file", WHAT_TO_GIVE
     return f"is {found.kind}, not a package, archive or model file", found.advice
 
 
+def models_of(folder: Path) -> str:
+    """Return what the models are that a folder contains and no rule reads; empty without any."""
+    paths = (path.relative_to(folder).as_posix() for path in islice(_files(folder), _FILES_LIMIT))
+    return "; ".join(unchecked_models(paths, lambda path: head_of(folder / path)))
+
+
+def head_of(file: Path) -> str:
+    """Return the first characters of a file; empty if it is none or cannot be read."""
+    try:
+        if not file.is_file():
+            return ""
+        with file.open(encoding="utf-8", errors="replace") as opened:
+            return opened.read(HEAD)
+    except OSError:
+        return ""
+
+
 def content_of(folder: Path) -> Instead | None:
     """Return what a folder without a package contains; None if its names do not show it."""
-    return _instead(list(islice(_names(folder), _FILES_LIMIT)))
+    return _instead([file.name for file in islice(_files(folder), _FILES_LIMIT)])
 
 
 def _instead(names: list[str]) -> Instead | None:
@@ -70,8 +91,8 @@ def _instead(names: list[str]) -> Instead | None:
     return None
 
 
-def _names(folder: Path) -> Iterator[str]:
-    """Yield the names of files, those of hidden folders left out."""
-    for _, folders, files in os.walk(folder):
+def _files(folder: Path) -> Iterator[Path]:
+    """Yield the files, those of hidden folders left out."""
+    for place, folders, files in os.walk(folder):
         folders[:] = [name for name in sorted(folders) if not name.startswith((".", "__MACOSX"))]
-        yield from sorted(name for name in files if not name.startswith("."))
+        yield from (Path(place, name) for name in sorted(files) if not name.startswith("."))

@@ -69,6 +69,35 @@ def test_a_file_that_is_no_package(run: Run, tmp_path: Path, name: str) -> None:
     assert refused(run(name), f"{name} is not a package, archive or model file")
 
 
+MJCF = "<?xml version='1.0'?>\n<!-- an <sdf> no more -->\n<mujoco model='arm'><worldbody/></mujoco>"
+
+
+def test_models_of_mujoco_and_isaac_are_named(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "arm/scenes").mkdir(parents=True)
+    (tmp_path / "arm/part.stl").write_bytes(b"solid")
+    (tmp_path / "arm/scenes/arm.xml").write_text(MJCF)
+    unchecked = "which this version does not check; give the robot as URDF"
+    assert refused(run("arm"), f"no package; scenes/arm.xml is a MuJoCo model (MJCF), {unchecked}")
+    assert refused(run("arm/scenes/arm.xml"), f"arm.xml is a MuJoCo model (MJCF), {unchecked}")
+    (tmp_path / "arm/arm.usda").write_text("#usda 1.0")
+    assert refused(run("arm"), "(MJCF), which this version does not check; arm.usda is a USD file")
+    assert refused(run("arm/arm.usda"), f"arm.usda is a USD file, {unchecked}")
+
+
+def test_a_package_with_unchecked_models_is_incomplete(run: Run, rover: Path) -> None:
+    (rover / "arm.xml").write_text(MJCF)
+    for name in ("arm.usd", "lift.sdf.jinja", "model.sdf.erb"):
+        (rover / name).write_text("")
+    shown = run(rover, "--output-format", "json").stdout
+    reasons = {each["reason"] for each in json.loads(shown)["packages"][0]["not_checked"]}
+    unchecked = "which this version does not check"
+    assert {reason for reason in reasons if reason.endswith(unchecked)} == {
+        f"arm.xml is a MuJoCo model (MJCF), {unchecked}",
+        f"arm.usd is a USD file, {unchecked}",
+        f"lift.sdf.jinja is a template of a model, {unchecked}",
+    }
+
+
 def test_devices_and_pipes_are_not_read(run: Run, tmp_path: Path, rover: Path) -> None:
     os.mkfifo(tmp_path / "pipe.sdf")
     assert refused(run("pipe.sdf"), "is not a package, archive or model file")
