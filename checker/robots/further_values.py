@@ -20,6 +20,7 @@ _WHOLE = re.compile(r"\$\{\s{0,8}(?:not\s{1,8})?([A-Za-z_]\w{0,100})\s{0,8}\}")
 _COMPARED = re.compile(
     r"""\b([A-Za-z_]\w{0,100})['"]?\s{0,8}[=!]=\s{0,8}(?:['"]([\w./-]{1,100})['"]|(\d{1,9})\b)"""
 )
+_EITHER = re.compile(r"\b[A-Za-z_]\w{0,100}(?:\s{1,8}or\s{1,8}[A-Za-z_]\w{0,100}){1,9}")
 _OPPOSITES = {
     "true": "false",
     "false": "true",
@@ -45,9 +46,7 @@ def further_values(
         allowed: Values that a launch file allows, by name.
     """
     documents = [*documents]
-    elements = [
-        e for document in documents for e in document.elements if e.tag.startswith("xacro:")
-    ]
+    elements = [e for document in documents for e in document.elements if _is_xacro(e)]
     values = {**_defaults(elements), **chosen}
     aliases = {name: name for name in values} | _aliases(elements)
     listed = [(name, value) for name, options in allowed.items() for value in options]
@@ -59,6 +58,23 @@ def further_values(
     ]
     tried = dict.fromkeys((*listed, *found))
     return [(name, value) for name, value in tried if value != values.get(name)]
+
+
+def alternatives(documents: Iterable[XmlDocument], name: str) -> set[str]:
+    """Return the arguments of which one is chosen instead of another: `${classic or fortress}`."""
+    elements = [e for document in documents for e in document.elements if _is_xacro(e)]
+    aliases = _aliases(elements)
+    found: set[str] = set()
+    for element in elements:
+        for attribute in element.attributes.values():
+            for chain in _EITHER.findall(_ARGUMENT.sub(r"\1", attribute)):
+                named = {aliases.get(it, it) for it in chain.split()[::2]}
+                found |= named if name in named else set()
+    return found - {name}
+
+
+def _is_xacro(element: Element) -> bool:
+    return element.tag.startswith("xacro:")
 
 
 def _defaults(elements: Iterable[Element]) -> dict[str, str]:

@@ -12,7 +12,7 @@ from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.expansion import Expander, Expansions, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.package.package import Package
-from checker.robots.further_values import further_values
+from checker.robots.further_values import alternatives, further_values
 from checker.source.xml import XmlDocument
 
 TRIED_LIMIT = 8
@@ -31,11 +31,29 @@ class Made(Record, eq=False):
         wish: What was expanded.
         document: The result.
         allowed: Values that a launch file allows for arguments, by name.
+        loaded: Whether a launch file loads it.
     """
 
     wish: Wanted
     document: XmlDocument
     allowed: Mapping[str, tuple[str, ...]]
+    loaded: bool = False
+
+    @property
+    def read(self) -> Sequence[XmlDocument]:
+        """The documents that it is made of."""
+        source = self.document.source
+        return source.read if isinstance(source, ExpandedText) else ()
+
+    def with_value(self, name: str, value: str) -> Wanted:
+        """Return what to expand with another value, without the given values that it excludes."""
+        instead = alternatives(self.read, name)
+        kept = {
+            other: given
+            for other, given in self.wish.args.items()
+            if other not in instead or given.lower() != value.lower()
+        }
+        return replace(self.wish, args={**kept, name: value})
 
 
 def other_robots(
@@ -50,8 +68,8 @@ def other_robots(
         given: Names of the arguments that the user gives: these have one value.
     """
     tried = [
-        (replace(robot.wish, args={**robot.wish.args, name: value}), f"{name}:={value}")
-        for robot in made
+        (robot.with_value(name, value), f"{name}:={value}")
+        for robot in sorted(made, key=_importance)
         for name, value in _further_values(package, robot)
         if name not in given
     ][:TRIED_LIMIT]
@@ -69,7 +87,10 @@ def other_robots(
             yield replace(read_description(outcome, wish.path, for_rviz=False), values=values)
 
 
+def _importance(robot: Made) -> tuple[bool, bool]:
+    """Return a key that sorts loaded robots first, and files of macros alone last."""
+    return robot.document.root.child("link") is None, not robot.loaded
+
+
 def _further_values(package: Package, robot: Made) -> list[tuple[str, str]]:
-    source = robot.document.source
-    read = source.read if isinstance(source, ExpandedText) else ()
-    return further_values(package, read, robot.wish.args, robot.allowed)
+    return further_values(package, robot.read, robot.wish.args, robot.allowed)

@@ -145,8 +145,9 @@ class PackageDescriptions:
     def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
         """Yield the robots that other values of arguments make, and the faults that they meet."""
         allowed = {it.path: {**it.choices, **it.offered} for it in self._candidates}
+        loaded = {it.path for it in self._candidates if it.loaded}
         made = [
-            Made(self._taken[path], outcome, allowed[path])
+            Made(self._taken[path], outcome, allowed[path], path in loaded)
             for path, outcome in expanded.items()
             if isinstance(outcome, XmlDocument) and outcome.root.tag == "robot"
         ]

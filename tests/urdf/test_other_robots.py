@@ -9,6 +9,7 @@ import pytest
 
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
+from checker.robots.other_robots import TRIED_LIMIT
 from checker.settings import find_settings
 from tests.urdf.test_ros2_launch_arguments import PACKAGE
 
@@ -131,3 +132,31 @@ def test_a_suppression_of_what_another_value_leads_to_is_of_use(tmp_path: Path) 
     assert not messages(report, "KIN001")
     assert [it.finding.message for it in report.suppressed]
     assert not messages(report, "CFG002")
+
+
+SWITCHES = """
+  <xacro:arg name="classic" default="false"/>
+  <xacro:arg name="fortress" default="false"/>
+  <xacro:if value="$(arg fortress)"><link name="simulated"/></xacro:if>
+  <xacro:if value="$(arg classic)"><link name="simulated"/></xacro:if>
+"""
+EITHER = '<xacro:if value="$(eval classic or fortress)"><link name="sensor"/></xacro:if>'
+
+
+@pytest.mark.parametrize(("body", "expected"), [(SWITCHES, True), (SWITCHES + EITHER, False)])
+def test_a_switch_is_tried_without_the_one_that_it_excludes(
+    tmp_path: Path, body: str, *, expected: bool
+) -> None:
+    launch = LAUNCH.replace("' tool:=', LaunchConfiguration('tool')", "' fortress:=true'")
+    report = judged(tmp_path, body, ("launch/view.launch.py", launch))
+    assert any("simulated" in message for message in messages(report, "URD004")) is expected
+
+
+def test_robots_are_tried_before_files_of_macros(tmp_path: Path) -> None:
+    numbers = range(TRIED_LIMIT - 1)
+    tests = "".join(f"<xacro:if value=\"${{tool == 'a{n}'}}\"/>" for n in numbers)
+    macros = (
+        f'{HEAD}<xacro:arg name="tool" default="none"/>'
+        f'<xacro:macro name="m" params="tool">{tests}</xacro:macro></robot>'
+    )
+    assert messages(judged(tmp_path, TEST, ("urdf/a.xacro", macros)), "KIN001")
