@@ -4,7 +4,8 @@ A camera or an antenna in the air next to the robot usually has a wrong pose: a 
 sign, a unit, or the pose of another configuration. A box of a centimetre that marks a frame, such
 as `base_footprint`, is not a part. In published robots, intended gaps measure up to 16 mm, and
 mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin, it is an info: two
-tables in one file stand apart by intent.
+tables in one file stand apart by intent. Two arms may stand apart as well, each with a base that is
+fixed to the world or to a root link without shapes.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.
@@ -16,6 +17,7 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.robot import Robot
+from checker.model.tree import WORLD, link_tree
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _EQUAL = 1e-6
@@ -60,7 +62,9 @@ def check(
     members = [[shapes[number] for number in group] for group in groups]
     body = max(members, key=_diagonal)
     for group in members:
-        if group is not body and _diagonal(group) > marker:
+        if group is body or (_stands_alone(robot, group) and _stands_alone(robot, body)):
+            continue
+        if _diagonal(group) > marker and not (is_scenery and _shows_frames(group)):
             own = {*group}
             others = (piece for piece in shapes if piece not in own)
             distance = _distance(group, [piece.box for piece in others])
@@ -84,6 +88,28 @@ def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> l
         shape.box.grown(reach) if shape.link.scoped_name in wheels else shape.box
         for shape in shapes
     ]
+
+
+def _stands_alone(robot: Robot, group: Sequence[Placed]) -> bool:
+    """Return whether a group is a mechanism on a base of its own, such as one of two arms."""
+    tree, links = link_tree(robot), {piece.link.scoped_name for piece in group}
+    wheels = {wheel.scoped_name for wheel in robot.wheels}
+    empty = {name for name, link in tree.links.items() if not (link.collisions or link.visuals)}
+    roots = {WORLD, *(empty - tree.ties_above.keys())}
+    ties = [tie for tie in tree.ties if tie.child in links]
+    based = any(tie.parent in roots and tie.joint.type.value == "fixed" for tie in ties)
+    moving = (tie for tie in ties if tie.joint.type.value != "fixed" and tie.parent in links)
+    return based and any(tie.child not in wheels for tie in moving)
+
+
+def _shows_frames(group: Sequence[Placed]) -> bool:
+    """Return whether a group only marks frames: nothing of it has a mass or collides."""
+    links = (piece.link for piece in group)
+    return not any(link.collisions or link.inertial for link in links)
+
+
+def _length(metres: float) -> str:
+    return f"{metres:.3g} m" if metres >= 1.0 else f"{metres * 1e3:.3g} mm"
 
 
 def _diagonal(group: Sequence[Placed]) -> float:
@@ -114,7 +140,7 @@ def _floating_part(
     return finding(
         first.shape,
         f"{first.shape.name.value!r}{more} of {first.link.name.value!r} at ({x:.3g}, {y:.3g}, "
-        f"{z:.3g}) m: the nearest other part is {distance * 1e3:.3g} mm away, expected at most "
+        f"{z:.3g}) m: the nearest other part is {_length(distance)} away, expected at most "
         f"{gap * 1e3:g} mm",
         severity=severity,
     )
@@ -160,7 +186,30 @@ _WHEEL = """
   <parent>body</parent><child>left_wheel</child><axis><xyz>0 1 0</xyz></axis>
 </joint>
 """
+
+
+def _arms(mount: str, mark: str = "") -> object:
+    box = '<geometry>\n<box size="0.1 0.1 0.1"/>\n</geometry>'
+
+    def arm(name: str, y: float, mark: str = "") -> str:
+        return f"""
+<link name="{name}_base">
+  <visual>{mark}{box}</visual>
+</link>
+<link name="{name}_arm"><visual>{box}</visual></link>
+<joint name="{name}_mount" type="{mount}">
+  <parent link="base_link"/><child link="{name}_base"/><origin xyz="0 {y} 0"/>
+</joint>
+<joint name="{name}_turn" type="continuous">
+  <parent link="{name}_base"/><child link="{name}_arm"/><origin xyz="0 0 0.1"/>
+</joint>
+"""
+
+    return {"@urdf": arm("left", -1.0) + arm("right", 1.0, mark)}
+
+
 GOOD = [
+    _arms("fixed"),
     _WHEEL,
     _camera("0.4 0 0.17"),
     _camera("0.4 0 0.15"),
@@ -168,4 +217,8 @@ GOOD = [
     _camera("0 0 0.45", bracket=_BRACKET),
     _camera("0 0 0.45").replace("0.1 0.1 0.1", "0.01 0.01 0.01"),
 ]
-BAD = [_camera("0 0 0.45", _MARK), _camera("1.5 0 0", _MARK)]
+BAD = [
+    _camera("0 0 0.45", _MARK),
+    _camera("1.5 0 0", _MARK),
+    _arms("floating", _MARK),
+]
