@@ -6,7 +6,8 @@ all conditions: the smallest eigenvalue of the pseudo-inertia, the matrix of the
 mass, must not be negative.
 
 Fix: take mass, centre of mass and inertia from CAD, all in kg and m and about the centre of mass.
-Look for a moment that is too large by a factor of 1000, or a lost sign.
+Look for a moment that is too large by a factor of 1000, or a lost sign; where the products of
+inertia are placeholders, write 0 for these.
 In URDF a link with a mass of zero is a frame without a body; URD007 reports one that moves.
 Source: Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
 parameter identification", 2018; libsdformat 12 refuses negative masses and impossible moments, and
@@ -110,6 +111,9 @@ def _moments(
     moments = ", ".join(f"{moment:.4g}" for moment in inertia.principal)
     less = f"{first:.4g} + {second:.4g} is less than {third:.4g}"
     why = f"{first:.4g} is negative" if first < 0.0 else less
+    least, middle, most = sorted(inertial.moments[number].value for number in (0, 3, 5))
+    if least > 0.0 and most <= least + middle:
+        why += "; ixx, iyy and izz are possible with ixy, ixz and iyz of 0"
     yield finding(
         inertia.moments_span,
         f"link {name!r} has principal moments of inertia of {moments} kg·m², which no physical "

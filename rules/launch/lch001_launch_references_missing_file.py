@@ -2,7 +2,8 @@
 
 An included file is not started; a node that gets the path ends, or runs without its parameters. The
 name of an included file is written in full, `robot.launch.py` and not `robot`. Worlds and
-parameters in packages that are not available are not checked; files that the build generates are
+parameters in packages that are not available are not checked, nor is what a setup.py that computes
+its `data_files` may install; files that the build generates are
 not checked, nor those that a node writes by the name of its parameter: `output_file`. Launch skips
 a parameter file whose path is empty. Where a condition leaves the action out, for files that only
 RViz shows or that `.gitignore` excludes, for files of a node that has a parameter about saving, and
@@ -19,6 +20,7 @@ from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import (
     is_missing,
     lies_elsewhere,
+    may_be_installed,
     named_paths,
     unavailable,
 )
@@ -37,7 +39,13 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
             is_data = named.needed and named.path.path.endswith(_DATA)
             if is_data and (why := unavailable(package, named.path.package)):
                 yield unchecked(f"{named.path} is not read: {why}")
-            elif is_missing(package, named.path):
+            elif not is_missing(package, named.path):
+                continue
+            elif may_be_installed(package, named.path):
+                yield unchecked(
+                    f"{named.path} may be installed: data_files of setup.py is computed"
+                )
+            else:
                 what = "the included file" if named.include else "the file"
                 found = lies_elsewhere(package, named.path)
                 hint = f": {found} is not installed there" if found else ""
@@ -108,7 +116,14 @@ ament_package()
             os.path.join(get_package_share_directory('nav2_bringup'), 'launch', 'x.launch.py'))),"""
     },
 ]
+_COMPUTED = """from glob import glob
+from setuptools import setup
+
+setup(name="acme_arm_bringup", data_files=[
+    ("share/acme_arm_bringup/" + path.partition("/")[0], [path]) for path in glob("assets/**/*")])
+"""
 BAD = [
+    {"@ros2": f"{_WORLD}  # ^ LCH001", "CMakeLists.txt": None, "setup.py": _COMPUTED},
     {"@ros2": _SAVED},
     {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},
     {

@@ -12,7 +12,7 @@ templates are infos.
 from collections.abc import Iterator
 
 from checker.base.resources import table
-from checker.base.words import Suggestions
+from checker.base.words import Suggestions, and_list
 from checker.model.plugin_library import PluginLibrary, library_stem, plugin_libraries
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -56,18 +56,25 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         library = libraries.get(stem)
         if library is None or library.parameters is None:
             continue
-        suggestions = Suggestions(sorted(library.parameters))
         of_ros_1 = _of_ros_1(stem) if context.is_classic else frozenset()
-        for element in _unread(plugin.element, library):
-            if element.tag in of_ros_1:
-                continue  # PLG012 says so.
-            meant = _MEANT.get(element.tag) or suggestions.closest(element.tag)
-            hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
-            yield finding(
-                element,
-                f"{plugin.label} does not read <{element.tag}>{hint}",
-                severity=Severity.INFO if element.tag in harmless else None,
-            )
+        # PLG012 reports those of ROS 1.
+        unread = [it for it in _unread(plugin.element, library) if it.tag not in of_ros_1]
+        for of_no_harm in (False, True):
+            elements = [it for it in unread if (it.tag in harmless) is of_no_harm]
+            named = and_list([*dict.fromkeys(_hinted(it.tag, library) for it in elements)])
+            for element in elements:
+                yield finding(
+                    element,
+                    f"{plugin.label} does not read {named}",
+                    severity=Severity.INFO if of_no_harm else None,
+                )
+
+
+def _hinted(name: str, library: PluginLibrary) -> str:
+    """Return an element, with the parameter that is meant."""
+    known = library.parameters or ()
+    meant = _MEANT.get(name) or Suggestions(sorted(known)).closest(name)
+    return f"<{name}> (did you mean <{meant}>?)" if meant in known else f"<{name}>"
 
 
 def _of_ros_1(stem: str) -> frozenset[str]:

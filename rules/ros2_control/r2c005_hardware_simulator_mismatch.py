@@ -6,10 +6,11 @@ as `mock_components/GenericSystem`, the controllers run and the simulated robot 
 Without any `<ros2_control>` tag the plugin stops, and there is no controller manager. The plugin's
 `name` is the class that is loaded from the library; it cannot be chosen freely.
 
-Fix: write `<plugin filename="gz_ros2_control-system"
-name="gz_ros2_control::GazeboSimROS2ControlPlugin">` below `<gazebo>`, with `<parameters>`, and
-`gz_ros2_control/GazeboSimSystem` as hardware; in Fortress `ign_ros2_control-system`,
-`ign_ros2_control::IgnitionROS2ControlPlugin` and `ign_ros2_control/IgnitionSystem`.
+Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
+from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
+`gz_ros2_control/GazeboSimSystem`; in Fortress `ign_ros2_control-system`,
+`ign_ros2_control::IgnitionROS2ControlPlugin` and `ign_ros2_control/IgnitionSystem`; in Gazebo
+Classic `libgazebo_ros2_control.so`, any name, and `gazebo_ros2_control/GazeboSystem`.
 Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branch.
 """
 
@@ -34,6 +35,14 @@ _PACKAGES: Mapping[str, tuple[str, ...]] = {
     "gazebo_ros2_control": ("gazebo_ros2_control",),
 }
 """The packages whose hardware a plugin of a library loads."""
+_HARDWARE: Mapping[str, str] = {
+    "gz_ros2_control-system": "gz_ros2_control/GazeboSimSystem",
+    "ign_ros2_control-system": "ign_ros2_control/IgnitionSystem",
+    "gazebo_ros2_control": "gazebo_ros2_control/GazeboSystem",
+}
+"""The hardware that goes with a plugin's library."""
+_FILES: Mapping[str, str] = {"gazebo_ros2_control": "libgazebo_ros2_control.so"}
+"""Names of the files of libraries that are loaded by these alone."""
 _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in names)
 
 
@@ -59,7 +68,8 @@ def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[
             yield finding(
                 manager,
                 f"{manager.plugin.filename.value} cannot load hardware "
-                f"{hardware.plugin.value!r}, which is for another simulator",
+                f"{hardware.plugin.value!r}, which is for another simulator: expected "
+                f"{_HARDWARE[manager.library]!r}",
                 key=f"{manager.library} {owner}",
                 related=[(hardware.plugin, "the hardware")],
             )
@@ -86,10 +96,11 @@ def _disagreement(control: RobotControl) -> Iterator[Finding]:
             key="no tag",
         )
     elif simulated and not control.managers:
+        plugin = _plugin_for(simulated[0].plugin.value)
         yield finding(
             simulated[0].plugin,
             f"hardware {simulated[0].plugin.value!r} needs a plugin of Gazebo that runs the "
-            "controller manager, but the robot has none",
+            f"controller manager, but the robot has none{plugin}",
             severity=Severity.WARNING,
             key="no plugin",
         )
@@ -98,11 +109,28 @@ def _disagreement(control: RobotControl) -> Iterator[Finding]:
         yield finding(
             others[0].plugin,
             f"Gazebo runs the controller manager, but the hardware is {others[0].plugin.value!r}: "
-            "the simulated robot does not move",
+            f"the simulated robot does not move{_hardware_for(plugin)}",
             severity=Severity.WARNING,
             key="no hardware",
             related=[(plugin, "the plugin of Gazebo")],
         )
+
+
+def _plugin_for(hardware: str) -> str:
+    """Return what to write for hardware of Gazebo that has no plugin."""
+    library = next((it for it, known in _HARDWARE.items() if known == hardware), "")
+    name = next(iter(_CLASSES.get(library, ())), library)
+    return (
+        f': write <plugin filename="{_FILES.get(library, library)}" name="{name}">'
+        if library
+        else ""
+    )
+
+
+def _hardware_for(manager: GazeboManager) -> str:
+    """Return what to write as hardware for a plugin of Gazebo."""
+    known = _HARDWARE.get(manager.library)
+    return f": write {known}" if known else ""
 
 
 def _arm(plugin: str, hardware: str = GAZEBO) -> object:

@@ -126,6 +126,16 @@ GOOD = [
     _arm(_BLOCK + _JOINTS + _SIZES + "    pose_covariance_diagonal: [0.0, 0.1, 1.0]"),
 ]
 BAD = [
+    {
+        "@urdf": ros2_control(SHOULDER),
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    grip: {{type: position_controllers/GripperActionController}}
+grip:{_MARK}
+  ros__parameters:
+    joints: [shoulder]
+""",
+    },
     _arm(_MARK + _BLOCK + _JOINTS),
     _arm(f"{_BLOCK}{_JOINTS}    wheel_radius: 0.1\n    wheel_separation: 1{_MARK}"),
     _arm(_BLOCK + _JOINTS + _SIZES + f"    open_loop: 1{_MARK}"),

@@ -5,8 +5,7 @@ effect. Usually a name is misspelt, belongs to another controller, or is of anot
 Since Jazzy, the drives read `TwistStamped` only: `use_stamped_vel: false` is ignored, and messages
 of type `Twist` do not move the robot.
 
-Fix: remove the parameter, or correct its name. Publish `geometry_msgs/msg/TwistStamped` from Jazzy
-on.
+Fix: remove the parameter, or correct its name.
 Source: parameter files of ros2_controllers, by branch.
 """
 
@@ -55,7 +54,10 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             grave = name == _STAMPED and parameter.node.scalar is False
             message = f"{name} of {of_type} has no effect in ROS 2 {distribution.title()}"
             if grave:
-                message += ": the controller reads TwistStamped, and Twist does not move the robot"
+                message += (
+                    ": the controller reads TwistStamped, and Twist does not move the robot; "
+                    "publish geometry_msgs/msg/TwistStamped"
+                )
             elif not elsewhere:
                 message = f"{of_type} has no parameter {name}{suggestions.hint(name)}"
             yield finding(

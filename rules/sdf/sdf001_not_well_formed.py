@@ -59,7 +59,8 @@ def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
 
 def _message(path: str, fault: XmlFault) -> str:
     hint = f": {fault.hint}" if fault.hint else ""
-    return f"{path} is not well-formed: {fault.message}{hint}"
+    breaks = "; colcon and catkin cannot read the package" if path == "package.xml" else ""
+    return f"{path} is not well-formed: {fault.message}{hint}{breaks}"
 
 
 def _top(path: str) -> Span:

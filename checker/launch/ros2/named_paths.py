@@ -152,6 +152,15 @@ def _known_packages() -> frozenset[str]:
     return frozenset((*GAZEBO, *(node.partition("/")[0] for node in table("ros_nodes")["nodes"])))
 
 
+def may_be_installed(package: Package, path: SharePath) -> bool:
+    """Return whether a setup.py that computes its `data_files` may install a file of that name."""
+    holder = holder_of(package, path.package)
+    if holder is None or holder.setup is None or holder.setup.complete:
+        return False
+    name = posixpath.basename(path.path)
+    return any(posixpath.basename(file.path) == name for file in holder.index.files)
+
+
 def lies_elsewhere(package: Package, path: SharePath) -> str:
     """Return where a package has a file of that name, if it has just one; else nothing."""
     holder = holder_of(package, path.package)
