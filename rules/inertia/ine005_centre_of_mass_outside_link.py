@@ -4,7 +4,8 @@ The link swings about a point outside itself, and the robot leans to one side. U
 `<inertial>` refers to another frame, or is in millimetres. The centre of mass of a body cannot be
 outside the box around it. But shapes may leave out a part, such as a nut at the end of a rod or the
 battery above a skirt: among published robots, centres of mass up to 0.1 of the diagonal outside are
-of this kind, and those from 0.2 on are wrong.
+of this kind, and those from 0.2 on are wrong. A distance larger than the robot, such as `00064528`
+for `0.0064528`, is an error for any link: joints have to hold the weight at that distance.
 
 Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
 and inertia belong to the same part.
@@ -14,6 +15,7 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 import math
 
 from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import union
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -34,18 +36,23 @@ def check(
             farther outside is an error.
         warning_above: Distance from the box as a share of its diagonal; a centre of mass farther
             outside is a warning, a closer one is skipped.
-        share: Share of the robot's mass; a link with no more may be a placeholder and is skipped.
+        share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
+            unless its centre of mass is farther away than the robot is large.
     """
     if masses.robot.is_static:
         return
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
+    boxes = {link.scoped_name: known_box(masses.robot, link) for link in masses.robot.links}
+    whole = union(box for box in boxes.values() if box is not None)
     for name, inertia in masses.weighed.items():
-        inertial, centre = inertia.link.inertial, inertia.centre
-        if inertial is None or centre is None or not masses.share(name) > share:
+        inertial, centre, box = inertia.link.inertial, inertia.centre, boxes[name]
+        if inertial is None or centre is None:
             continue
-        box = known_box(masses.robot, inertia.link)
         outside = math.inf if box is None else box.gap(Box(centre, centre))
+        far = box is not None and whole is not None and outside > whole.diagonal
+        if not far and not masses.share(name) > share:
+            continue
         if box is not None and outside <= warning_above * box.diagonal:
             continue
         unknown = unknown_mesh(masses.robot, inertia.link)
@@ -53,7 +60,7 @@ def check(
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:
             mounted = masses.robot.is_mounted(name)
-            grave = outside > error_above * box.diagonal and not mounted
+            grave = far or (outside > error_above * box.diagonal and not mounted)
             yield finding(
                 inertial.pose,
                 f"the centre of mass of link {inertia.link.name.value!r} is {outside:.3g} m "
@@ -75,4 +82,20 @@ def _body(x: float, mark: str = "") -> str:
 
 _MARK = "  <!-- ^ INE005 -->"
 GOOD = [_body(0), _body(0.29), _body(0.31), _body(0.37)]
-BAD = [_body(0.43, _MARK), _body(0.9, _MARK)]
+_FINGER = """
+<link name="finger">
+  <inertial>
+    <origin xyz="{} 0 0"/>{}
+    <mass value="0.001"/>
+    <inertia ixx="1e-7" ixy="0" ixz="0" iyy="1e-7" iyz="0" izz="1e-7"/>
+  </inertial>
+  <collision><geometry><box size="0.02 0.01 0.01"/></geometry></collision>
+</link>
+<joint name="grip" type="fixed"><parent link="upper_arm"/><child link="finger"/></joint>
+"""
+GOOD += [{"@urdf": _FINGER.format("0.0064528", "")}]
+BAD = [
+    _body(0.43, _MARK),
+    _body(0.9, _MARK),
+    {"@urdf": _FINGER.format("00064528", _MARK)},
+]

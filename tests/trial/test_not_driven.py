@@ -94,3 +94,16 @@ def test_constants_that_a_motor_does_not_state_are_the_plugin_s(tmp_path: Path) 
     plan = plan_of(robot)
     assert len(plan.rotors) == 4
     assert not plan.notes
+
+
+def test_a_robot_whose_collision_mesh_is_missing(tmp_path: Path) -> None:
+    package = changed("subtcheck_buggy", tmp_path)
+    model = package / "model.sdf"
+    text = model.read_text("utf-8")
+    before, opening, after = text.partition("<collision")
+    _, closing, rest = after.partition("</geometry>")
+    mesh = "<geometry><mesh><uri>meshes/gone.stl</uri></mesh>"
+    model.write_text(f'{before}{opening} name="c">{mesh}{closing}{rest}', "utf-8")
+    report = driven(package)
+    assert not report.findings
+    assert "the collision mesh meshes/gone.stl does not exist" in report.blind_spots[0].reason

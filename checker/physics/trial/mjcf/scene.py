@@ -20,7 +20,10 @@ from checker.physics.trial.trial import Repair
 # What of a robot a trial is about: whether there can be one, whose pose counts, what can move.
 
 
-_UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSCALED)
+_UNSEEN = (
+    *(MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSCALED),
+    *(MeshTrouble.MISSING, MeshTrouble.POINTER),
+)
 """Kinds of unread collision meshes: without such a mesh, the trial would be of another robot."""
 
 
