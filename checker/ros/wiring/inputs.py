@@ -68,14 +68,21 @@ def inputs(node: WiredNode) -> Iterator[Input]:
                 yield Input(setting.text, types, name, setting)
     if node.program in _MONITORS:
         yield from _sources("", node.settings, "type")
-    if node.program in _COSTMAPS and node.full_name and node.node.kind is not NodeKind.COMPONENT:
-        yield from _of_costmap(node, _COSTMAPS[node.program])
+    yield from _of_costmap(node)
 
 
-def _of_costmap(node: WiredNode, name: str) -> Iterator[Input]:
-    """Yield absolute topics alone: what others are relative to, distributions differ in."""
+def costmap_of(node: WiredNode) -> tuple[str, Mapping[str, Setting]]:
+    """Return the name and the parameters of the costmap that a node of Nav2 makes; else nothing."""
+    name = _COSTMAPS.get(node.program, "")
+    if not name or not node.full_name or node.node.kind is NodeKind.COMPONENT:
+        return "", {}
     above = node.node.namespace.rstrip("/")
-    settings = settings_of(node.node, node.files, name, f"{above}/{name}")
+    return name, settings_of(node.node, node.files, name, f"{above}/{name}")
+
+
+def _of_costmap(node: WiredNode) -> Iterator[Input]:
+    """Yield absolute topics alone: what others are relative to, distributions differ in."""
+    _, settings = costmap_of(node)
     layers = settings.get("plugins")
     for layer in layers.value if layers is not None and isinstance(layers.value, list) else ():
         enabled = settings.get(f"{layer}.enabled")
