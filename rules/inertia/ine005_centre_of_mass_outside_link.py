@@ -81,7 +81,6 @@ def _body(x: float, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ INE005 -->"
-GOOD = [_body(0), _body(0.29), _body(0.31), _body(0.37)]
 _FINGER = """
 <link name="finger">
   <inertial>
@@ -93,7 +92,10 @@ _FINGER = """
 </link>
 <joint name="grip" type="fixed"><parent link="upper_arm"/><child link="finger"/></joint>
 """
-GOOD += [{"@urdf": _FINGER.format("0.0064528", "")}]
+GOOD = [
+    *map(_body, (0, 0.29, 0.31, 0.37)),
+    {"@urdf": _FINGER.format("0.0064528", "")},
+]
 BAD = [
     _body(0.43, _MARK),
     _body(0.9, _MARK),

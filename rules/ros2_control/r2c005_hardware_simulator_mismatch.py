@@ -96,11 +96,11 @@ def _disagreement(control: RobotControl) -> Iterator[Finding]:
             key="no tag",
         )
     elif simulated and not control.managers:
-        plugin = _plugin_for(simulated[0].plugin.value)
+        missing = _plugin_for(simulated[0].plugin.value)
         yield finding(
             simulated[0].plugin,
             f"hardware {simulated[0].plugin.value!r} needs a plugin of Gazebo that runs the "
-            f"controller manager, but the robot has none{plugin}",
+            f"controller manager, but the robot has none{missing}",
             severity=Severity.WARNING,
             key="no plugin",
         )
