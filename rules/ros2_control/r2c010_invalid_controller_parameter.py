@@ -81,7 +81,10 @@ def _missing(
     if not wanting:
         return
     own = controller.block is not None
-    lacks = f"has no {and_list(wanting)}" if own else f"has no block, but needs {and_list(wanting)}"
+    names = and_list(wanting)
+    lacks = (
+        f"has no {names}, so it is not configured" if own else f"has no block, but needs {names}"
+    )
     yield finding(
         controller.span,
         f"{controller.label} {lacks}{'' if own else blocks.hint(controller.name)}",

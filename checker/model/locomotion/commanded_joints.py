@@ -18,6 +18,9 @@ _PUBLISHERS = ("Broadcaster", "JointStateController")
 """Ends of the classes of controllers that move nothing."""
 _JOINTS = ("joints", "joint", "dof_names")
 """Parameters that name joints, of controllers that are no drive."""
+_OF_GRIPPERS = ("joint",)
+_GRIPPER = "GripperActionController"
+"""Class of a controller that reads no list of joints."""
 _TRAJECTORIES = "JointTrajectoryController"
 """Class of a plugin of Gazebo Sim that moves all joints if it names none."""
 _PLUGINS = frozenset(
@@ -54,7 +57,8 @@ def commanded_joints(robot: Robot) -> dict[str, Mover]:
     for controller in moving_controllers(robot):
         if controller.class_name not in DRIVING_CONTROLLERS:
             mover = Mover(controller.class_name, controller.name)
-            for named in controller.texts(*_JOINTS):
+            parameters = _OF_GRIPPERS if controller.class_name == _GRIPPER else _JOINTS
+            for named in controller.texts(*parameters):
                 if named.value in robot.joints_by_name:
                     commanded.setdefault(named.value, mover)
     for name, kind in _by_plugins(robot):
