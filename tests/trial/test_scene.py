@@ -133,7 +133,7 @@ FLAT = tuple((x, y, 0.0) for x, y, _ in CUBE)
 @pytest.mark.parametrize(
     ("mesh", "said", "serious"),
     [
-        (MeshFault(MeshTrouble.MISSING, "is missing"), "uses a mesh that is missing", True),
+        (MeshFault(MeshTrouble.UNREADABLE, "is empty"), "uses a mesh that is empty", True),
         (Mesh("a.dae", "dae", 2, (0, 0, 0), (1, 1, 0), hull=FLAT), "without volume", True),
         (Mesh("a.dae", "dae", 0, (0, 0, 0), (0, 0, 0)), "without volume", True),
     ],
@@ -148,7 +148,10 @@ def test_a_mesh_that_cannot_be_had_is_left_out(
     assert scene.repairs[0].what.endswith("and is left out")
 
 
-@pytest.mark.parametrize("trouble", [MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED])
+_UNKNOWN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSING)
+
+
+@pytest.mark.parametrize("trouble", _UNKNOWN)
 def test_without_a_mesh_that_it_may_stand_on_there_is_no_trial(trouble: MeshTrouble) -> None:
     assert meshed(MeshFault(trouble, "was not searched")).unusable.endswith("was not searched")
 
