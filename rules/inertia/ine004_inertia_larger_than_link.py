@@ -44,8 +44,8 @@ def check(
             mass near the centre (a solid ball has 0.63).
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
             is too large is an info, one that is too small is skipped.
-        placeholder: kg; a link of at most this mass whose mass and moments are powers of ten, the
-            moments all equal, was never weighed: a warning.
+        placeholder: Mass, kg. A link of at most this mass whose mass and moments are powers of ten,
+            the moments all equal, was never weighed: a warning.
     """
     if masses.robot.is_static:
         return
