@@ -1,12 +1,14 @@
 """CMakeLists.txt or setup.py builds or installs something that does not exist.
 
-The build stops there with an error, and the rest is not installed. This holds for the files and
-folders of `install()`, its targets, the sources of a target, the folder of
-`ament_python_install_package()`, and the files of `data_files`, which takes no folders. No accepted
-package that we checked has this fault.
+The build stops there with an error, and nothing of the package can be started. This holds for the
+files and folders of `install()`, its targets, the sources of a target, the folder of
+`ament_python_install_package()`, and the files of `data_files`, which takes no folders. In a
+package of ROS 1, a missing file or folder is a warning: only `catkin_make install` needs it. No
+accepted package that we checked has this fault.
 
 Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, installs the
-files that exist. git does not keep empty folders.
+files that exist. git does not keep empty folders; `git add -f FILE` adds a file that `.gitignore`
+excludes.
 Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder, `cmake` with
 "Cannot find source file" or "does not exist" for a source or target; setuptools, tested: "can't
 copy …: doesn't exist or not a regular file".
@@ -16,11 +18,14 @@ import posixpath
 import re
 from collections.abc import Iterator, Sequence
 
-from checker.finding import Fix
+from checker.base.record import Record
+from checker.base.words import and_list
+from checker.finding import Fix, Safety
+from checker.package.git_ignored import ignored_by
 from checker.package.installed import GENERATES
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.rule import Concern, Finding, Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.cmake import CMakeFile, Install
 from checker.source.cmake_calls import Call
 from checker.source.text import Located
@@ -38,36 +43,72 @@ _USES = re.compile(
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
 
 
-@rule("PKG009", "installs-nothing", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork) -> Findings:
+class _Build(Record):
+    """What stops, as messages name it, and the severity where only an installation stops."""
+
+    name: str
+    when_installed: Severity | None = None
+
+
+@rule("PKG009", "installs-nothing", Severity.ERROR, Concern.ROBOT)
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Look up everything that is built or installed from the package's folder."""
+    stops = _build_of(package, context)
     build = paperwork.build
     if build is None:
-        yield from _of_setup(package)
+        yield from _of_setup(package, stops)
         return
-    yield from _unknown_targets(build)
-    yield from _missing_sources(package, build)
-    yield from _missing_modules(package, build)
-    for install, item in _items(build):
-        path = posixpath.normpath(item.value.rstrip("/") or ".")
-        if package.exists(path):
-            continue
-        is_folder = install.kind == "DIRECTORY"
-        alike = (
-            []
-            if is_folder
-            else [name for name in package.index.similar_files(path) if name != path]
-        )
-        what = "folder" if is_folder else "file"
-        yield finding(
-            item,
-            f"{what} {item.value} is installed, but does not exist"
-            + (f"; did you mean {alike[0]}?" if alike else ""),
-            fix=_fix(package, install, item, alike),
-        )
+    yield from _unknown_targets(build, stops)
+    yield from _missing_sources(package, build, stops)
+    yield from _missing_modules(package, build, stops)
+    for install, items in _missing_items(package, build):
+        yield _of_install(package, install, items, stops)
 
 
-def _of_setup(package: Package) -> Iterator[Finding]:
+def _build_of(package: Package, context: Context) -> _Build:
+    build_type = package.build_type or ""
+    if context.distro or build_type.startswith(("ament_", "cmake")):
+        return _Build("colcon build")
+    # The challenge installs the packages; others of ROS 1 are run from the folder of the sources.
+    return _Build("catkin_make", None if context.is_subt else Severity.WARNING)
+
+
+def _of_install(
+    package: Package, install: Install, items: Sequence[Located[str]], build: _Build
+) -> Finding:
+    """Return the finding about what one `install()` names and the package does not have."""
+    hints, kept_out = [], False
+    for item in items:
+        alike = _alike(package, install, item)
+        ignored = ignored_by(package, item.value) if install.kind != "DIRECTORY" else ""
+        kept_out = kept_out or bool(ignored)
+        if ignored:
+            hints.append(f"{ignored} keeps it out of the repository: git add -f {item.value}")
+        elif alike:
+            hints.append(f"did you mean {alike[0]}?")
+    names = and_list([item.value for item in items])
+    what = "folder" if install.kind == "DIRECTORY" else "file"
+    what, verb = (f"{what}s", "do") if len(items) > 1 else (what, "does")
+    step = "catkin_make install" if build.name == "catkin_make" else build.name
+    return finding(
+        items[0],
+        "; ".join([f"{step} stops: {what} {names} {verb} not exist", *hints]),
+        severity=build.when_installed,
+        related=[(item, "does not exist either") for item in items[1:]],
+        fix=None if kept_out else _fix(package, install, items),
+    )
+
+
+def _alike(package: Package, install: Install, item: Located[str]) -> list[str]:
+    """Return files whose names resemble a missing one's, without those that are installed too."""
+    if install.kind == "DIRECTORY":
+        return []
+    path = posixpath.normpath(item.value)
+    others = {posixpath.normpath(each.value) for each in install.items}
+    return [name for name in package.index.similar_files(path) if name not in others]
+
+
+def _of_setup(package: Package, build: _Build) -> Iterator[Finding]:
     """Report files of `data_files`; a name without file may still be made before the build."""
     for entry in package.setup.data_files if package.setup is not None else ():
         for item in entry.files:
@@ -76,10 +117,10 @@ def _of_setup(package: Package) -> Iterator[Finding]:
             if path.startswith(("/", "..")) or (found is not None and found.is_file):
                 continue
             state = "does not exist" if found is None else "is a folder: data_files takes files"
-            yield finding(item, f"{item.value} is installed, but {state}")
+            yield finding(item, f"{build.name} stops: {item.value} {state}")
 
 
-def _unknown_targets(build: CMakeFile) -> Iterator[Finding]:
+def _unknown_targets(build: CMakeFile, stops: _Build) -> Iterator[Finding]:
     """Report installed targets that no command names that may make them."""
     made = {
         word.value
@@ -93,10 +134,11 @@ def _unknown_targets(build: CMakeFile) -> Iterator[Finding]:
     for install in build.installs:
         for item in install.items if install.kind == "TARGETS" and not install.conditional else ():
             if "$" not in item.value and item.value not in made:
-                yield finding(item, f"target {item.value} is installed, but nothing builds it")
+                message = f"{stops.name} stops: target {item.value} is installed, nothing builds it"
+                yield finding(item, message)
 
 
-def _missing_sources(package: Package, build: CMakeFile) -> Iterator[Finding]:
+def _missing_sources(package: Package, build: CMakeFile, stops: _Build) -> Iterator[Finding]:
     if GENERATES.search(build.source.text):
         return
     for call in _targets(build):
@@ -104,7 +146,8 @@ def _missing_sources(package: Package, build: CMakeFile) -> Iterator[Finding]:
             is_source = _SOURCE.search(word.value) and not _MADE_ELSEWHERE.search(word.value)
             if is_source and not package.exists(posixpath.normpath(word.value)):
                 target = call.arguments[0].value
-                yield finding(word, f"{word.value} does not exist, but {target} is built from it")
+                message = f"{stops.name} stops: {word.value}, a source of {target}, does not exist"
+                yield finding(word, message)
 
 
 def _targets(build: CMakeFile) -> Iterator[Call]:
@@ -112,7 +155,7 @@ def _targets(build: CMakeFile) -> Iterator[Call]:
     return (call for call in calls if call.arguments)
 
 
-def _missing_modules(package: Package, build: CMakeFile) -> Iterator[Finding]:
+def _missing_modules(package: Package, build: CMakeFile, stops: _Build) -> Iterator[Finding]:
     for call in build.calls_of("ament_python_install_package"):
         names = [word.value for word in call.arguments]
         if not names or call.conditional:
@@ -120,34 +163,50 @@ def _missing_modules(package: Package, build: CMakeFile) -> Iterator[Finding]:
         where = names.index("PACKAGE_DIR") + 1 if "PACKAGE_DIR" in names[:-1] else 0
         folder = call.arguments[where]
         if not _MADE_ELSEWHERE.search(folder.value) and not package.exists(folder.value):
-            yield finding(folder, f"folder {folder.value} is installed, but does not exist")
+            yield finding(folder, f"{stops.name} stops: folder {folder.value} does not exist")
 
 
-def _fix(
-    package: Package, install: Install, item: Located[str], alike: Sequence[str]
-) -> Fix | None:
-    """Return the fix that corrects the name or removes it, with `install()` if nothing is left."""
-    if not install.writes(item):
+def _fix(package: Package, install: Install, items: Sequence[Located[str]]) -> Fix | None:
+    """Return the fix that corrects or removes names, with `install()` if nothing is left."""
+    if not all(map(install.writes, items)):
         return None
+    meant = [_meant(item, _alike(package, install, item)) for item in items]
+    left = any(meant) or len(items) < len(install.items)
+    if not left:
+        return replace_text(with_blanks(install.span), "")
+    edits = (
+        item.span.replacement(name if _UNQUOTED.fullmatch(name) else f'"{name}"')
+        if name
+        else with_blanks(item.span).replacement("")
+        for item, name in zip(items, meant, strict=True)
+    )
+    return Fix(Safety.SAFE, tuple(edits))
+
+
+def _meant(item: Located[str], alike: Sequence[str]) -> str:
+    """Return the one name that can be meant; empty without one."""
     same = [name for name in alike if name.lower() == posixpath.normpath(item.value).lower()]
-    for meant in (same, alike):
-        if len(meant) == 1:
-            name = meant[0]
-            return replace_text(item, name if _UNQUOTED.fullmatch(name) else f'"{name}"')
-    there = any(package.exists(posixpath.normpath(source.value or ".")) for source in install.items)
-    unsure = any(_MADE_ELSEWHERE.search(source.value) for source in install.items)
-    return replace_text(with_blanks(item.span if there or unsure else install.span), "")
+    return next((names[0] for names in (same, alike) if len(names) == 1), "")
 
 
-def _items(build: CMakeFile) -> Iterator[tuple[Install, Located[str]]]:
-    """Yield what certainly comes from the source folder and must exist."""
+def _missing_items(
+    package: Package, build: CMakeFile
+) -> Iterator[tuple[Install, list[Located[str]]]]:
+    """Yield each `install()` with what certainly comes from the source folder and is missing."""
     for install in build.installs:
         if install.kind == "TARGETS" or install.conditional:
             continue
-        if _OPTIONAL.search(install.span.text) is None:
-            for item in install.items:
-                if item.value and _MADE_ELSEWHERE.search(item.value) is None:
-                    yield install, item
+        if _OPTIONAL.search(install.span.text) is not None:
+            continue
+        missing = [
+            item
+            for item in install.items
+            if item.value
+            and _MADE_ELSEWHERE.search(item.value) is None
+            and not package.exists(posixpath.normpath(item.value.rstrip("/") or "."))
+        ]
+        if missing:
+            yield install, missing
 
 
 _INSTALL = """project(acme_rover_sensor_config_1)
@@ -182,7 +241,22 @@ GOOD = [
     {"CMakeLists.txt": f"{_INSTALL}install(FILES notes.md DESTINATION share OPTIONAL)\n"},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES ${{CMAKE_BINARY_DIR}}/made.txt DESTINATION x)\n"},
 ]
+_AMENT = """<package format="3"><name>acme_arm</name><version>1.0.0</version>
+<export><build_type>ament_cmake</build_type></export></package>
+"""
+_MAPS = """project(acme_arm)
+install(FILES maps/hall.pgm  # ^ PKG009
+  maps/hall.yaml DESTINATION share/acme_arm)
+install(DIRECTORY foo bar DESTINATION share/acme_arm)  # ^ PKG009
+"""
+
 BAD = [
+    {
+        "package.xml": _AMENT,
+        "CMakeLists.txt": _MAPS,
+        "maps/hall.yaml": "image: hall.pgm",
+        ".gitignore": "*.pgm",
+    },
     {"CMakeLists.txt": f"{_TARGETS}install(TARGETS other RUNTIME DESTINATION bin)  # ^ PKG009\n"},
     {"CMakeLists.txt": f"{_INSTALL}add_library(driver SHARED src/driver.cpp)  # ^ PKG009\n"},
     {"CMakeLists.txt": f"{_INSTALL}ament_python_install_package(driver)  # ^ PKG009\n"},
