@@ -298,6 +298,107 @@ def test_what_is_not_evaluated_is_told(read: Read, statements: str, reason: str)
     assert graph.nodes[0].unread
 
 
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "open('/tmp/note', 'w').write('started')",
+        "import shutil\nshutil.rmtree('/tmp/old')",
+        "import yaml\nyaml.dump({'a': 1}, open('/tmp/a.yaml', 'w'))",
+        "import re\nre.compile('a').sub('b', 'a')",
+    ],
+)
+def test_what_changes_no_action_is_passed_over(read: Read, statement: str) -> None:
+    graph = read(f"{statement}\nreturn LaunchDescription([Node(package='p', executable='e')])")
+    assert len(graph.nodes) == 1
+    assert not graph.unread
+
+
+@pytest.mark.parametrize(
+    "statement", ["import foo\nfoo.extend(ld)", "os.system('gz sim')", "ld.entities.clear()"]
+)
+def test_what_may_change_actions_is_told(read: Read, statement: str) -> None:
+    graph = read(f"ld = LaunchDescription()\n{statement}\nreturn ld")
+    assert graph.unread
+
+
+def test_the_comments_of_a_robot_may_be_removed(read: Read) -> None:
+    graph = read(
+        f"""
+        import re
+        import xacro
+        document = xacro.parse(open(get_package_share_directory('{NAME}') + '/a.xacro'))
+        xacro.process_doc(document)
+        text = re.sub('<!--(.*?)-->', '', document.toxml(), flags=re.DOTALL)
+        return LaunchDescription([
+            Node(package='p', executable='e', parameters=[{{'robot_description': text}}])])
+        """
+    )
+    parameter = graph.nodes[0].parameter("robot_description")
+    assert parameter is not None
+    assert str(parameter.value).endswith("/a.xacro)")
+    assert not graph.unread
+
+
+_MOVEIT = f"""
+from moveit_configs_utils import MoveItConfigsBuilder
+from moveit_configs_utils.launches import generate_demo_launch, generate_spawn_controllers_launch
+config = MoveItConfigsBuilder('arm', package_name='{NAME}').to_moveit_configs()
+"""
+_MOVEIT_FILES = {
+    "config/moveit_controllers.yaml": "moveit_simple_controller_manager:\n"
+    "  controller_names: [arm_controller]\n",
+    "config/arm.srdf": '<robot name="arm"><virtual_joint name="v" type="fixed"'
+    ' parent_frame="world" child_link="base"/></robot>',
+}
+
+
+def test_the_stock_functions_of_moveit(read: Read) -> None:
+    graph = read(f"{_MOVEIT}\nreturn generate_demo_launch(config)", others=_MOVEIT_FILES)
+    assert [node.executable.value for node in graph.nodes] == ["ros2_control_node"]
+    names = [include.target.value.rpartition("/")[2] for include in graph.includes]
+    assert names == [
+        f"{name}.launch.py" for name in ("rsp", "move_group", "moveit_rviz", "spawn_controllers")
+    ]
+    graph = read(
+        f"{_MOVEIT}\nreturn generate_spawn_controllers_launch(config)", others=_MOVEIT_FILES
+    )
+    assert [words(graph, n) for n in (0, 1)] == [["arm_controller"], ["joint_state_broadcaster"]]
+
+
+@pytest.mark.parametrize(
+    ("name", "program"),
+    [
+        ("rsp", "robot_state_publisher"),
+        ("move_group", "move_group"),
+        ("moveit_rviz", "rviz2"),
+        ("static_virtual_joint_tfs", "static_transform_publisher"),
+        ("warehouse_db", "mongo_wrapper_ros.py"),
+        ("setup_assistant", "moveit_setup_assistant"),
+    ],
+)
+def test_each_stock_function_of_moveit(read: Read, name: str, program: str) -> None:
+    call = f"from moveit_configs_utils.launches import generate_{name}_launch as make"
+    graph = read(f"{_MOVEIT}{call}\nreturn make(config)", others=_MOVEIT_FILES)
+    assert [node.executable.value for node in graph.nodes] == [program]
+    assert graph.nodes[0].starts is True
+    assert not graph.unread
+    assert not graph.faults
+
+
+def test_debuggable_nodes_of_moveit(read: Read) -> None:
+    graph = read(
+        """
+        from moveit_configs_utils.launch_utils import DeclareBooleanLaunchArg, add_debuggable_node
+        ld = LaunchDescription([DeclareBooleanLaunchArg('debug', default_value=False)])
+        add_debuggable_node(ld, package='p', executable='e', arguments=['-x'])
+        return ld
+        """
+    )
+    assert [node.starts for node in graph.nodes] == [True]
+    assert words(graph) == ["-x"]
+    assert not graph.unread
+
+
 def test_modules_of_packages_at_hand_are_followed(read: Read) -> None:
     graph = read(
         f"""

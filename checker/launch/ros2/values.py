@@ -114,6 +114,10 @@ class Unknown(Record, eq=False):
     span: Span
 
 
+class Inert(Unknown, eq=False):
+    """An object of a class of the launch file that uses nothing of the launch system."""
+
+
 class Symbol(Record):
     """Imported name, as its dotted path: `launch.actions.Node`."""
 

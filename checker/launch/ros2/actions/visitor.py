@@ -10,7 +10,7 @@ from checker.launch.ros2.actions.conditions import read_conditions
 from checker.launch.ros2.actions.gathered import Files, Gathered
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import Unread
-from checker.launch.ros2.values import Choice, Guarded, Made, Unknown, Value, chosen_value
+from checker.launch.ros2.values import Choice, Guarded, Inert, Made, Unknown, Value, chosen_value
 from checker.source.text import Span
 
 
@@ -72,6 +72,8 @@ class Visitor:
                 unknown = Unknown("an event is only known when it happens", made.span)
                 value = self.files.call(value, [unknown, unknown], context)
             if isinstance(value, Unknown) and name in ("on_stdout", "on_stderr", "on_stdin"):
+                continue
+            if isinstance(value, Inert):
                 continue
             self.do_later(value, later)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
@@ -68,6 +69,8 @@ class Interpreter:
         world: What it may query.
         guards: Conditions around the statement that is being evaluated.
         by_argument: Whether a value that was read depends on an argument or a file.
+        may_change: Whether the last call may have changed what is launched: it got something that
+            can hold actions, or starts programs.
         notes: What was skipped.
     """
 
@@ -78,6 +81,7 @@ class Interpreter:
         self.world = world
         self.guards: list[Condition] = []
         self.by_argument = False
+        self.may_change = False
         self.notes: list[Unknown] = []
 
     def module_scope(self, tree: ast.Module | None = None) -> Scope:
@@ -110,8 +114,9 @@ class Interpreter:
         self.notes.append(self.unknown(node, reason))
 
     def ignored(self, value: Unknown) -> None:
-        """Note a call whose effect is not known; one that only prints has none."""
-        self.notes.append(value)
+        """Note a call whose effect is not known, unless it has none on what is launched."""
+        if self.may_change:
+            self.notes.append(value)
 
     # Tests and names.
 
@@ -282,7 +287,9 @@ class Interpreter:
                 reason = value.reason if isinstance(value, Unknown) else "it is not a dictionary"
                 return self.unknown(keyword.value, reason)
             named |= {str(key): item for key, item in value.items()}
-        return self.called(function, positional, named, node, places)
+        value = self.called(function, positional, named, node, places)
+        self.may_change = _may_change(function, (*positional, *named.values()))
+        return value
 
     def called(
         self,
@@ -387,6 +394,24 @@ class Interpreter:
             return self.unknown(node, "the arguments do not fit the function")
         scope.values |= values
         return None
+
+
+_STARTS = re.compile(r"subprocess\.|multiprocessing\.|os\.(?:system|popen|exec|spawn|posix_spawn)")
+"""Functions that start programs."""
+_WRITES = frozenset({"yaml.dump", "yaml.safe_dump", "json.dump", "pprint.pprint"})
+"""Functions that get data and only write them."""
+
+
+def _may_change(function: Value, arguments: Sequence[Value]) -> bool:
+    """Return whether a call may change what is launched, of which nothing is known."""
+    if isinstance(function, Symbol) and function.path in _WRITES:
+        return False
+    if isinstance(function, Symbol) and _STARTS.match(function.path):
+        return True
+    owner = function
+    while isinstance(owner, Method):
+        owner = owner.owner
+    return any(isinstance(it, Made | list | dict | Guarded | Choice) for it in (owner, *arguments))
 
 
 def _is_generator(function: ast.AST) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from types import MappingProxyType
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING
 from checker.formats.xacro.expression.builtins import FUNCTIONS as SAFE
 from checker.formats.xacro.files import ROOT
 from checker.launch.ros2.graph import is_known
-from checker.launch.ros2.python import data_functions, moveit
+from checker.launch.ros2.python import data_functions, moveit, moveit_launches
 from checker.launch.ros2.python.call import Call, NotKnown, Work
 from checker.launch.ros2.python.expressions import bounded, hashable, plain
 from checker.launch.ros2.python.scope import LocalFunction, Partial
@@ -109,7 +110,12 @@ def _new_path(call: Call) -> Value:
 
 
 def _directory(call: Call) -> Value:
-    return call.unknown("the working directory is not known")
+    call.run.by_argument = True
+    return call.placed("$(env PWD)")
+
+
+def _directory_path(call: Call) -> Value:
+    return FilePath(str(_directory(call)))
 
 
 # Files.
@@ -176,6 +182,18 @@ def xacro_text(run: Interpreter, document: Made, node: ast.AST) -> Value:
 
 
 # Environment, and the rest.
+
+
+_MARKUP = re.compile(r"<(?:!--|\?xml\b)")
+
+
+def _substituted(call: Call) -> Value:
+    """Return the text of a robot without its comments: it describes the same robot."""
+    values = dict(zip(("pattern", "repl", "string"), call.arguments, strict=False)) | call.named
+    pattern, text = call.text(values.get("pattern")), call.text(values.get("string"))
+    if _MARKUP.match(pattern.lstrip("\\")) and not is_known(text):
+        return text
+    return call.unknown("re.sub is not evaluated")
 
 
 def _getenv(call: Call) -> Value:
@@ -344,11 +362,13 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
         "os.environ.update": _nothing,
         "os.putenv": _nothing,
         "os.getcwd": _directory,
+        "pathlib.Path.cwd": _directory_path,
         "pathlib.Path": _new_path,
         "pathlib.PurePath": _new_path,
         "pathlib.PosixPath": _new_path,
         "io.open": _open,
         "codecs.open": _open,
+        "re.sub": _substituted,
         "copy.copy": _copy,
         "copy.deepcopy": _copy,
         "functools.partial": _partial,
@@ -366,6 +386,7 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
         "moveit_configs_utils.moveit_configs_builder.MoveItConfigsBuilder": moveit.builder,
     }
     | dict(data_functions.FUNCTIONS)
+    | dict(moveit_launches.FUNCTIONS)
     | {f"os.path.{name}": _path_work(name) for name in _PATH_WORKS}
     | {f"os.path.{name}": _exists for name in ("exists", "isfile", "isdir")}
     | {f"yaml.{name}": _load_yaml for name in ("safe_load", "load", "full_load")}

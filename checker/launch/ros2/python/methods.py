@@ -188,6 +188,8 @@ def _on_path(  # noqa: PLR0911 - one per method
             return FileText.read(path.text, run.span(node))
         case "open":
             return OpenFile(path.text)
+        case "is_absolute" if is_known(path.text):
+            return posixpath.isabs(path.text)
         case "exists" | "is_file" | "is_dir":
             return Call(run, node, [path], {}).evaluated(library.FUNCTIONS["os.path.exists"])
         case "with_suffix" | "with_name" if positional and isinstance(positional[0], str):

@@ -7,10 +7,11 @@ import enum
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from checker.launch.ros2.classes import ROOTS
 from checker.launch.ros2.graph import Condition
 from checker.launch.ros2.python.expressions import binary, each, evaluate, negate
 from checker.launch.ros2.python.scope import Scope, merge_names
-from checker.launch.ros2.values import FilePath, Guarded, OpenFile, Unknown, Value
+from checker.launch.ros2.values import FilePath, Guarded, Inert, OpenFile, Symbol, Unknown, Value
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -224,9 +225,24 @@ def _define(run: Interpreter, node: ast.FunctionDef, scope: Scope) -> tuple[Flow
 
 
 def _class(run: Interpreter, node: ast.ClassDef, scope: Scope) -> tuple[Flow, Value]:
-    unknown = run.unknown(node, f"class {node.name} is not evaluated")
-    scope.bind(node.name, unknown, by_argument=False)
+    names = {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
+    holders = {name: scope.holder(name) for name in names}
+    used = [holder.values[name] for name, holder in holders.items() if holder is not None]
+    data = (str, int, float, FilePath)
+    plain = all(
+        isinstance(it, data) or (isinstance(it, Symbol) and it.root not in ROOTS) for it in used
+    )
+    kind = Inert if plain else Unknown
+    reason = f"class {node.name} is not evaluated"
+    scope.bind(node.name, kind(reason, run.span(node)), by_argument=False)
     return Flow.ON, None
+
+
+def _is_plain(value: Value) -> bool:
+    """Return whether a value is data, or imported from outside the launch system."""
+    if isinstance(value, Symbol):
+        return value.root not in ROOTS
+    return isinstance(value, str | int | float | FilePath)
 
 
 def _import(run: Interpreter, node: ast.Import, scope: Scope) -> tuple[Flow, Value]:
