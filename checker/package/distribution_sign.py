@@ -14,12 +14,13 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 _DISTROS = "foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling"
-_NAMED = re.compile(
+_BEFORE_NOETIC = "indigo|jade|kinetic|lunar|melodic"
+_BEFORE = (
     r"(?:\bros[ -]?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}|\bros_distribution\W{1,4}"
     r"|\$\{\w{1,60}:?-)"
-    rf"\(?({_DISTROS})\b\}}?",
-    re.IGNORECASE,
 )
+_NAMED = re.compile(rf"{_BEFORE}\(?({_DISTROS})\b\}}?", re.IGNORECASE)
+_NAMED_OF_ROS_1 = re.compile(rf"{_BEFORE}\(?({_BEFORE_NOETIC}|noetic)\b\}}?", re.IGNORECASE)
 """`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`."""
 _CONTAINER = re.compile(
     r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile|devcontainer\.json"
@@ -46,19 +47,31 @@ def distribution_sign(package: Package) -> DistributionSign | None:
     """
     nearest, *further = files_above(package, NAMES) or [()]
     for sources in ((*own_files(package, NAMES), *nearest), *further):
-        signs = _signs(sources)
+        signs = _signs(sources, _NAMED)
         if signs:
             return signs[0] if len({sign.distro for sign in signs}) == 1 else None
     return None
 
 
-def _signs(sources: Sequence[SourceText]) -> list[DistributionSign]:
+def before_noetic(package: Package) -> str:
+    """Return why a package is made for a release of ROS 1 before Noetic, as a clause.
+
+    Empty if nothing shows it. `--inorder` is an option that xacro needed from Indigo to Lunar.
+    """
+    for sources in files_above(package, NAMES):
+        signs = _signs((*own_files(package, NAMES), *sources), _NAMED_OF_ROS_1)
+        if signs:
+            return "" if any(sign.distro == "noetic" for sign in signs) else signs[0].words
+    if "inorder" in package.workspace.launch_words:
+        return "launch files run xacro --inorder, as before ROS Melodic"
+    return ""
+
+
+def _signs(sources: Sequence[SourceText], named: re.Pattern[str]) -> list[DistributionSign]:
     """Return what the files of the kind that counts most name, in their order."""
     for pattern in (_CONTAINER, _CI, _README):
         chosen = (source for source in sources if pattern.search(source.file.lower()))
-        found = [
-            _sign(source, match) for source in chosen for match in _NAMED.finditer(source.text)
-        ]
+        found = [_sign(source, match) for source in chosen for match in named.finditer(source.text)]
         if found:
             return found
     return []

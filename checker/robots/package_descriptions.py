@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable
 from checker.formats.urdf.description import UrdfDescription, read_description
 from checker.formats.urdf.macro_calls import MacroCall, minimal_call
+from checker.formats.xacro.bare_tags import TAGS, bare_tags
 from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unread, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
@@ -265,20 +266,24 @@ class PackageDescriptions:
     def _expand_as_melodic(self, expanded: dict[str, Outcome]) -> tuple[XacroFault, ...]:
         """Expand what a newer xacro refuses as Melodic's does, and return what is refused.
 
-        The result takes its place in `expanded`.
+        The result takes its place in `expanded`, also where that is only why nothing is known.
         """
         refused = {path: old for path in expanded if (old := _refusal(expanded[path], path))}
         again = [replace(wish, as_melodic=True) for wish in self._wanted if wish.path in refused]
         if not again:
             return ()
         expansions = Expansions(self._package, again, self._expander)
-        taken = []
+        causes: dict[str, XacroFault] = {}
         for wish, outcome in zip(again, expansions.outcomes(), strict=True):
+            bare = {fault.file: fault for fault in bare_tags(self._package, wish.path)}
             if isinstance(outcome, XmlDocument) and _refusal(outcome, wish.path) is None:
                 expanded[wish.path] = outcome
                 self._taken[wish.path] = wish
-                taken.append(refused[wish.path])
-        return tuple(taken)
+                causes |= bare or {wish.path: refused[wish.path]}
+            elif isinstance(outcome, Unread) and bare:
+                expanded[wish.path] = outcome
+                causes |= bare
+        return tuple(causes.values())
 
     def stop(self) -> None:
         """Stop the expansions that still run."""
@@ -302,15 +307,11 @@ def _in_words(args: Mapping[str, str]) -> str:
     return " ".join(f"{name}:={value}" for name, value in args.items())
 
 
-_WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")
-"""Tags of xacro that no reader of URDF knows; they are directly in the robot."""
-
-
 def _refusal(outcome: Outcome, file: str) -> XacroFault | None:
     """Return what a newer xacro refuses that an older one may take."""
     if isinstance(outcome, XmlDocument):
         for child in outcome.root.children:
-            if child.tag in _WITHOUT_PREFIX:
+            if child.tag in TAGS:
                 message = f"<{child.tag}> is not expanded"
                 hint = f"write <xacro:{child.tag}>"
                 return XacroFault(XacroFaultKind.EXPANSION, file, child.span, message, hint)

@@ -14,6 +14,7 @@ import re
 from collections.abc import Iterator
 
 from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.bare_tags import TAGS
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.robots.urdf_files import UrdfFiles
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -21,8 +22,6 @@ from checker.source.xml import Element
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
-_WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")
-"""Tags of xacro that no reader of URDF knows; they are directly in the robot."""
 _FOREIGN = ("gazebo",)
 """Elements with content that URDF does not define, so braces may mean anything."""
 
@@ -55,7 +54,7 @@ def _refused(fault: XacroFault) -> Finding:
 def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
     root = description.document.root
     for child in root.children:
-        if child.tag in _WITHOUT_PREFIX:
+        if child.tag in TAGS:
             yield finding(
                 child.span,
                 f"<{child.tag}> is not expanded: write <xacro:{child.tag}>",

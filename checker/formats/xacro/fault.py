@@ -13,7 +13,8 @@ class XacroFaultKind(enum.StrEnum):
 
     `EMPTY`: it is empty. `MALFORMED`: it is not well-formed XML. `EXPANSION`: xacro refuses it.
     `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that is not
-    given. `RECURSION`: a macro or a file uses itself. `LIMIT`: expanding it takes more than is
+    given. `PREFIX`: tags of xacro lack `xacro:`. `RECURSION`: a macro or a file uses itself.
+    `LIMIT`: expanding it takes more than is allowed.
     """
 
     EMPTY = "empty"
@@ -21,6 +22,7 @@ class XacroFaultKind(enum.StrEnum):
     EXPANSION = "expansion"
     ENVIRONMENT = "environment"
     ARGUMENT = "argument"
+    PREFIX = "prefix"
     RECURSION = "recursion"
     LIMIT = "limit"
 
