@@ -65,6 +65,7 @@ class Robot(Part, dict=True):
         meshes: The content of its mesh files.
         controllers: The controllers of ros2_control or ROS 1, that move its joints.
         driven_in: Path of the SDF file that describes the same robot with its drive; else empty.
+        shown_only: Why no simulator gets it, as a clause; empty if one may.
     """
 
     document: XmlDocument
@@ -85,6 +86,7 @@ class Robot(Part, dict=True):
     meshes: Meshes = NoMeshes()
     controllers: tuple[Controller, ...] = ()
     driven_in: str = ""
+    shown_only: str = ""
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

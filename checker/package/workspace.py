@@ -124,16 +124,22 @@ class Workspace(Record, eq=False, dict=True):
         return by_size
 
     @cached_property
-    def launch_words(self) -> frozenset[str]:
-        """Every word of the launch files of all available packages, comments included."""
-        texts = (
-            package.read(file.path)
+    def launch_texts(self) -> dict[str, str]:
+        """The launch files of all available packages, comments included, by package and path."""
+        texts = {
+            f"{package.name}/{file.path}": package.read(file.path)
             for package in self.packages.values()
             for file in package.index.files
             if _LAUNCH_FILE.search(file.path)
+        }
+        return {name: it.text for name, it in texts.items() if not isinstance(it, NotReadable)}
+
+    @cached_property
+    def launch_words(self) -> frozenset[str]:
+        """Every word of the launch files of all available packages, comments included."""
+        return frozenset(
+            word for text in self.launch_texts.values() for word in _WORD.findall(text)
         )
-        readable = (text for text in texts if not isinstance(text, NotReadable))
-        return frozenset(word for text in readable for word in _WORD.findall(text.text))
 
     @property
     def may_start_gazebo(self) -> bool:

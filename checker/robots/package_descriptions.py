@@ -29,6 +29,7 @@ from checker.robots.candidates import (
 )
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.robots.other_robots import Made, other_robots
+from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
 from checker.robots.urdf_files import UrdfFiles
 from checker.source.text import SourceText
@@ -68,6 +69,7 @@ class PackageDescriptions:
         self._args = args
         self._expander = expander
         self._for_rviz = package.kind not in _URDF_KINDS
+        self._started = ros2.entries if ros2 is not None else ()
         self._candidates: Sequence[Candidate] = ()
         if only:
             self._candidates = [Candidate(only, loaded=True)]
@@ -107,8 +109,7 @@ class PackageDescriptions:
                 if self._is_fragment(outcome, candidate):
                     fragments.append(candidate.path)
                 elif _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
-                    read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
-                    descriptions.append(read)
+                    descriptions.append(self._read(outcome, candidate.path))
             elif isinstance(outcome, Unread):
                 unread.append((candidate, self._unread(candidate, outcome.reason)))
             elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate, outcome):
@@ -142,6 +143,11 @@ class PackageDescriptions:
             assumed,
             tuple(it for it in others if isinstance(it, UrdfDescription)),
         )
+
+    def _read(self, document: XmlDocument, path: str) -> UrdfDescription:
+        read = read_description(document, path, for_rviz=self._for_rviz)
+        shown = "" if self._for_rviz else shown_only(self._package, path, document, self._started)
+        return replace(read, shown_only=shown)
 
     def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
         """Yield the robots that other values of arguments make, and the faults that they meet."""

@@ -1,8 +1,9 @@
 """A driven wheel, track or heavy body without collision, or a robot without any.
 
 A link without collision touches nothing: a wheel turns in the air or sinks into the ground, a body
-drives through walls, and a robot without collisions falls through the world. No accepted package
-that we checked has this fault.
+drives through walls, and a robot without collisions falls through the world. It is an info in a
+URDF that no launch file of the workspace gives to a simulator, since RViz needs no collision. No
+accepted package that we checked has this fault.
 
 Fix: give each wheel a `<collision>` with a cylinder, and each track boxes and cylinders.
 Source: SDFormat specification: only `<collision>` elements make contacts.
@@ -38,6 +39,7 @@ def check(robot: Robot, context: Context, *, body_share: float = 0.25) -> Findin
             yield finding(
                 part.links[0],
                 f"{part.kind} {part.links[0].name.value!r} has no collision",
+                severity=Severity.INFO if robot.shown_only else None,
                 related=[(part.by, "the plugin that drives it")],
             )
     yield from _others(robot)
@@ -52,6 +54,8 @@ def _without_any(robot: Robot, context: Context) -> Finding:
     if robot.conventions.has_massless_links and not robot.mass:
         message = f"{what}, and none has a mass: the model is only visible"
         return finding(robot, message, severity=Severity.INFO)
+    if robot.shown_only:
+        return finding(robot, f"{what}: {robot.shown_only}", severity=Severity.INFO)
     if robot.drives or (robot.stands_alone and context.is_subt):
         return finding(robot, f"{what}: the robot falls through the ground")
     alone = len(robot.links) > 1 or not context.is_gazebo_sim
@@ -60,6 +64,10 @@ def _without_any(robot: Robot, context: Context) -> Finding:
         f"{what}: nothing touches the robot",
         severity=Severity.WARNING if alone else Severity.INFO,
     )
+
+
+def _warning(robot: Robot) -> Severity:
+    return Severity.INFO if robot.shown_only else Severity.WARNING
 
 
 def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
@@ -72,7 +80,7 @@ def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
             yield finding(
                 seen[0],
                 f"{seen[0].name.value!r} of {mass:.3g} kg has a visual, but no collision",
-                severity=Severity.WARNING,
+                severity=_warning(robot),
             )
 
 
@@ -96,7 +104,7 @@ def _others(robot: Robot) -> Iterator[Finding]:
             yield finding(
                 link,
                 f"wheel {link.name.value!r} has no collision, and no plugin drives it",
-                severity=Severity.WARNING,
+                severity=_warning(robot),
             )
 
 

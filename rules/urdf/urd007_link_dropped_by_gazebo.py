@@ -3,7 +3,7 @@
 Gazebo drops a link without `<inertial>`, or with a mass of zero, with its sensors and all links
 below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
 so they need no inertial. In a URDF without a `<gazebo>` element this is a warning: other tools keep
-such links. It is an info if there are launch files and none of them names Gazebo.
+such links. It is an info if no launch file of the workspace gives the URDF to a simulator.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -33,7 +33,8 @@ def check(
     if description.for_rviz:
         return
     robot = description.robot
-    in_gazebo = context.profile.startswith("gazebo") or package.workspace.may_start_gazebo
+    in_gazebo = package.workspace.may_start_gazebo and not robot.shown_only
+    in_gazebo = context.profile.startswith("gazebo") or in_gazebo
     severity = Severity.WARNING if in_gazebo else Severity.INFO
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:

@@ -3,7 +3,7 @@
 In URDF, RViz and the ROS tools, a joint and a link may have the same name. In SDF they may not:
 once Gazebo has converted the file, libsdformat refuses the model, and nothing is spawned. The name
 of a fixed joint that Gazebo merges does not count. In a URDF without a `<gazebo>` element, this is
-a warning.
+a warning; an info if no launch file of the workspace gives it to a simulator.
 
 Fix: give the joint its own name, such as `arm_joint`, also in controllers and transmissions.
 Source: SDFormat 1.7, "unique sibling names"; tried with libsdformat 12: "Joint with non-unique name
@@ -21,6 +21,7 @@ def check(description: UrdfDescription) -> Findings:
     if description.for_rviz:
         return
     robot, lumping = description.robot, Lumping(description)
+    severity = Severity.INFO if robot.shown_only else Severity.WARNING
     gone = {joint.name.value for joint in lumping.merged.values()}
     for joint in robot.joints:
         link = robot.links_by_name.get(joint.name.value)
@@ -29,7 +30,7 @@ def check(description: UrdfDescription) -> Findings:
         yield finding(
             joint.name,
             f"joint {joint.name.value!r} has the name of a link: Gazebo refuses the model",
-            severity=None if robot.is_for_gazebo else Severity.WARNING,
+            severity=None if robot.is_for_gazebo else severity,
             related=[(link, "the link")],
         )
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.formats.urdf.macro_calls import MacroCall
 from checker.formats.urdf.reader import read_urdf
@@ -55,6 +57,7 @@ class UrdfDescription(Record, eq=False, dict=True):
         for_rviz: Whether it accompanies an SDF model, for display only.
         call: The call of the macro that makes the robot, where the file itself makes none.
         values: Values of arguments that differ from those the file is read with: `model:=waffle`.
+        shown_only: Why no simulator gets it, as a clause; empty if one may.
     """
 
     file: str
@@ -64,11 +67,12 @@ class UrdfDescription(Record, eq=False, dict=True):
     for_rviz: bool
     call: MacroCall | None = None
     values: str = ""
+    shown_only: str = ""
 
     @cached_property
     def robot(self) -> Robot:
         """The robot, without its meshes."""
-        return read_urdf(self.document)
+        return replace(read_urdf(self.document), shown_only=self.shown_only)
 
 
 # Transmissions and `<gazebo>` tags of a URDF document.

@@ -1,0 +1,101 @@
+"""Descriptions that no simulator gets: RViz shows them, robot_state_publisher publishes them."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterable, Mapping, Sequence
+
+from checker.formats.xacro.files import local_path
+from checker.launch.ros2.descriptions import loaded_descriptions
+from checker.launch.ros2.graph import LaunchGraph, Node
+from checker.launch.ros2.package_launch import launches_naming
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+_SIMULATORS = re.compile(
+    r"gazebo|gzserver|(?<![a-z])gz(?![a-z])|(?<![a-z])ign(?:ition)?(?![a-z])|spawn_entity"
+    r"|spawn_model|webots|mujoco|isaac|coppelia|v-?rep\b|bullet|\bunity|stage_ros|simulat",
+    re.IGNORECASE,
+)
+"""What a launch file contains that starts a simulator, or may."""
+_FOR_RVIZ = re.compile(r"<!--[^<>]{0,300}\bfor rviz\b", re.IGNORECASE)
+_SPAWNS = frozenset({"create", "spawn_entity.py", "spawn_entity", "spawn_model"})
+_FROM_ROS = frozenset({"-topic", "-param", "-string"})
+"""Options by which a spawner gets what other nodes are given, or what is not known."""
+
+
+def shown_only(
+    package: Package, path: str, document: XmlDocument, own: Iterable[LaunchGraph]
+) -> str:
+    """Return why no simulator gets a description, as a clause; empty if one may.
+
+    A description with an element for Gazebo is for a simulator, whatever starts it.
+
+    Args:
+        package: The package being checked.
+        path: The path of the description as the package lists it.
+        document: The description.
+        own: What the launch files of ROS 2 of the package start.
+    """
+    if package.only or any(document.root.child(tag) for tag in ("gazebo", "ros2_control")):
+        return ""
+    if _is_for_rviz(package, path):
+        return "a comment says that it is for RViz"
+    launch = package.workspace.launch_texts
+    texts = _starting(launch, posixpath.basename(path)) or [*launch.values()]
+    if not texts:
+        return ""
+    if not any(map(_SIMULATORS.search, texts)):
+        return "no launch file that loads it starts a simulator"
+    graphs = [*own, *(graph for _, graph in launches_naming(package))]
+    if _get_others(package, graphs, path):
+        return "Gazebo gets another description"
+    return ""
+
+
+def _is_for_rviz(package: Package, path: str) -> bool:
+    """Return whether a comment in front of the robot says so."""
+    source = package.read(path)
+    text = source.text if isinstance(source, SourceText) else ""
+    return _FOR_RVIZ.search(text[: text.find("<robot")]) is not None
+
+
+def _starting(launch: Mapping[str, str], name: str) -> list[str]:
+    """Return the texts of launch files that name a file, and of those that include one of them."""
+    found: dict[str, str] = {}
+    names = {name}
+    while names:
+        more = {
+            file: text
+            for file, text in launch.items()
+            if file not in found and any(it in text for it in names)
+        }
+        found |= more
+        names = {posixpath.basename(file) for file in more}
+    return [*found.values()]
+
+
+def _get_others(package: Package, graphs: Sequence[LaunchGraph], path: str) -> bool:
+    """Return whether all that is spawned is known, and none of it is the description of a file."""
+    loaded = [[*loaded_descriptions(package, graph)] for graph in graphs]
+    files = [{id(each.node): local_path(package, each.load.path) for each in own} for own in loaded]
+    if not any(path in own.values() for own in files):
+        return False
+    for graph, own in zip(graphs, files, strict=True):
+        if graph.unread or any(_SPAWNS & {w.value for w in it.words} for it in graph.processes):
+            return False
+        if any(_may_get(node, own.get(id(node)), path) for node in graph.nodes):
+            return False
+    return True
+
+
+def _may_get(node: Node, given: str | None, path: str) -> bool:
+    """Return whether a node spawns a description, or may: nothing else is among its arguments."""
+    if node.executable.value not in _SPAWNS:
+        return False
+    if given is not None:
+        return given == path
+    words = {word.value for word in node.arguments}
+    return not _FROM_ROS.isdisjoint(words) or "-file" not in words

@@ -1,0 +1,71 @@
+"""Descriptions that no simulator gets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.report.report import PackageReport, VerdictKind
+from checker.settings import Settings
+from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
+
+_SHOWN = '<link name="body"><visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+_TURNS = """<link name="hand"/><joint name="hand" type="continuous"><parent link="body"/>
+<child link="hand"/></joint>"""
+_PUBLISHER = f"""
+share = get_package_share_directory('{NAME}')
+text = ParameterValue(Command(['xacro ', os.path.join(share, 'urdf', 'box.urdf')]), value_type=str)
+state = Node(package='robot_state_publisher', executable='robot_state_publisher',
+    parameters=[{{'robot_description': text}}])
+"""
+_RVIZ = f"{_PUBLISHER}return LaunchDescription([state, Node(package='rviz2', executable='rviz2')])"
+_SPAWNED = f"""{_PUBLISHER}
+world = IncludeLaunchDescription(PathJoinSubstitution([
+    FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']))
+spawner = Node(package='ros_gz_sim', executable='create', arguments=[GIVEN])
+return LaunchDescription([state, world, spawner])
+"""
+_SDF = "'-file', os.path.join(share, 'models', 'box.sdf')"
+
+
+def _report(tmp_path: Path, launch: str, *, urdf: str = _SHOWN, comment: str = "") -> PackageReport:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/show.launch.py": python(launch),
+        "urdf/box.urdf": f'{comment}<robot name="box">{urdf}</robot>',
+        "models/box.sdf": '<sdf version="1.9"><model name="box"><link name="b"/></model></sdf>',
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return check_package(
+        tmp_path / NAME, Settings(select=("URD007", "URD016", "GEO002", "TRI"))
+    ).packages[0]
+
+
+@pytest.mark.parametrize(
+    "launch",
+    [_RVIZ, _SPAWNED.replace("GIVEN", _SDF)],
+)
+def test_what_no_simulator_gets_needs_no_collision(tmp_path: Path, launch: str) -> None:
+    report = _report(tmp_path, launch, urdf=_SHOWN + _TURNS)
+    assert {found.severity for found in report.findings} == {Severity.INFO}
+    assert report.verdict is VerdictKind.READY
+
+
+@pytest.mark.parametrize("given", ["'-topic', 'robot_description'", "'-file', text"])
+def test_what_is_spawned_needs_it(tmp_path: Path, given: str) -> None:
+    report = _report(tmp_path, _SPAWNED.replace("GIVEN", given))
+    assert "URD007" in {it.rule for it in report.findings if it.severity is Severity.WARNING}
+    assert report.verdict is VerdictKind.INCOMPLETE
+
+
+def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
+    launch = _SPAWNED.replace("GIVEN", "'-topic', 'robot_description'")
+    report = _report(tmp_path, launch, comment="<!-- A simple model for RViz. -->")
+    assert report.verdict is VerdictKind.READY
