@@ -67,9 +67,15 @@ class Finding(Record):
 
 
 class Unchecked(Record):
-    """Something that a rule should look at and cannot; the reason ends the sentence."""
+    """Something that a rule should look at and cannot.
+
+    Attributes:
+        reason: The end of a sentence.
+        severity: The severity of what may be missed, if it differs from the rule's own.
+    """
 
     reason: str
+    severity: Severity | None = None
 
 
 Findings = Iterator[Finding | Unchecked]

@@ -98,5 +98,7 @@ def _unreported(
         return None
     values = f"(with {description.values})"
     own = fingerprint(finding.rule, main.file, main.element, f"{finding.fingerprint} {values}")
-    message = f"{main.message or finding.message} {values}"
+    message = main.message or finding.message
+    if not description.unloaded or description.unloaded not in message:
+        message = f"{message} {values}"
     return replace(finding, message=message, fingerprint=own, places=tuple(places))

@@ -26,6 +26,7 @@ from checker.engine.grouping import (
 )
 from checker.engine.judge import GradedFinding, Judge
 from checker.engine.options import options_of
+from checker.engine.unloaded import less_of_unloaded, unloaded_in
 from checker.finding import (
     Severity,
     fingerprint,
@@ -90,11 +91,12 @@ def run_rules(
         looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
         found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
         said.append((rule, [judge.grade(rule, each) for each in found]))
-        unchecked = (item.reason for item in result if isinstance(item, Unchecked))
-        reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
+        # What is stated of a loaded robot counts before the same of another.
+        unchecked = (item for item in reversed(result) if isinstance(item, Unchecked))
+        reasons = {shortened(item.reason, TEXT_LIMIT): item.severity for item in unchecked}
         not_checked += [
-            NotChecked(rule.id, reason, Cause.NOT_AT_HAND, severity, rule.concern)
-            for reason in reasons
+            NotChecked(rule.id, reason, Cause.NOT_AT_HAND, own or severity, rule.concern)
+            for reason, own in reversed(reasons.items())
         ]
     return _reported(said, matcher, not_checked, looked)
 
@@ -198,7 +200,8 @@ def _run_isolated(
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, judge.settings)
         with allowance.piece():
-            return [said for argument in arguments for said in rule.check(**argument, **options)]
+            said = [(unloaded_in(each), [*rule.check(**each, **options)]) for each in arguments]
+            return [*less_of_unloaded(said, rule.severity)]
     except MissingExtra as missing:
         return NotChecked(rule.id, missing.extra.missing_message, Cause.SWITCHED_OFF)
     except (Exceeded, Exception) as error:  # noqa: BLE001 - the others continue, the exit code says so

@@ -66,6 +66,7 @@ class Robot(Part, dict=True):
         controllers: The controllers of ros2_control or ROS 1, that move its joints.
         driven_in: Path of the SDF file that describes the same robot with its drive; else empty.
         shown_only: Why no simulator gets it, as a clause; empty if one may.
+        unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
     """
 
     document: XmlDocument
@@ -87,6 +88,7 @@ class Robot(Part, dict=True):
     controllers: tuple[Controller, ...] = ()
     driven_in: str = ""
     shown_only: str = ""
+    unloaded: str = ""
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

@@ -55,6 +55,12 @@ class Made(Record, eq=False):
         }
         return replace(self.wish, args={**kept, name: value})
 
+    def unloaded(self, name: str, value: str) -> str:
+        """Return that no launch file gives a value, as a clause; empty if one may."""
+        if not self.loaded or value in self.allowed.get(name, ()):
+            return ""
+        return f"only with {name}:={value}, which no launch file gives by default"
+
 
 def other_robots(
     package: Package, expander: Expander, made: Sequence[Made], given: Collection[str]
@@ -68,15 +74,15 @@ def other_robots(
         given: Names of the arguments that the user gives: these have one value.
     """
     tried = [
-        (robot.with_value(name, value), f"{name}:={value}")
+        (robot.with_value(name, value), f"{name}:={value}", robot.unloaded(name, value))
         for robot in sorted(made, key=_importance)
         for name, value in _further_values(package, robot)
         if name not in given
     ][:TRIED_LIMIT]
-    wanted = [wish for wish, _ in tried]
+    wanted = [wish for wish, *_ in tried]
     outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
     known = {(robot.wish.path, robot.document.source.text) for robot in made}
-    for (wish, values), outcome in zip(tried, outcomes, strict=True):
+    for (wish, values, unloaded), outcome in zip(tried, outcomes, strict=True):
         if isinstance(outcome, XacroFault) and outcome.kind not in _OF_THE_USER:
             yield replace(outcome, message=f"{outcome.message} (with {values})")
         elif isinstance(outcome, XmlDocument) and outcome.root.child("link"):
@@ -84,7 +90,8 @@ def other_robots(
             if key in known:
                 continue
             known.add(key)
-            yield replace(read_description(outcome, wish.path, for_rviz=False), values=values)
+            read = read_description(outcome, wish.path, for_rviz=False)
+            yield replace(read, values=values, unloaded=unloaded)
 
 
 def _importance(robot: Made) -> tuple[bool, bool]:

@@ -31,6 +31,7 @@ from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_a
 from checker.robots.other_robots import Made, other_robots
 from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
+from checker.robots.unloaded import may_be_loaded
 from checker.robots.urdf_files import UrdfFiles
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -121,6 +122,7 @@ class PackageDescriptions:
                 unread.append((candidate, reason))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
+        descriptions = self._marked(descriptions)
         others = [*self._others(expanded)] if self._with_others else []
         faults += (it for it in others if isinstance(it, XacroFault))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
@@ -148,6 +150,23 @@ class PackageDescriptions:
         read = read_description(document, path, for_rviz=self._for_rviz)
         shown = "" if self._for_rviz else shown_only(self._package, path, document, self._started)
         return replace(read, shown_only=shown)
+
+    def _marked(self, descriptions: Sequence[UrdfDescription]) -> list[UrdfDescription]:
+        """Return descriptions; those that nothing loads, beside one that is loaded, say so."""
+        loaded = {candidate.path for candidate in self._candidates if candidate.loaded}
+        if (
+            self._for_rviz
+            or self._package.only
+            or not any(it.file in loaded for it in descriptions)
+        ):
+            return [*descriptions]
+        texts = self._package.workspace.launch_texts
+        return [
+            it
+            if it.file in loaded or may_be_loaded(texts, it.file)
+            else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
+            for it in descriptions
+        ]
 
     def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
         """Yield the robots that other values of arguments make, and the faults that they meet."""

@@ -70,11 +70,15 @@ def check(
     }
     symptoms = dict(excess_figures(driven.trial, limits))
     if symptoms:
+        heaviest = max(driven.robot.links, key=lambda link: link.mass)
+        place = heaviest.inertial.pose if heaviest.inertial is not None else heaviest
         yield finding(
             driven.robot,
             f"without a command, from 10 mm above the ground, the robot "
             f"{', '.join(symptoms.values())}",
             key=" ".join(symptoms),
+            related=[(place, "the heaviest link")] if "settle_tilt" in symptoms else (),
+            covered_by=("INE009",),
         )
 
 

@@ -58,6 +58,7 @@ class UrdfDescription(Record, eq=False, dict=True):
         call: The call of the macro that makes the robot, where the file itself makes none.
         values: Values of arguments that differ from those the file is read with: `model:=waffle`.
         shown_only: Why no simulator gets it, as a clause; empty if one may.
+        unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
     """
 
     file: str
@@ -68,11 +69,12 @@ class UrdfDescription(Record, eq=False, dict=True):
     call: MacroCall | None = None
     values: str = ""
     shown_only: str = ""
+    unloaded: str = ""
 
     @cached_property
     def robot(self) -> Robot:
         """The robot, without its meshes."""
-        return replace(read_urdf(self.document), shown_only=self.shown_only)
+        return replace(read_urdf(self.document), shown_only=self.shown_only, unloaded=self.unloaded)
 
 
 # Transmissions and `<gazebo>` tags of a URDF document.

@@ -1,0 +1,85 @@
+"""Findings in robots that no launch file loads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.report.report import PackageReport, ReportedFinding
+from checker.robots.unloaded import may_be_loaded
+from checker.settings import Settings
+from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
+
+_BODY = """<inertial><mass value="1"/><inertia ixx="@" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
+</inertial>"""
+_GOOD, _FAULTY = _BODY.replace("@", "1"), _BODY.replace("@", "-1")
+_LAUNCH = f"""
+share = get_package_share_directory('{NAME}')
+text = ParameterValue(Command(['xacro ', os.path.join(share, 'urdf', 'new.urdf.xacro')]),
+    value_type=str)
+return LaunchDescription([Node(package='robot_state_publisher',
+    executable='robot_state_publisher', parameters=[{{'robot_description': text}}])])
+"""
+_HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">'
+_CHOICE = """<xacro:arg name="tool" default="false"/>
+<xacro:if value="$(arg tool)"><link name="tool">@</link></xacro:if>"""
+
+
+def _check(tmp_path: Path, new: str, old: str = "") -> PackageReport:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/show.launch.py": python(_LAUNCH),
+        "urdf/new.urdf.xacro": f"{_HEAD}{new}</robot>",
+    }
+    if old:
+        files["urdf/old.urdf.xacro"] = f"{_HEAD}{old}</robot>"
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return check_package(tmp_path / NAME, Settings(select=("INE002",), trial=False)).packages[0]
+
+
+def _faults(report: PackageReport) -> list[ReportedFinding]:
+    return [found for found in report.findings if found.rule == "INE002"]
+
+
+def _link(body: str) -> str:
+    return f'<link name="body">{body}</link>'
+
+
+def test_what_is_loaded_has_errors(tmp_path: Path) -> None:
+    (found,) = _faults(_check(tmp_path, _link(_FAULTY), _link(_GOOD)))
+    assert found.severity is Severity.ERROR
+
+
+def test_what_nothing_loads_has_warnings(tmp_path: Path) -> None:
+    (found,) = _faults(_check(tmp_path, _link(_GOOD), _link(_FAULTY)))
+    assert found.severity is Severity.WARNING
+    assert found.message.endswith("(only in urdf/old.urdf.xacro, which no launch file loads)")
+
+
+def test_what_another_value_makes_has_warnings(tmp_path: Path) -> None:
+    (found,) = _faults(_check(tmp_path, _link(_GOOD) + _CHOICE.replace("@", _FAULTY)))
+    assert found.severity is Severity.WARNING
+    assert found.message.endswith("(only with tool:=true, which no launch file gives by default)")
+
+
+@pytest.mark.parametrize(
+    ("text", "loaded"),
+    [
+        ("arm_v2.urdf.xacro", True),
+        ("$(find arm)/urdf/arm_$(arg kind).urdf.xacro", True),
+        ("<arg name='kind' default='v1'/> $(find arm)/urdf/arm_$(arg kind).urdf.xacro", False),
+        ("f'{name}_v2.urdf.xacro'", True),
+        ("name + '.urdf.xacro'", True),
+        ("name + '_v1.urdf.xacro'", False),
+        ("arm_v1.urdf.xacro", False),
+    ],
+)
+def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
+    assert may_be_loaded({"launch/a.launch": text}, "urdf/arm_v2.urdf.xacro") is loaded
