@@ -9,6 +9,12 @@ from collections.abc import Mapping
 _NAME = re.compile(
     r"""(?:\$\([^()"'<>]{0,100}\)|\$(?!\()|[^\s"'/<>=$]){0,200}\.(?:urdf\.xacro|xacro|urdf)\b"""
 )
+_FILE_ARGUMENT = re.compile(
+    r"""\bdefault(?:_value)?\s{0,8}=[^<>\n]{0,300}\.(?:urdf|xacro)\b"""
+    r"""|(?:DeclareLaunchArgument\(\s{0,80}(?:name\s{0,8}=\s{0,8})?|<arg\s{1,8}name\s{0,8}=\s{0,8})"""
+    r"""["'](?:model|(?:urdf|xacro|description|robot)_?(?:file|path|model)\w{0,40})["']"""
+)
+"""An argument of a launch file that is the file itself: `model:=urdf/arm.urdf`."""
 _COMPUTED = re.compile(r"\$\([^()]{0,100}\)|\$?\{[^{}]{0,100}\}")
 _ARGUMENT = re.compile(r"\$\(arg\s{1,8}([\w.-]{1,100})\s{0,8}\)")
 _DEFAULT = r"""<arg\s[^<>]{{0,300}}\bname\s{{0,8}}=\s{{0,8}}["']{}["'][^<>]{{0,300}}"""
@@ -18,12 +24,17 @@ _VALUE = re.compile(r"""\b(?:default|value)\s{0,8}=\s{0,8}["']([\w.-]{0,100})["'
 def may_be_loaded(launch_texts: Mapping[str, str], path: str) -> bool:
     """Return whether a launch file names a description, or a name that may be this one.
 
+    So does one with an argument that takes any file.
+
     Args:
         launch_texts: The launch files of the workspace.
         path: The path of the description.
     """
     name = posixpath.basename(path)
-    return any(name in text or _may_name(text, name) for text in launch_texts.values())
+    return any(
+        name in text or _FILE_ARGUMENT.search(text) or _may_name(text, name)
+        for text in launch_texts.values()
+    )
 
 
 def _may_name(text: str, name: str) -> bool:

@@ -79,6 +79,8 @@ def test_what_another_value_makes_has_warnings(tmp_path: Path) -> None:
         ("name + '.urdf.xacro'", True),
         ("name + '_v1.urdf.xacro'", False),
         ("arm_v1.urdf.xacro", False),
+        ("<arg name='model' default='$(find arm)/urdf/arm_v1.urdf'/>", True),
+        ("DeclareLaunchArgument(name='urdf_file', default_value=path)", True),
     ],
 )
 def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
