@@ -17,7 +17,12 @@ ARM = "urdf/arm.urdf.xacro"
 OF_ANOTHER = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
             parameters=[{'robot_description': Command(['xacro ', os.path.join(
                 get_package_share_directory('acme_hand'), 'urdf', 'hand.urdf.xacro')])}]),"""
-WITHOUT_ROBOT = {"@ros2": True, ARM: None, "launch/arm.launch.py": None}
+WITHOUT_ROBOT = {
+    "@ros2": True,
+    ARM: None,
+    "launch/arm.launch.py": None,
+    "CMakeLists.txt": f"project({BRINGUP})\nfind_package(ament_cmake REQUIRED)\nament_package()\n",
+}
 HAND = {
     "../acme_hand/package.xml": "<package format='3'><name>acme_hand</name></package>",
     "../acme_hand/urdf/hand.urdf.xacro": "<robot name='hand'><link name='base_link'/></robot>",
