@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 _NAME = re.compile(
     r"""(?:\$\([^()"'<>]{0,100}\)|\$(?!\()|[^\s"'/<>=$]){0,200}\.(?:urdf\.xacro|xacro|urdf)\b"""
@@ -17,7 +17,8 @@ _FILE_ARGUMENT = re.compile(
 """An argument of a launch file that is the file itself: `model:=urdf/arm.urdf`."""
 _COMPUTED = re.compile(r"\$\([^()]{0,100}\)|\$?\{[^{}]{0,100}\}")
 _ARGUMENT = re.compile(r"\$\(arg\s{1,8}([\w.-]{1,100})\s{0,8}\)")
-_DEFAULT = r"""<arg\s[^<>]{{0,300}}\bname\s{{0,8}}=\s{{0,8}}["']{}["'][^<>]{{0,300}}"""
+_DECLARED = re.compile(r"<arg\s[^<>]{1,400}>")
+_NAMED = re.compile(r"""\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})["']""")
 _VALUE = re.compile(r"""\b(?:default|value)\s{0,8}=\s{0,8}["']([\w.-]{0,100})["']""")
 
 
@@ -39,19 +40,33 @@ def may_be_loaded(launch_texts: Mapping[str, str], path: str) -> bool:
 
 def _may_name(text: str, name: str) -> bool:
     """Return whether a computed name in a text fits; arguments of ROS 1 have their defaults."""
+    defaults = dict(_defaults(text))
     for found in _NAME.findall(text):
-        written = _ARGUMENT.sub(lambda match: _default_of(text, match), found)
-        fixed = [re.escape(part) for part in _COMPUTED.split(written)]
+        written = _ARGUMENT.sub(lambda it: defaults.get(it[1], it.group()), found)
+        parts = _COMPUTED.split(written)
         if written[0] in "._-":  # the end of a name that is put together
-            fixed.insert(0, "")
-        if len(fixed) > 1 and re.fullmatch(".*".join(fixed), name):
-            return True
-        if written == name:
+            parts.insert(0, "")
+        if written == name or (len(parts) > 1 and _fits(name, parts)):
             return True
     return False
 
 
-def _default_of(text: str, argument: re.Match[str]) -> str:
-    declared = re.search(_DEFAULT.format(re.escape(argument[1])), text)
-    value = _VALUE.search(declared.group()) if declared else None
-    return value[1] if value else argument.group()
+def _fits(name: str, parts: Sequence[str]) -> bool:
+    """Return whether a name consists of some parts in order, with any text between them."""
+    first, *between, last = parts
+    if len(name) < len(first) + len(last):
+        return False
+    at, end = len(first), len(name) - len(last)
+    for part in between:
+        at = name.find(part, at, end) + len(part)
+        if at < len(part):
+            return False
+    return name.startswith(first) and name.endswith(last)
+
+
+def _defaults(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the arguments that a launch file of ROS 1 declares with a default or value."""
+    for tag in _DECLARED.findall(text):
+        named, value = _NAMED.search(tag), _VALUE.search(tag)
+        if named and value:
+            yield named[1], value[1]
