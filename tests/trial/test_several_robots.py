@@ -19,6 +19,7 @@ ROBOT = """<robot name="{name}">
     </inertial>
     {collision}
   </link>
+  <gazebo reference="base_link"/>
   {plugin}
 </robot>
 """
