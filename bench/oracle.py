@@ -45,7 +45,7 @@ def folders(named: list[Path]) -> list[Path]:
     return [*(Path(os.environ[name]) for name in variables if name in os.environ), ROOT / "samples"]
 
 
-def robots(folder: Path) -> Iterator[tuple[Package, Robot]]:
+def robots_in(folder: Path) -> Iterator[tuple[Package, Robot]]:
     """Yield the robots of all packages of a folder."""
     with open_input(folder) as opened:
         for package in opened.packages:
@@ -114,7 +114,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as work:
         program = compiled(SOURCE, LIBRARIES, Path(work))
         for folder in folders(given.folders):
-            for package, robot in robots(folder):
+            for package, robot in robots_in(folder):
                 result: Comparison | Trial | str
                 try:
                     result = compared(program, package, robot, math.radians(given.slope))

@@ -17,10 +17,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 
-from checker.base.parts import NotAvailable
-from checker.engine.subject import Subject
+from bench.oracle import robots_in
 from checker.model.robot import Robot
-from checker.package.inputs import open_input
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.mjcf.scene import build_scene
 from checker.physics.trial.run import TIMESTEP
@@ -61,11 +59,7 @@ def folders() -> list[Path]:
 def robots() -> Iterator[tuple[str, Robot]]:
     """Yield the robots of all packages, with the names of these."""
     for folder in folders():
-        with open_input(folder) as opened:
-            for package in opened.packages:
-                found = Subject(package).all(Robot)
-                if not isinstance(found, NotAvailable):
-                    yield from ((package.name, robot) for robot in found)
+        yield from ((package.name, robot) for package, robot in robots_in(folder))
 
 
 def trial_of(robot: Robot) -> Callable[[], object] | None:

@@ -180,6 +180,11 @@ class Context(Record):
         return self.release in ("fortress", "harmonic", "ionic", "jetty")
 
     @property
+    def is_gazebo_alone(self) -> bool:
+        """True if the profile is for a release of Gazebo, whatever starts it."""
+        return self.profile.startswith("gazebo")
+
+    @property
     def is_classic(self) -> bool:
         """True if the target is Gazebo Classic with ROS 2."""
         return self.release == "classic" and bool(self.distro)

@@ -77,10 +77,12 @@ class Allowance:
                 up what there is for all.
         """
         in_main_thread = threading.current_thread() is threading.main_thread()
-        if sys.platform == "win32" or not hasattr(signal, "setitimer"):
-            yield
-            return
-        if not in_main_thread or isinstance(signal.getsignal(signal.SIGPROF), _Watch):
+        if (
+            sys.platform == "win32"
+            or not hasattr(signal, "setitimer")
+            or not in_main_thread
+            or isinstance(signal.getsignal(signal.SIGPROF), _Watch)
+        ):
             yield
             return
         watch = self._next()

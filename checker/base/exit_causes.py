@@ -8,18 +8,16 @@ from checker.base.parts import WorkerFailed
 from checker.base.sandbox.task import DISTURBED, OUT_OF_MEMORY
 from checker.base.sandbox.windows_job import OUT_OF_TIME
 
-KILLED, TOO_LONG = -9, -24
+_KILLED, _TOO_LONG = -9, -24
 """SIGKILL and SIGXCPU, as exit codes; Windows has neither signal."""
+_LAST_EXIT_CODE = 0xFFFF
+"""Statuses of Windows above it (NTSTATUS) are those of a crash."""
 _MOMENTARY = {
     None: "could not be started",
     DISTURBED: "failed because the disk or the system did",
     # Not by limits of ours: of processor time, SIGXCPU comes first; of memory, Python says so.
-    KILLED: "was killed from outside",
+    _KILLED: "was killed from outside",
 }
-
-
-_LAST_EXIT_CODE = 0xFFFF
-"""Statuses of Windows above it (NTSTATUS) are those of a crash."""
 
 
 def timeout_failure(seconds: float) -> WorkerFailed:
@@ -39,7 +37,7 @@ def cause_of(code: int | None, seconds: float, memory: float) -> WorkerFailed:
         return WorkerFailed(_MOMENTARY[code], momentary=True)
     if code == OUT_OF_MEMORY:
         return WorkerFailed(f"needs more than {memory / 1e6:.0f} MB of memory")
-    if code in (TOO_LONG, OUT_OF_TIME):
+    if code in (_TOO_LONG, OUT_OF_TIME):
         return timeout_failure(seconds)
     if code is not None and code < 0:
         return WorkerFailed(f"crashed (signal {signal.Signals(-code).name})")

@@ -10,6 +10,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
+
 FORKS: Final = hasattr(os, "fork")
 """Whether a process can fork; where none can (Windows), each piece of work is a new program."""
 
@@ -28,13 +33,10 @@ def tighten(name: str, soft: int, hard: int) -> None:
     Nothing happens where the system has no such limit, as Windows, or refuses it, as macOS does
     with address space.
     """
-    if sys.platform == "win32":
+    if sys.platform == "win32" or resource is None:
         return
-    refused = (ValueError,) if sys.platform == "darwin" else ()
-    with suppress(ImportError, *refused):
-        import resource
-
-        kind = getattr(resource, name)
+    kind = getattr(resource, name)
+    with suppress(*((ValueError,) if sys.platform == "darwin" else ())):
         resource.setrlimit(kind, tighter_limits(resource.getrlimit(kind), soft, hard))
 
 
@@ -56,22 +58,16 @@ def tighter(limit: int, wanted: int) -> int:
 
 def unlimited() -> int:
     """Return what stands for no limit; -1 where there are none at all."""
-    if sys.platform != "win32":
-        with suppress(ImportError):
-            from resource import RLIM_INFINITY
-
-            return RLIM_INFINITY
-    return -1
+    if sys.platform == "win32" or resource is None:
+        return -1
+    return resource.RLIM_INFINITY
 
 
 def limits_of(name: str) -> tuple[int, int]:
     """Return the soft and the hard limit `RLIMIT_…` of this process."""
-    if sys.platform != "win32":
-        with suppress(ImportError):
-            import resource
-
-            return resource.getrlimit(getattr(resource, name))
-    return unlimited(), unlimited()
+    if sys.platform == "win32" or resource is None:
+        return unlimited(), unlimited()
+    return resource.getrlimit(getattr(resource, name))
 
 
 def resident_bytes() -> int:
@@ -79,17 +75,10 @@ def resident_bytes() -> int:
     try:
         pages = int(Path("/proc/self/statm").read_text("ascii").split()[1])
     except OSError:
-        return _most_resident()
+        if sys.platform == "win32" or resource is None:
+            return 0
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # macOS counts in bytes
     return pages * mmap.PAGESIZE
-
-
-def _most_resident() -> int:
-    if sys.platform != "win32":
-        with suppress(ImportError):
-            import resource
-
-            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # macOS counts in bytes
-    return 0
 
 
 def readable(descriptor: int, seconds: float) -> bool:

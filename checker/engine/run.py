@@ -91,12 +91,13 @@ def run_rules(
         looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
         found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
         said.append((rule, [judge.grade(rule, each) for each in found]))
-        # What is stated of a loaded robot counts before the same of another.
-        unchecked = (item for item in reversed(result) if isinstance(item, Unchecked))
-        reasons = {shortened(item.reason, TEXT_LIMIT): item.severity for item in unchecked}
+        reasons: dict[str, Severity | None] = {}
+        for item in result:
+            if isinstance(item, Unchecked):  # of loaded robots first: those count
+                reasons.setdefault(shortened(item.reason, TEXT_LIMIT), item.severity)
         not_checked += [
             NotChecked(rule.id, reason, Cause.NOT_AT_HAND, own or severity, rule.concern)
-            for reason, own in reversed(reasons.items())
+            for reason, own in reasons.items()
         ]
     return _reported(said, matcher, not_checked, looked)
 

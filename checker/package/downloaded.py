@@ -6,15 +6,13 @@ import posixpath
 import re
 from typing import TYPE_CHECKING
 
-from checker.package.files_above import files_above
+from checker.package.files_above import files_around
 from checker.source.cmake import read_cmake
-from checker.source.text import SourceText
 
 if TYPE_CHECKING:
     from checker.package.package import Package
 
 _NAMES = re.compile(r"\A(?:\.\./)*cmakelists\.txt\Z")
-_OWN = "CMakeLists.txt"
 _FOLDER_WORDS = {
     "externalproject_add": "SOURCE_DIR",
     "fetchcontent_declare": "SOURCE_DIR",
@@ -32,10 +30,8 @@ def downloaded_by(package: Package, path: str) -> str:
         package: A package; the files of the folders around it count, as far as the user gave them.
         path: The path of the file, from the package.
     """
-    own = package.read(_OWN)
-    above = [source for sources in files_above(package, _NAMES) for source in sources]
     wanted = _absolute(package, path)
-    for source in (*((own,) if isinstance(own, SourceText) else ()), *above):
+    for source in files_around(package, _NAMES):
         folder = posixpath.dirname(source.file)
         for call in read_cmake(source).calls if _ANY.search(source.text) else ():
             words = [word.value for word in call.arguments]

@@ -27,6 +27,13 @@ def own_files(package: Package, names: re.Pattern[str]) -> list[SourceText]:
     return [source for source in read if isinstance(source, SourceText)]
 
 
+def files_around(package: Package, names: re.Pattern[str]) -> Iterator[SourceText]:
+    """Yield the files of a package, then those of the folders around it; see `files_above`."""
+    yield from own_files(package, names)
+    for sources in files_above(package, names):
+        yield from sources
+
+
 def files_above(package: Package, names: re.Pattern[str]) -> list[tuple[SourceText, ...]]:
     """Return the files of each folder around a package, the nearest folder first.
 

@@ -6,13 +6,11 @@ import posixpath
 import re
 from typing import TYPE_CHECKING
 
-from checker.package.files_above import files_above
-from checker.source.text import SourceText
+from checker.package.files_above import files_around
 
 if TYPE_CHECKING:
     from checker.package.package import Package
 
-_FILE = ".gitignore"
 _NAMES = re.compile(r"\A(?:\.\./)*\.gitignore\Z")
 _PATTERN = re.compile(r"\*?[\w.-]{1,100}")
 
@@ -22,10 +20,8 @@ def ignored_by(package: Package, path: str) -> str:
 
     Lines that are a name, or its end after an asterisk (`*.pcd`), count; others are not read.
     """
-    own = package.read(_FILE)
-    above = [source for sources in files_above(package, _NAMES) for source in sources]
     name = posixpath.basename(path)
-    for source in (*((own,) if isinstance(own, SourceText) else ()), *above):
+    for source in files_around(package, _NAMES):
         for number, line in enumerate(source.text.splitlines(), 1):
             pattern = line.strip()
             if not _PATTERN.fullmatch(pattern):

@@ -120,3 +120,25 @@ def gazebo_control(inside: str) -> str:
   </plugin>
 </gazebo>
 """
+
+
+DRIVEN_URDF = """<robot name="rover">
+  <link name="base_link"/>
+  <gazebo>
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+      <frame_id>odom</frame_id><child_frame_id>base_link</child_frame_id>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+"""A rover whose drive in Gazebo publishes the transform from `odom` to `base_link`."""
+
+
+def tf_bridge(mark: str = "") -> str:
+    """Return the entry of a bridge that brings these transforms to `/tf`."""
+    return f"""- ros_topic_name: /tf
+  gz_topic_name: /model/rover/tf{mark}
+  ros_type_name: tf2_msgs/msg/TFMessage
+  gz_type_name: gz.msgs.Pose_V
+  direction: GZ_TO_ROS
+"""

@@ -58,7 +58,7 @@ def check(
     loaded = (
         not found
         or host.robot is None
-        or context.profile.startswith("gazebo")
+        or context.is_gazebo_alone
         or _is_loaded(host.robot, package, launch, simulations)
     )
     for plugin, known in found:

@@ -9,7 +9,7 @@ Source: parameters that the source code of each system reads (`gazebo_plugins.js
 templates are infos.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from checker.base.resources import table
 from checker.base.words import Suggestions, and_list
@@ -56,24 +56,22 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         library = libraries.get(stem)
         if library is None or library.parameters is None:
             continue
+        suggestions = Suggestions(sorted(library.parameters))
         of_ros_1 = _of_ros_1(stem) if context.is_classic else frozenset()
         # PLG012 reports those of ROS 1.
         unread = [it for it in _unread(plugin.element, library) if it.tag not in of_ros_1]
         for of_no_harm in (False, True):
             elements = [it for it in unread if (it.tag in harmless) is of_no_harm]
-            named = and_list([*dict.fromkeys(_hinted(it.tag, library) for it in elements)])
-            for element in elements:
-                yield finding(
-                    element,
-                    f"{plugin.label} does not read {named}",
-                    severity=Severity.INFO if of_no_harm else None,
-                )
+            names = dict.fromkeys(it.tag for it in elements)
+            hinted = [_hinted(name, library.parameters, suggestions) for name in names]
+            message = f"{plugin.label} does not read {and_list(hinted)}"
+            severity = Severity.INFO if of_no_harm else None
+            yield from (finding(element, message, severity=severity) for element in elements)
 
 
-def _hinted(name: str, library: PluginLibrary) -> str:
+def _hinted(name: str, known: Collection[str], suggestions: Suggestions) -> str:
     """Return an element, with the parameter that is meant."""
-    known = library.parameters or ()
-    meant = _MEANT.get(name) or Suggestions(sorted(known)).closest(name)
+    meant = _MEANT.get(name) or suggestions.closest(name)
     return f"<{name}> (did you mean <{meant}>?)" if meant in known else f"<{name}>"
 
 

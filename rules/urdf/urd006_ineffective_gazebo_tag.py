@@ -38,7 +38,7 @@ def check(description: UrdfDescription, package: Package, context: Context) -> F
     names = Suggestions([*robot.links_by_name, *robot.joints_by_name])
     # The robot that calls a macro may have more links.
     is_whole = description.call is None
-    in_gazebo = context.profile.startswith("gazebo") or package.workspace.may_start_gazebo
+    in_gazebo = context.is_gazebo_alone or package.workspace.may_start_gazebo
     for tag in description.gazebo:
         name = tag.reference.value
         known = name in robot.links_by_name or name in robot.joints_by_name

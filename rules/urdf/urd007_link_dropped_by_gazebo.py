@@ -34,7 +34,7 @@ def check(
         return
     robot = description.robot
     in_gazebo = package.workspace.may_start_gazebo and not robot.shown_only
-    in_gazebo = context.profile.startswith("gazebo") or in_gazebo
+    in_gazebo = context.is_gazebo_alone or in_gazebo
     severity = Severity.WARNING if in_gazebo else Severity.INFO
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:

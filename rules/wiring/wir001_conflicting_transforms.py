@@ -26,6 +26,7 @@ from checker.ros.wiring.frames import is_static
 from checker.ros.wiring.transforms import Transform
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import DRIVEN_URDF, tf_bridge
 
 _MOST = 8
 """Publishers of one frame that are compared."""
@@ -67,21 +68,6 @@ def _fault(first: Transform, second: Transform) -> str:
     )
 
 
-_TRANSFORMS = """- ros_topic_name: /tf
-  gz_topic_name: /model/rover/tf{}
-  ros_type_name: tf2_msgs/msg/TFMessage
-  gz_type_name: gz.msgs.Pose_V
-  direction: GZ_TO_ROS
-"""
-_ROBOT = """<robot name="rover">
-  <link name="base_link"/>
-  <gazebo>
-    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
-      <frame_id>odom</frame_id><child_frame_id>base_link</child_frame_id>
-    </plugin>
-  </gazebo>
-</robot>
-"""
 _EKF = """LaunchDescription([
         Node(package="robot_localization", executable="ekf_node",{} parameters=[
             os.path.join(HERE, "config", "ekf.yaml"){}]),
@@ -92,9 +78,9 @@ _MARK = "  # ^ WIR001"
 
 def _filter(settings: str, mark: str = "", more: str = "", name: str = "") -> dict[str, object]:
     return {
-        "@bridge": _TRANSFORMS.format(mark),
+        "@bridge": tf_bridge(mark),
         "@launch": {_LAUNCHED: _EKF.format(name, more)},
-        "urdf/rover.urdf": _ROBOT,
+        "urdf/rover.urdf": DRIVEN_URDF,
         "config/ekf.yaml": f"ekf_filter_node:\n  ros__parameters: {{{settings}}}\n",
     }
 
@@ -123,9 +109,9 @@ _SPAWNER = """LaunchDescription([
 
 def _controlled_example(odom_tf: str, mark: str = "", yaml: str = "") -> dict[str, object]:
     return {
-        "@bridge": _TRANSFORMS.format(mark),
+        "@bridge": tf_bridge(mark),
         "@launch": {_LAUNCHED: _SPAWNER},
-        "urdf/rover.urdf": _ROBOT.replace("</robot>\n", _CONTROL),
+        "urdf/rover.urdf": DRIVEN_URDF.replace("</robot>\n", _CONTROL),
         "config/base.yaml": _YAML.replace("@", odom_tf).replace("%", yaml),
     }
 
@@ -273,7 +259,7 @@ GOOD = [
     {**_filter("publish_tf: true"), "@bridge": True},
     {
         **_filter("publish_tf: true"),
-        "@bridge": _TRANSFORMS.format("").replace("ros_topic_name: /tf", "ros_topic_name: /gz/tf"),
+        "@bridge": tf_bridge().replace("ros_topic_name: /tf", "ros_topic_name: /gz/tf"),
     },
     _filter("publish_tf: false", name=' name="ekf_filter_node",'),
     _controlled_example("false"),

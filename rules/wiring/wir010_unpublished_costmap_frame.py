@@ -20,6 +20,7 @@ from checker.ros.wiring.inputs import costmap_of
 from checker.ros.wiring.parameters import Setting
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rulebook.example_parts import DRIVEN_URDF, tf_bridge
 
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _OF_JOINTS = "robot_state_publisher/robot_state_publisher"
@@ -69,21 +70,6 @@ def _publishes_frames(facts: NodeFacts) -> bool:
     return any(_TRANSFORMS in types for types in facts.publishes.values())
 
 
-_BRIDGE = """- ros_topic_name: /tf
-  gz_topic_name: /model/rover/tf
-  ros_type_name: tf2_msgs/msg/TFMessage
-  gz_type_name: gz.msgs.Pose_V
-  direction: GZ_TO_ROS
-"""
-_ROBOT = """<robot name="rover">
-  <link name="base_link"/>
-  <gazebo>
-    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
-      <frame_id>odom</frame_id><child_frame_id>base_link</child_frame_id>
-    </plugin>
-  </gazebo>
-</robot>
-"""
 _LAUNCHED = "LaunchDescription([\n"
 _SERVER = """
         Node(package="nav2_{0}", executable="{0}_server",
@@ -102,9 +88,9 @@ def _example(local: str, whole: str, more: str = "") -> dict[str, object]:
         for name, frame in frames.items()
     )
     return {
-        "@bridge": _BRIDGE,
+        "@bridge": tf_bridge(),
         "@launch": {_LAUNCHED: _LAUNCHED + servers + more},
-        "urdf/rover.urdf": _ROBOT,
+        "urdf/rover.urdf": DRIVEN_URDF,
         "config/nav2.yaml": "".join(yaml),
     }
 

@@ -35,7 +35,9 @@ from checker.base.system import readable
 _CODE_LIMIT = 16
 _HELLO_LIMIT = 10_000
 _HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
-_PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "SYSTEMROOT", "TEMP", "TZ", DEBUG)
+_OF_WINDOWS = ("SYSTEMROOT", "TEMP") if sys.platform == "win32" else ()
+"""Without these, Python does not start there, or has no folder for temporary files."""
+_PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "TZ", DEBUG, *_OF_WINDOWS)
 _DRAWING = ("EGL_", "GALLIUM_", "LIBGL_", "LP_", "MESA_", "__EGL_")
 # What chooses the code that libraries of linear algebra run on this processor.
 _NUMERIC = ("BLIS_", "MKL_", "NVPL_", "OMP_", "OPENBLAS_", "VECLIB_")

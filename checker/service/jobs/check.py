@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import logging
 import secrets
+import signal
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain, islice
@@ -20,7 +21,6 @@ from msgspec import to_builtins
 
 from checker.base.cache import key_of
 from checker.base.child_process import from_json
-from checker.base.exit_causes import TOO_LONG
 from checker.base.files import NotReadable, make_folder, read_bytes
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import DISTURBED, FAULT_LIMIT, OUT_OF_MEMORY
@@ -238,7 +238,7 @@ def failure(ended: Ended, limits: StageLimits) -> Died | Disturbed:
     if ended.code in _FROM_OUTSIDE:
         return Disturbed(_FROM_OUTSIDE[ended.code])
     too_much = {
-        TOO_LONG: f"{limits.seconds:g} s of processor time",
+        -signal.SIGXCPU: f"{limits.seconds:g} s of processor time",
         OUT_OF_MEMORY: f"{limits.memory / 1e9:g} GB of memory",
     }
     if ended.code in too_much:
@@ -254,8 +254,8 @@ _FROM_OUTSIDE: Mapping[int | None, str] = {
     None: "its process could not be started, or was ended with all others",
     DISTURBED: "the disk or the system of the service failed",
     **{
-        -number: f"its process was killed ({name})"
-        for number, name in ((9, "SIGKILL"), (15, "SIGTERM"), (1, "SIGHUP"), (2, "SIGINT"))
+        -number: f"its process was killed ({number.name})"
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT)
     },
 }
 """Ends of a process that its own work does not lead to, by exit code; limits have other signals."""

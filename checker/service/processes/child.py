@@ -119,8 +119,6 @@ class Connection(H11Protocol):
 
     def _waiting(self) -> int:
         """Return the bytes that the client has not taken: megabytes of them the system holds."""
-        if sys.platform == "win32":
-            raise OSError("the service does not run on Windows")
         held = 0
         with suppress(OSError):  # of a socket, it is what is not acknowledged (SIOCOUTQ, tcp(7))
             answer = fcntl.ioctl(
@@ -182,8 +180,6 @@ def web(descriptor: int, proxies: str) -> None:
 
 def _allow_open_files() -> None:
     """Raise the limit of open files for all connections: many systems start with 1024."""
-    if sys.platform == "win32":
-        raise OSError("the service does not run on Windows")
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)

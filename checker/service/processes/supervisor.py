@@ -8,14 +8,12 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from time import monotonic
 
-from checker.base.exit_causes import KILLED
 from checker.base.output import Say
 from checker.base.record import Record
 
@@ -97,8 +95,6 @@ class Process:
 
     def signal(self, number: int) -> None:
         """Send a signal to it and to those that it started and that are still its group."""
-        if sys.platform == "win32":
-            raise OSError("the service does not run on Windows")
         if self._running is not None and self._running.poll() is None:
             with suppress(ProcessLookupError):
                 os.killpg(self._running.pid, number)
@@ -151,6 +147,6 @@ def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace)
             break
     willing = not any(process.is_running for process in processes)
     for process in processes:
-        process.signal(-KILLED)
+        process.signal(signal.SIGKILL)
         process.wait(10.0)
     return willing

@@ -10,7 +10,6 @@ from __future__ import annotations
 import fcntl
 import os
 import shutil
-import sys
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -114,8 +113,6 @@ class FolderObjects(Record):
     @contextmanager
     def _alone(self) -> Iterator[None]:
         """Keep others from removing what is just being used again, for a moment."""
-        if sys.platform == "win32":
-            raise OSError("the service does not run on Windows")
         make_folder(self.folder)
         lock = os.open(self.folder / "lock", os.O_RDWR | os.O_CREAT, 0o600)
         try:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import fcntl
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -53,8 +52,6 @@ def lock_of_dead(file: Path) -> Iterator[bool]:
 
 
 def _locks(descriptor: int) -> bool:
-    if sys.platform == "win32":
-        raise OSError("the service does not run on Windows")
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

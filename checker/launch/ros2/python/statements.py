@@ -228,11 +228,7 @@ def _class(run: Interpreter, node: ast.ClassDef, scope: Scope) -> tuple[Flow, Va
     names = {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
     holders = {name: scope.holder(name) for name in names}
     used = [holder.values[name] for name, holder in holders.items() if holder is not None]
-    data = (str, int, float, FilePath)
-    plain = all(
-        isinstance(it, data) or (isinstance(it, Symbol) and it.root not in ROOTS) for it in used
-    )
-    kind = Inert if plain else Unknown
+    kind = Inert if all(map(_is_plain, used)) else Unknown
     reason = f"class {node.name} is not evaluated"
     scope.bind(node.name, kind(reason, run.span(node)), by_argument=False)
     return Flow.ON, None

@@ -9,17 +9,15 @@ import select
 import shutil
 import signal
 import socket
-import sys
 import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from threading import RLock
 from time import monotonic, sleep
-from typing import Any, BinaryIO, cast
+from typing import Any
 
 from checker.base.child_process import from_json
 from checker.base.errors import UnreadableInput
-from checker.base.exit_causes import KILLED, TOO_LONG
 from checker.base.files import open_file
 from checker.base.resources import PACKAGE
 from checker.base.sandbox.launcher import Launcher, Order, OwnLauncher
@@ -51,7 +49,7 @@ class _Reader:
         self._wire, theirs = socket.socketpair()
         order = Order(_MODULE, PROCESSOR_SECONDS, _MEMORY, serves=True)
         with theirs, theirs.makefile("rb") as request, tempfile.TemporaryFile() as answer:
-            self._started = launcher.start(order, request, cast("BinaryIO", answer))
+            self._started = launcher.start(order, request, answer)
 
     def ask(self, archive: Path, name: str) -> Any:
         """Return what it states about an archive.
@@ -66,8 +64,6 @@ class _Reader:
             shutil.copyfileobj(file, copy)
             copy.seek(0)
             message = json.dumps({"name": name}).encode()
-            if sys.platform == "win32":
-                raise OSError("the service does not run on Windows")
             socket.send_fds(self._wire, [message], [copy.fileno()])
         return from_json(self._heard())
 
@@ -90,8 +86,8 @@ class _Reader:
         if not select.select([self._started.code], [], [], _CODE_SECONDS)[0]:
             return None
         data = os.read(self._started.code, _CODE_LIMIT)
-        code = int(data) if data.removeprefix(b"-").isdigit() else KILLED
-        if code in (KILLED, -signal.SIGTERM, DISTURBED):
+        code = int(data) if data.removeprefix(b"-").isdigit() else -signal.SIGKILL
+        if code in (-signal.SIGKILL, -signal.SIGTERM, DISTURBED):
             raise OSError(errno.EAGAIN, "the process that reads archives was killed")
         return code
 
@@ -175,7 +171,7 @@ class ArchiveIndexes:
 
 
 _LIMITS: Mapping[int | None, Callable[[], str]] = {
-    TOO_LONG: lambda: f"{PROCESSOR_SECONDS} s of processor time",
+    -signal.SIGXCPU: lambda: f"{PROCESSOR_SECONDS} s of processor time",
     OUT_OF_MEMORY: lambda: f"{_MEMORY / 1e6:g} MB of memory",
 }
 """In words, by the exit code of a process that reaches them."""
