@@ -1,4 +1,4 @@
-"""Descriptions that no simulator gets: RViz shows them, robot_state_publisher publishes them."""
+"""Descriptions that no simulator gets: RViz shows them, a library of dynamics reads them."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ _SIMULATORS = re.compile(
     re.IGNORECASE,
 )
 """What a launch file contains that starts a simulator, or may."""
+_SIMULATED = frozenset({"plugin", "sensor"})
+"""Children of a `<gazebo>` that no other program reads."""
 _FOR_RVIZ = re.compile(r"<!--[^<>]{0,300}\bfor rviz\b", re.IGNORECASE)
 _SPAWNS = frozenset({"create", "spawn_entity.py", "spawn_entity", "spawn_model"})
 _FROM_ROS = frozenset({"-topic", "-param", "-string"})
@@ -31,7 +33,8 @@ def shown_only(
 ) -> str:
     """Return why no simulator gets a description, as a clause; empty if one may.
 
-    A description with an element for Gazebo is for a simulator, whatever starts it.
+    A description with an element for Gazebo is for a simulator, whatever starts it. Where no
+    launch file is available, it takes more than friction or colours: a plugin or a sensor.
 
     Args:
         package: The package being checked.
@@ -39,14 +42,16 @@ def shown_only(
         document: The description.
         own: What the launch files of ROS 2 of the package start.
     """
-    if package.only or any(document.root.child(tag) for tag in ("gazebo", "ros2_control")):
+    root, launch = document.root, package.workspace.launch_texts
+    tags = [child.tag for tag in root.all("gazebo") for child in tag.children]
+    in_gazebo = root.child("gazebo") if launch else not _SIMULATED.isdisjoint(tags)
+    if package.only or root.child("ros2_control") or in_gazebo:
         return ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
-    launch = package.workspace.launch_texts
     texts = _starting(launch, posixpath.basename(path)) or [*launch.values()]
     if not texts:
-        return ""
+        return "no launch file of the workspace starts anything"
     if not any(map(_SIMULATORS.search, texts)):
         return "no launch file that loads it starts a simulator"
     graphs = [*own, *(graph for _, graph in launches_naming(package))]

@@ -2,7 +2,8 @@
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
 change a colour, or how a joint is computed, is a warning, and so is one in a file of macros, whose
-user may have the link. A sensor under a joint is an error, as Gazebo makes none. A
+user may have the link. It is an info where no launch file of the workspace starts anything, as in
+the examples of a library of dynamics. A sensor under a joint is an error, as Gazebo makes none. A
 `<ros2_control>` inside a `<gazebo>` is not read, so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
@@ -12,6 +13,8 @@ ros2_control, hardware_interface/src/component_parser.cpp: tags directly below `
 """
 
 from collections.abc import Iterator
+
+from msgspec.structs import replace
 
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
@@ -34,11 +37,17 @@ def check(description: UrdfDescription, package: Package, context: Context) -> F
     """Report `<gazebo>` tags that refer to nothing, and elements without effect."""
     if description.for_rviz:
         return
+    in_gazebo = context.is_gazebo_alone or package.workspace.may_start_gazebo
+    is_read = context.is_gazebo_alone or not description.robot.shown_only
+    for found in _faults(description, in_gazebo=in_gazebo):
+        yield found if is_read else replace(found, severity=Severity.INFO)
+
+
+def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Finding]:
     robot = description.robot
     names = Suggestions([*robot.links_by_name, *robot.joints_by_name])
     # The robot that calls a macro may have more links.
     is_whole = description.call is None
-    in_gazebo = context.is_gazebo_alone or package.workspace.may_start_gazebo
     for tag in description.gazebo:
         name = tag.reference.value
         known = name in robot.links_by_name or name in robot.joints_by_name

@@ -36,17 +36,22 @@ def check(
     in_gazebo = package.workspace.may_start_gazebo and not robot.shown_only
     in_gazebo = context.is_gazebo_alone or in_gazebo
     severity = Severity.WARNING if in_gazebo else Severity.INFO
+    grave = None if context.is_gazebo_alone or not robot.shown_only else severity
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:
             continue
         if not any(link.mass for link in links):
-            yield _left_out(description, robot.links_by_name[name], links, severity)
+            yield _left_out(description, robot.links_by_name[name], links, severity, grave)
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
             yield from _without_shapes(robot.links_by_name[name], links)
 
 
 def _left_out(
-    description: UrdfDescription, link: Link, links: list[Link], severity: Severity
+    description: UrdfDescription,
+    link: Link,
+    links: list[Link],
+    severity: Severity,
+    grave: Severity | None,
 ) -> Finding:
     sensors = [sensor.name.value for link in links for sensor in link.sensors]
     merged = {link.name.value for link in links}
@@ -64,7 +69,7 @@ def _left_out(
     return finding(
         link,
         f"link {link.name.value!r} has no {lacks}, so Gazebo drops it{with_it}",
-        severity=None if is_grave else severity,
+        severity=grave if is_grave else severity,
     )
 
 

@@ -3,7 +3,7 @@
 gazebo_ros_control registers a joint with the controllers through its transmission. It skips a
 transmission without a joint, an actuator or an interface, and the controller does not find its
 joint. Without a plugin that reads transmissions, the transmission of a fixed joint has no effect
-anyway, and the finding is an info.
+anyway, and the finding is an info. So it is where no launch file gives the robot to a simulator.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
@@ -33,8 +33,10 @@ def check(description: UrdfDescription, context: Context) -> Findings:
     In ROS 2 nothing reads transmissions outside of `<ros2_control>`: there it is an info.
     """
     if not description.for_rviz:
+        is_read = context.is_gazebo_alone or not description.robot.shown_only
         for found in _faults(description):
-            yield replace(found, severity=Severity.INFO) if context.distro else found
+            ignored = context.distro or not is_read
+            yield replace(found, severity=Severity.INFO) if ignored else found
 
 
 def _faults(description: UrdfDescription) -> Iterator[Finding]:

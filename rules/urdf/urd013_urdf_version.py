@@ -2,7 +2,7 @@
 
 urdfdom refuses a robot whose version it does not know. ROS 1 and ROS 2 up to Kilted support only
 1.0. At version 1.0, newer readers ignore later elements: a `quat_xyzw` has no effect, and a capsule
-is dropped.
+is dropped. A limit of acceleration or jerk is an info: only planners use one.
 
 Fix: write `rpy` in place of `quat_xyzw` and a cylinder in place of a capsule. Or state the version
 that has them, if all your readers know it.
@@ -33,7 +33,8 @@ def check(description: UrdfDescription) -> Findings:
         yield finding(stated, message, severity=Severity.WARNING)
     for part in newer_parts(description.document):
         message = f"{part.name} needs version {part.since}, but the file is read as {stated.value}"
-        yield finding(part.span, f"{message}: it is ignored", key=part.name)
+        level = Severity.INFO if part.name in spec["limits_of_planners"] else None
+        yield finding(part.span, f"{message}: it is ignored", severity=level, key=part.name)
 
 
 def _robot(version: str, inside: str = "", mark: str = "") -> dict[str, str]:

@@ -69,3 +69,23 @@ def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
     launch = _SPAWNED.replace("GIVEN", "'-topic', 'robot_description'")
     report = _report(tmp_path, launch, comment="<!-- A simple model for RViz. -->")
     assert report.verdict is VerdictKind.READY
+
+
+_FOR_SOLVER = """<link name="foot"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<gazebo reference="lamp"><mu1>1</mu1></gazebo>
+<transmission name="gear"><joint name="hinge"/></transmission>
+"""
+_PLUGIN = '<gazebo><plugin name="p" filename="libgazebo_ros_control.so"/></gazebo>'
+
+
+@pytest.mark.parametrize(
+    ("more", "severities"),
+    [("", {Severity.INFO}), (_PLUGIN, {Severity.ERROR, Severity.INFO})],
+)
+def test_without_launch_files_what_only_gazebo_reads_is_an_info(
+    tmp_path: Path, more: str, severities: set[Severity]
+) -> None:
+    (tmp_path / "foot.urdf").write_text(f'<robot name="foot">{_FOR_SOLVER}{more}</robot>')
+    settings = Settings(select=("URD006", "URD007", "URD008", "GEO002"))
+    report = check_package(tmp_path, settings).packages[0]
+    assert {found.severity for found in report.findings} == severities
