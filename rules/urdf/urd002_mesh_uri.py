@@ -3,7 +3,7 @@
 Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
 only on the author's machine; elsewhere the part is invisible. `package:///` names no package: only
 Pinocchio reads it as `package://`. The simulation of a robot in SDF does not need the file, so this
-is a warning.
+is a warning. A path with a drive letter of Windows to a file that the package has is an error.
 
 Fix: write `package://<package>/<path>`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic
@@ -17,6 +17,7 @@ from collections.abc import Iterator
 
 from checker.formats.urdf.description import UrdfDescription
 from checker.package.package import Package
+from checker.package.uris import own_path_on_drive
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -39,6 +40,10 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
         if uri.value.startswith(_FETCHED):
+            continue
+        if own := own_path_on_drive(package, uri.value):
+            severity = None if description.for_rviz else Severity.ERROR
+            yield _on_drive(package, uri, own, severity)
             continue
         named = _PACKAGE.match(uri.value)
         if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
@@ -65,6 +70,19 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             elif not package.exists(posixpath.normpath(folder + path)):
                 missing[uri.value].append(uri)
     yield from _missing(missing)
+
+
+def _on_drive(package: Package, uri: Located[str], path: str, severity: Severity | None) -> Finding:
+    folder = posixpath.dirname(uri.span.source.file)
+    is_ros = package.exists("package.xml")
+    named = f"package://{package.declared_name}/{path}"
+    return finding(
+        uri,
+        f"mesh {uri.value!r} is on a drive of its author's machine and is found on no other: write "
+        f"{named if is_ros else posixpath.relpath(path, folder or '.')}",
+        severity=severity,
+        key="drive",
+    )
 
 
 def _folder(package: Package, name: str) -> str | None:
@@ -129,6 +147,13 @@ BAD = [
     _example(f"meshes/wheel.dae{_MARK}"),
     _example(f"file:///home/me/wheel.dae{_MARK}"),
     _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
+    {"@urdf": True, _MESH: "<COLLADA/>", **_example(f"D:\\work\\rover/meshes/wheel.dae{_MARK}")},
+    {
+        "@urdf": True,
+        "package.xml": None,
+        _MESH: "<COLLADA/>",
+        "urdf/arm.urdf": _visual(f"D:/work/rover/meshes/wheel.dae{_MARK}"),
+    },
     {
         "@urdf": True,
         "package.xml": None,
