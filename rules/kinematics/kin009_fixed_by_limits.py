@@ -116,6 +116,9 @@ GOOD = [
     _hinge("<lower>-1</lower><upper>1</upper>") + _DRIVE,
     _hinge("<lower>-1e16</lower><upper>1e16</upper>") + _WHEELS,
     _hinge(""),
+    # What a plugin that nobody knows does with a fixed joint is not known either.
+    _hinge("", kind="fixed")
+    + "<plugin filename='libeye.so' name='eye'><eyeJoint>mast_joint</eyeJoint></plugin>",
 ]
 BAD = [
     {

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from checker.base.resources import table
 from checker.model.components import Joint, Link, Plugin
 from checker.model.locomotion.classic import classic_joints
-from checker.model.plugin_library import library_stem
+from checker.model.plugin_library import classic_plugin, library_stem
 
 DRIVE_CLASSES = {
     "DiffDrive": "differential or skid-steer drive",
@@ -50,18 +50,21 @@ def drive_name(plugins: Iterable[Plugin]) -> str:
 def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[str, Plugin]:
     """Return the scoped names of the joints that plugins move, with the first plugin that does.
 
-    A class that is not in `plugin_references.json` moves whatever joint it names.
+    A class that is not in `plugin_references.json` moves whatever joint it names. If Gazebo Classic
+    does not have it either, fixed joints are excepted: it may read their pose, or replace them.
     """
     known = table("plugin_references")["plugins"]
-    names = {joint.scoped_name for joint in joints}
+    types = {joint.scoped_name: joint.type.value for joint in joints}
     driven: dict[str, Plugin] = {}
     for plugin in plugins:
         paths = known.get(plugin.class_name)
         if _READS_ONLY & {plugin.class_name, library_stem(plugin.filename.value)}:
             continue
+        unknown = paths is None and classic_plugin(plugin.filename.value) is None
         for word in _words(plugin) if paths is None else _joints_at(plugin, paths):
-            if plugin.scoped(word) in names:
-                driven.setdefault(plugin.scoped(word), plugin)
+            name = plugin.scoped(word)
+            if name in types and not (unknown and types[name] == "fixed"):
+                driven.setdefault(name, plugin)
     return driven
 
 
