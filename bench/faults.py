@@ -71,8 +71,9 @@ class Robot:
         return root / self.folder if root and (root / self.folder).is_dir() else None
 
 
-def _submission(name: str) -> Robot:
-    return Robot(name, "corpus", name, "", name, "subt", SUBMISSION)
+def submission(name: str, kinds: tuple[Kind, ...] = SUBMISSION) -> Robot:
+    """Return a robot of the SubT challenge."""
+    return Robot(name, "corpus", name, "", name, "subt", kinds)
 
 
 def _ros2(name: str, repository: str) -> Robot:
@@ -81,9 +82,9 @@ def _ros2(name: str, repository: str) -> Robot:
 
 TURTLEBOT = "nav2_minimal_tb3_sim"
 ROBOTS = (
-    _submission("coro_jeanine_sensor_config_1"),
-    _submission("coro_rocky_sensor_config_1"),
-    _submission("explorer_ds1_sensor_config_1"),
+    submission("coro_jeanine_sensor_config_1"),
+    submission("coro_rocky_sensor_config_1"),
+    submission("explorer_ds1_sensor_config_1"),
     Robot(
         "turtlebot3_waffle.urdf",
         "modern",
@@ -139,7 +140,7 @@ def _findings(package: Path, robot: Robot) -> Found:
     )
 
 
-def _copy(robot: Robot, folder: str) -> Path:
+def copy_package(robot: Robot, folder: str) -> Path:
     """Copy the package; of several URDF files only the one that is checked."""
     assert robot.origin is not None
     package = Path(folder) / robot.home
@@ -156,7 +157,7 @@ def _copy(robot: Robot, folder: str) -> Path:
 @cache
 def _before(number: int) -> Found:
     with tempfile.TemporaryDirectory() as folder:
-        return _findings(_copy(ROBOTS[number], folder), ROBOTS[number])
+        return _findings(copy_package(ROBOTS[number], folder), ROBOTS[number])
 
 
 def planted(numbers: tuple[int, ...], place: int, seed: int) -> Result | None:
@@ -173,7 +174,7 @@ def planted(numbers: tuple[int, ...], place: int, seed: int) -> Result | None:
     for number in numbers:
         robot, kind = ROBOTS[number], ROBOTS[number].kinds[place]
         with tempfile.TemporaryDirectory() as folder:
-            package = _copy(robot, folder)
+            package = copy_package(robot, folder)
             try:
                 is_there = kind.edit(package, Random(f"{seed} {robot.name} {kind.name}"))
             except (ValueError, LookupError, LxmlError) as error:

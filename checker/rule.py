@@ -27,6 +27,7 @@ __all__ = [
     "Unchecked",
     "finding",
     "misspelt",
+    "rename",
     "replace_text",
     "rule",
     "unchecked",
@@ -122,6 +123,14 @@ def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE)
     return Fix(safety, (where.span.replacement(replacement),))
 
 
+def rename(where: Located[str], name: str) -> Fix | None:
+    """Return the fix that writes another name; None if the file puts the one there together."""
+    text = where.span.text
+    if text.strip("\"' ") != where.value:
+        return None
+    return replace_text(where, text.replace(where.value, name), Safety.UNSAFE)
+
+
 def misspelt(
     where: Located[str],
     message: str,
@@ -140,10 +149,7 @@ def misspelt(
         key: See `finding`.
     """
     name, sure = where.value, names.correction(where.value)
-    text = where.span.text
-    fix = None
-    if sure and text.strip("\"' ") == name:
-        fix = replace_text(where, text.replace(name, sure), Safety.UNSAFE)
+    fix = rename(where, sure) if sure else None
     return finding(where, f"{message}{names.hint(name)}", severity=severity, key=key, fix=fix)
 
 

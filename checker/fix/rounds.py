@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, insort
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import unified_diff
@@ -12,7 +13,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.words import plain
-from checker.finding import Edit, Fix, Safety
+from checker.finding import Edit, Fix, Safety, Severity
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
 from checker.source.text import SourceText
@@ -123,6 +124,7 @@ class Fixed(Record):
         elsewhere: Findings whose fix was allowed, in files that belong to other packages.
         withheld: Findings whose fix changes behaviour and was not requested.
         rounds: The number of rounds of edits.
+        unproven: Findings whose fix was left out, because more would be wrong after it.
     """
 
     files: tuple[FixedFile, ...]
@@ -131,24 +133,43 @@ class Fixed(Record):
     elsewhere: tuple[ReportedFinding, ...]
     withheld: tuple[ReportedFinding, ...]
     rounds: int
+    unproven: tuple[ReportedFinding, ...] = ()
 
 
-def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]) -> Fixed:
+def fix_package(
+    package: Package,
+    judge: FindingsOf,
+    allowed: Collection[Safety],
+    prove: FindingsOf | None = None,
+) -> Fixed:
     """Apply fixes until nothing changes; nothing is written.
 
     Args:
         package: The package as it is on disk.
         judge: Checks the package as edited so far.
         allowed: Fixes that may be made.
+        prove: Checks it more thoroughly; then a fix is kept only if no rule reports more errors
+            after it.
     """
     edited: dict[str, SourceText] = {}
     fixed: list[ReportedFinding] = []
     findings: tuple[ReportedFinding, ...] = ()
     fixable: list[ReportedFinding] = []
+    unproven: dict[str, ReportedFinding] = {}
     for rounds in range(MAX_ROUNDS + 1):
         findings = judge(package.with_texts(edited))
-        fixable = [finding for finding in findings if finding.fix and finding.fix.safety in allowed]
-        applied = _round(fixable, package, edited) if rounds < MAX_ROUNDS else []
+        fixable = [
+            finding
+            for finding in findings
+            if finding.fix and finding.fix.safety in allowed and finding.fingerprint not in unproven
+        ]
+        if rounds == MAX_ROUNDS:
+            break
+        if prove is None:
+            applied = _round(fixable, package, edited)
+        else:
+            applied = _proven_round(fixable, package, edited, prove)
+            unproven |= {each.fingerprint: each for each in fixable if each not in applied}
         fixed += applied
         if not applied:
             break
@@ -159,6 +180,39 @@ def fix_package(package: Package, judge: FindingsOf, allowed: Collection[Safety]
         tuple(reported for reported in fixable if _elsewhere(reported)),
         tuple(finding for finding in findings if finding.fix and finding.fix.safety not in allowed),
         rounds,
+        tuple(unproven.values()),
+    )
+
+
+def _proven_round(
+    fixable: Sequence[ReportedFinding],
+    package: Package,
+    edited: dict[str, SourceText],
+    prove: FindingsOf,
+) -> list[ReportedFinding]:
+    """Make the edits after which nothing is worse: all together, else one by one."""
+    before = _errors(prove(package.with_texts(edited))) if fixable else Counter()
+    kept: list[ReportedFinding] = []
+    for attempt in (fixable, *([each] for each in fixable)):
+        texts = dict(edited)
+        applied = _round(attempt, package, texts)
+        after = _errors(prove(package.with_texts(texts))) if applied else before
+        if applied and not after - before:
+            edited |= texts
+            before, kept = after, kept + applied
+            if attempt is fixable:
+                break
+    return kept
+
+
+def _errors(findings: Iterable[ReportedFinding]) -> Counter[str]:
+    """Count the places of errors by rule; related ones are none."""
+    return Counter(
+        finding.rule
+        for finding in findings
+        if finding.severity is Severity.ERROR
+        for place in finding.places
+        if not place.note
     )
 
 

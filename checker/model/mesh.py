@@ -12,6 +12,7 @@ from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.record import Record
+from checker.model.geometry.bodies import POINT, Body, Matrix
 from checker.model.geometry.transform import Vector
 
 # Readers of mesh files, which run in children, load this module and no robot.
@@ -70,6 +71,8 @@ class Mesh(Record, dict=True):
         volume: The volume of the surface as it is, m³; negative if inside out, None if not
             watertight or if adjacent triangles disagree on which side is outside.
         hull_volume: m³.
+        centre: Centre of the volume, metres: of the surface if it has a volume, else of the hull.
+        spread: Mean products of two coordinates about it, m² (see `Body`).
         watertight: Whether each edge joins two triangles, once equal corners are joined.
         degenerate: Number of triangles without area.
         textures: Picture files as named inside, and in the material files that it names.
@@ -89,6 +92,8 @@ class Mesh(Record, dict=True):
     hull: tuple[Vector, ...] = ()
     volume: float | None = None
     hull_volume: float = 0.0
+    centre: Vector = (0.0, 0.0, 0.0)
+    spread: Matrix = POINT
     watertight: bool = False
     degenerate: int = 0
     textures: tuple[str, ...] = ()
@@ -97,6 +102,12 @@ class Mesh(Record, dict=True):
     bare: str = ""
     parts: tuple[str, ...] = ()
     picks: Mapping[str, Mesh] = field(default_factory=dict)
+
+    @property
+    def solid(self) -> Body:
+        """The volume that it fills; that of its hull if it is not closed."""
+        own = abs(self.volume) if self.watertight and self.volume else self.hull_volume
+        return Body(own, self.centre, self.spread)
 
     @property
     def corners(self) -> tuple[Vector, ...]:
@@ -152,8 +163,8 @@ def _centred(mesh: Mesh) -> Mesh:
     def moved(point: Vector) -> Vector:
         return point[0] - x, point[1] - y, point[2] - z
 
-    hull = tuple(map(moved, mesh.hull))
-    return replace(mesh, low=moved(mesh.low), high=moved(mesh.high), hull=hull)
+    hull, centre = tuple(map(moved, mesh.hull)), moved(mesh.centre)
+    return replace(mesh, low=moved(mesh.low), high=moved(mesh.high), hull=hull, centre=centre)
 
 
 def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from checker.finding import Edit
@@ -20,6 +20,11 @@ class Insertion(NamedTuple):
     span: Span
     text: str
 
+    @property
+    def edit(self) -> Edit:
+        """The edit that makes it."""
+        return self.span.replacement(self.text)
+
 
 def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
     """Return the edit that puts elements in front of those that an element contains.
@@ -28,8 +33,7 @@ def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
         parent: The element that is to hold them.
         lines: Their text, two blanks in front of a line for each step of depth.
     """
-    span, text = insertion(parent, lines)
-    return span.replacement(text)
+    return insertion(parent, lines).edit
 
 
 def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
@@ -83,6 +87,18 @@ def _behind_comments(source: SourceText, offset: int) -> int:
         if behind < at or "\n" in text[at:behind]:
             return offset
         at = behind
+
+
+def with_attributes(element: Element, values: Mapping[str, str]) -> list[Insertion]:
+    """Return what gives an element attributes, and those that it has other values."""
+    stated = {name: element.attribute(name) for name in values}
+    end = element.name_span.end
+    added = "".join(f' {name}="{values[name]}"' for name, old in stated.items() if old is None)
+    changed = [Insertion(old.span, values[name]) for name, old in stated.items() if old is not None]
+    return [
+        *([Insertion(Span(element.source, end, end, element), added)] if added else []),
+        *changed,
+    ]
 
 
 def removal(element: Element) -> Edit:

@@ -22,7 +22,7 @@ from checker.ros.bridge_types import (
     ros_types,
 )
 from checker.ros.simulation import Simulations
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 from checker.source.text import Located
 
 _AS_LISTED = ("", "humble", "jazzy")
@@ -49,7 +49,7 @@ def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Findi
         expected = and_list(partners)
         said = f"the bridge does not convert {gz.value} to {ros.value}"
         if meant := meant_ros_type(ros.value, partners):
-            yield finding(ros, f"{said}; expected {meant}")
+            yield finding(ros, f"{said}; expected {meant}", fix=rename(ros, meant))
         elif ros.value in all_ros_types():
             severity = None if distro in _AS_LISTED else Severity.WARNING
             yield finding(ros, f"{said}; it knows {expected}", severity=severity)
@@ -60,7 +60,8 @@ def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Findi
 def _unknown_message(gz: Located[str], ros: str) -> Finding:
     meant = meant_gz_message(gz.value)
     if meant:
-        return finding(gz, f"Gazebo has no message {gz.value!r:.200}; expected gz.msgs.{meant}")
+        message = f"Gazebo has no message {gz.value!r:.200}; expected gz.msgs.{meant}"
+        return finding(gz, message, fix=rename(gz, f"gz.msgs.{meant}"))
     near = gz_messages(ros)
     hint = f"; for {ros} it knows {and_list([f'gz.msgs.{name}' for name in near])}" if near else ""
     return finding(

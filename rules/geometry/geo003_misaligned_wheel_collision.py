@@ -14,11 +14,19 @@ is z in SDF and URDF; URDF specification, joint: "axis" is (1,0,0) by default.
 
 import math
 
+from checker.finding import Fix
+from checker.formats.corrections import along_z, reposed, rewrite
+from checker.formats.xacro.expanded import written_element
 from checker.model.geometry.placed_shapes import Placed
+from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.locomotion import Wheel
 from checker.model.locomotion.wheels import misalignment, tread
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
+from checker.source.xml_insertion import append_to
+
+_ACROSS = 0.9
+"""Share of a shape's axis across the robot from which the joint's axis is the wrong one."""
 
 
 @rule("GEO003", "misaligned-wheel-collision", Severity.ERROR, Concern.ROBOT)
@@ -50,7 +58,30 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             f"{wheel.joint.name.value!r}, expected 0°",
             severity=severity,
             related=[(wheel.joint, "the joint")],
+            fix=_aligned(robot, wheel, rolls),
         )
+
+
+def _aligned(robot: Robot, wheel: Wheel, rolls: Placed) -> Fix | None:
+    """Return the fix that turns the joint's axis if the shape lies across the robot, else it."""
+    along = rolls.pose.rotate((0.0, 0.0, 1.0))
+    joint = robot.pose_of_joint(wheel.joint)
+    axis = wheel.joint.axes[0]
+    if abs(along[1]) > _ACROSS and joint is not None and not axis.expressed_in:
+        return rewrite(zip(axis.xyz, _line(joint.inverse.rotate(along)), strict=True))
+    frame, shape = robot.pose_of(wheel.link.scoped_name), rolls.shape
+    if frame is None or wheel.axis is None or shape.pose.relative_to:
+        return None
+    turn = along_z(frame.inverse.rotate(wheel.axis))
+    new = Transform(turn.rotation, shape.pose.transform.translation)
+    return reposed(robot, shape, new)
+
+
+def _line(along: Vector) -> Vector:
+    """Return the usual direction of a line: the positive one, without what rounding left."""
+    sign = math.copysign(1.0, max(along, key=abs))
+    x, y, z = (round(sign * number, 4) + 0.0 for number in along)
+    return x, y, z
 
 
 def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity) -> Finding:
@@ -58,9 +89,7 @@ def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity)
     joint = robot.pose_of_joint(wheel.joint)
     along = rolls.pose.rotate((0.0, 0.0, 1.0))
     own = joint.inverse.rotate(along) if joint is not None else along
-    # The positive direction of a line is usual.
-    sign = math.copysign(1.0, max(own, key=abs))
-    needed = " ".join(f"{round(sign * number, 4) + 0.0:g}" for number in own)
+    needed = " ".join(f"{number:g}" for number in _line(own))
     return finding(
         wheel.joint,
         f"joint {wheel.joint.name.value!r} has no <axis>, so it turns about x, URDF's default, "
@@ -68,6 +97,10 @@ def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity)
         f'<axis xyz="{needed}"/>',
         severity=severity,
         related=[(rolls.shape.pose, f"the {rolls.shape.geometry.shape}")],
+        fix=Fix(
+            Safety.UNSAFE,
+            (append_to(written_element(wheel.joint.element), [f'<axis xyz="{needed}"/>']),),
+        ),
     )
 
 

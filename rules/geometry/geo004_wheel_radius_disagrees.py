@@ -10,6 +10,7 @@ Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.
 
 from collections.abc import Iterator
 
+from checker.formats.corrections import rewrite
 from checker.model.locomotion.locomotion import Wheel, WheelDrive
 from checker.model.locomotion.wheels import is_misaligned
 from checker.model.robot import Robot
@@ -49,6 +50,8 @@ def _worst(
         return
     differing = sum(other[0] > warning_above for other in off)
     length, times = ("diameter", 2) if drive.diameter_tag else ("radius", 1)
+    # As many digits as the message has.
+    true = float(f"{wheel.radius or 0.0:.4g}")
     tag = drive.diameter_tag or drive.radius_tag
     says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
     yield finding(
@@ -60,6 +63,7 @@ def _worst(
         # Plugin and controller, or the files of two distributions, say the same of one wheel.
         key=f"{wheel.link.name.value} {stated.value:g}",
         related=[(wheel.link, "the wheel")],
+        fix=rewrite([(stated, true)], times) if differing == len(off) else None,
     )
 
 

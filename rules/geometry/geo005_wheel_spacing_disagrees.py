@@ -14,6 +14,7 @@ a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the dista
 Source: parameters of Gazebo's DiffDrive, AckermannSteering, MecanumDrive and TrackedVehicle.
 """
 
+from checker.formats.corrections import rewrite
 from checker.model.locomotion.wheel_positions import CountedDistance, counted_distances
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -41,7 +42,8 @@ def check(
         exact = counted.steers or not counted.slips
         highest = most_of_steering if exact else most
         if not least * counted.true <= counted.stated.value <= highest * counted.true:
-            yield finding(counted.stated, _message(counted, least, highest))
+            fix = rewrite([(counted.stated, float(f"{counted.true:.4g}"))])
+            yield finding(counted.stated, _message(counted, least, highest), fix=fix)
 
 
 def _message(counted: CountedDistance, least: float, most: float) -> str:

@@ -10,6 +10,7 @@ Source: SDFormat specification, geometry: lengths are above 0.
 
 from collections.abc import Iterator
 
+from checker.formats.corrections import rewrite
 from checker.model.geometry.shapes import Geometry
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
@@ -41,6 +42,7 @@ def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Findi
                 + (": the mesh is mirrored" if mirrored else ""),
                 severity=Severity.WARNING if mirrored else Severity.ERROR,
                 key="mirrored" if mirrored else "",
+                fix=rewrite([(number, -number.value)]) if number.value and not mirrored else None,
             )
 
 

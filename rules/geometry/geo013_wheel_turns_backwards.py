@@ -19,6 +19,8 @@ sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 import re
 from collections.abc import Iterator, Sequence
 
+from checker.finding import Fix
+from checker.formats.corrections import rewrite
 from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
@@ -51,11 +53,11 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield unchecked(robot.unread_plugins)
     for drive in robot.locomotion.wheel_drives:
         left = _left_of(drive, least_cosine)
-        yield from _reversed_axes(drive, left, least_cosine)
+        yield from _reversed_axes(robot, drive, left, least_cosine)
         yield from _swapped_sides(drive, left, least_share)
         yield from _on_both_sides(drive)
         yield from _steering_findings(robot, drive, least_cosine)
-    yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
+    yield from _against_its_side(robot, least_cosine, least_share)
     # A wheel that follows another one is on the side of its place.
     listed = {
         wheel.joint
@@ -105,7 +107,9 @@ def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
     return first if backwards * 2 <= len(axes) else (-first[0], -first[1], -first[2])
 
 
-def _reversed_axes(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[Finding]:
+def _reversed_axes(
+    robot: Robot, drive: WheelDrive, left: Vector, least_cosine: float
+) -> Iterator[Finding]:
     known = [wheel for wheel in drive.wheels if wheel.axis is not None]
     wrong = [w for w in known if w.axis and _dot(w.axis, left) <= -least_cosine]
     every = len(wrong) == len(known) > 1
@@ -121,17 +125,29 @@ def _reversed_axes(drive: WheelDrive, left: Vector, least_cosine: float) -> Iter
             f"axis {_axis_text(joint)} of wheel joint {joint.name.value!r} points to the right, "
             f"{what}",
             key="all" if every else "",
+            fix=_turned_round(robot, joint),
         )
 
 
-def _against_its_side(
-    wheels: Sequence[Wheel], least_cosine: float, least_share: float
-) -> Iterator[Finding]:
+def _turned_round(robot: Robot, joint: Joint) -> Fix | None:
+    """Return the fix that turns an axis round, unless a macro gives it to other joints too."""
+    place = joint.axes[0].xyz[0].span.place()
+    axes = [axis for other in robot.joints for axis in other.axes]
+    if sum(axis.xyz[0].span.place() == place for axis in axes) > 1:
+        return None
+    return rewrite([(number, -number.value) for number in joint.axes[0].xyz])
+
+
+def _against_its_side(robot: Robot, least_cosine: float, least_share: float) -> Iterator[Finding]:
     """Report wheels that no plugin drives and that turn against most others of their side.
 
     Which way the axis of a caster or of a swerve drive points states nothing.
     """
-    offsets = {wheel: abs(wheel.centre[1]) for wheel in wheels if wheel.centre is not None}
+    offsets = {
+        wheel: abs(wheel.centre[1])
+        for wheel in robot.locomotion.undriven
+        if wheel.centre is not None
+    }
     nearest = least_share * max(offsets.values(), default=0.0)
     for side in Side:
         along = [
@@ -151,6 +167,7 @@ def _against_its_side(
                 "direction for all",
                 severity=Severity.WARNING,
                 related=[(more[0].joint, "the other joint")],
+                fix=_turned_round(robot, wheel.joint),
             )
 
 

@@ -11,6 +11,7 @@ plausible angles in radians.
 import math
 from collections.abc import Iterator
 
+from checker.formats.corrections import rewrite
 from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
@@ -58,6 +59,7 @@ def _finding(angle: Located[float], what: str) -> Finding:
         f"{what} is {angle.value:g} rad, {abs(angle.value) / math.tau:.3g} turns: if degrees are "
         f"meant, write {math.radians(angle.value):.17g}",
         key="degrees",
+        fix=rewrite([(angle, math.radians(angle.value))]),
     )
 
 

@@ -18,6 +18,8 @@ from msgspec.structs import replace
 from checker.formats.sdf.auto_inertia import is_automatic
 from checker.formats.sdf.document import parse_version
 from checker.model.components import Inertial, Link
+from checker.model.robot import Robot
+from checker.physics.mass.even_inertia import inertial_fix
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
@@ -39,11 +41,11 @@ def check(masses: MassProperties, context: Context) -> Findings:
     is_prop = robot.is_prop and not context.is_subt
     for link in robot.links:
         if link.scoped_name not in robot.tree.links_fixed_to_world and not robot.is_still(link):
-            for found in _missing(link, automatic=automatic):
+            for found in _missing(robot, link, automatic=automatic):
                 yield replace(found, severity=Severity.INFO) if is_prop else found
 
 
-def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:
+def _missing(robot: Robot, link: Link, *, automatic: bool) -> Iterator[Finding]:
     name = link.name.value
     inertial = link.inertial
     taken = "the simulator uses 1 kg·m² about each axis"
@@ -52,6 +54,7 @@ def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:
             link,
             f"link {name!r} has no <inertial>: the simulator uses 1 kg and 1 kg·m²",
             key="none",
+            fix=inertial_fix(robot, link),
         )
     elif is_automatic(link.element.child("inertial")):
         yield from _left_to_the_simulator(link, inertial, automatic=automatic)
@@ -60,6 +63,7 @@ def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:
             inertial.mass,
             f"link {name!r} states a mass of {inertial.mass.value:g} kg, but no <inertia>: {taken}",
             key="no moments",
+            fix=inertial_fix(robot, link),
         )
     elif not inertial.mass.stated:
         yield finding(

@@ -21,6 +21,7 @@ from checker.formats.sdf.auto_inertia import is_automatic
 from checker.model.components import Inertial, Link
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
+from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mass.mass_properties import LinkInertia
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
@@ -65,7 +66,7 @@ def check(
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = merges and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR
-        yield from _moments(inertia, inertial, possible, share)
+        yield from _moments(robot, inertia, inertial, possible, share)
 
 
 def _left_open(link: Link, inertial: Inertial) -> bool:
@@ -93,7 +94,7 @@ def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Itera
 
 
 def _moments(
-    inertia: LinkInertia, inertial: Inertial, level: Severity, share: float
+    robot: Robot, inertia: LinkInertia, inertial: Inertial, level: Severity, share: float
 ) -> Iterator[Finding]:
     name = inertia.link.name.value
     if any(math.isnan(moment) for moment in inertia.principal):
@@ -119,6 +120,7 @@ def _moments(
         f"link {name!r} has principal moments of inertia of {moments} kg·m², which no physical "
         f"body can have: {why}",
         severity=level,
+        fix=moments_fix(robot, inertia.link),
     )
 
 

@@ -8,6 +8,7 @@ Fix: state the moments of the part itself, or of a small box of its size: m/12·
 Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
 """
 
+from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -40,6 +41,7 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
             f"link {inertia.link.name.value!r} has principal moments of inertia of {moments} kg·m²,"
             f" expected all above {expected}{tied}",
             severity=Severity.ERROR if alone else Severity.INFO,
+            fix=moments_fix(masses.robot, inertia.link) if alone else None,
         )
 
 

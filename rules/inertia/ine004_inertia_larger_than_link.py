@@ -13,6 +13,7 @@ Source: definition of the moment of inertia.
 
 import math
 
+from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.link_geometry import displacement, known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -75,6 +76,7 @@ def check(
                 _message(inertia, reach, "large" if ratio > warning_above else "small"),
                 severity=severity if heavy else Severity.INFO,
                 key="" if heavy else "placeholder",
+                fix=moments_fix(masses.robot, inertia.link),
                 covered_by=("INE013",),
             )
 

@@ -16,6 +16,7 @@ import math
 
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import union
+from checker.physics.mass.even_inertia import centre_fix
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -66,6 +67,7 @@ def check(
                 f"the centre of mass of link {inertia.link.name.value!r} is {outside:.3g} m "
                 f"outside its shapes, which measure {box.diagonal:.3g} m from corner to corner",
                 severity=Severity.ERROR if grave else Severity.WARNING,
+                fix=centre_fix(masses.robot, inertia.link),
             )
 
 

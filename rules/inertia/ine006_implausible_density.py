@@ -19,10 +19,15 @@ Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 8
 import math
 from collections.abc import Iterator
 
+from checker.finding import Fix
+from checker.formats.corrections import rewrite
 from checker.model.components import Collision, Link, Visual
-from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
+from checker.physics.mass.link_geometry import known_reach, not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+
+_GRAMS = 1000.0
+"""In a kilogram."""
 
 
 @rule("INE006", "implausible-density", Severity.WARNING, Concern.ROBOT)
@@ -77,11 +82,15 @@ def check(
         most = max(collisions[1], drawn)
         counted = link.visuals if drawn > collisions[1] else link.collisions
         heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
-        if most > 0.0 and inertia.mass / most > heaviest:
-            grave = inertia.mass / most > impossible and not _stands(masses, inertia.link)
+        density = inertia.mass / most if most > 0.0 else 0.0
+        if density > heaviest:
+            grave = density > impossible and not _stands(masses, inertia.link)
             severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
-            yield from _say(inertia, most, f"at most {heaviest:g}", severity)
-        elif most > 0.0 and inertia.mass / most > max(metal, contrast * others.density(name)):
+            grams = (
+                _from_grams(masses, inertia) if grave and lightest < density / 1e3 < metal else None
+            )
+            yield from _say(inertia, most, f"at most {heaviest:g}", severity, grams)
+        elif density > max(metal, contrast * others.density(name)):
             rest = f"the other links have {_rounded(others.density(name))}"
             yield from _say(inertia, most, f"at most {metal:g}; {rest}", heavy)
         elif (
@@ -90,6 +99,17 @@ def check(
             # What a box or a ball of a world weighs is its author's choice.
             severity = Severity.INFO if masses.robot.is_prop else Severity.WARNING
             yield from _say(inertia, collisions[0], f"at least {lightest:g}", severity)
+
+
+def _from_grams(masses: MassProperties, inertia: LinkInertia) -> Fix | None:
+    """Return the fix that takes a mass for grams, and moments that fit it for g·m²."""
+    inertial, centre = inertia.link.inertial, inertia.centre
+    if inertial is None or centre is None:
+        return None
+    reach = known_reach(masses.robot, inertia.link, centre) or math.inf
+    heavy = inertia.gyration_radius * math.sqrt(_GRAMS) > reach
+    numbers = (inertial.mass, *(inertial.moments if heavy else ()))
+    return rewrite((number, number.value / _GRAMS) for number in numbers)
 
 
 def _is_mesh(shape: Collision | Visual) -> bool:
@@ -159,7 +179,11 @@ def _rounded(number: float) -> str:
 
 
 def _say(
-    inertia: LinkInertia, volume: float, expected: str, severity: Severity
+    inertia: LinkInertia,
+    volume: float,
+    expected: str,
+    severity: Severity,
+    fix: Fix | None = None,
 ) -> Iterator[Finding]:
     if inertia.link.inertial is not None:
         yield finding(
@@ -168,6 +192,7 @@ def _say(
             f"kg/m³ ({inertia.mass:.4g} kg in {_rounded(1000 * volume)} litres), "
             f"expected {expected}",
             severity=severity,
+            fix=fix,
         )
 
 

@@ -10,6 +10,8 @@ Source: Model Migration Guide; review of exported models.
 
 from collections.abc import Iterator, Sequence
 
+from checker.model.robot import Robot
+from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
@@ -38,12 +40,12 @@ def check(
     for name, inertia in masses.weighed.items():
         tensor = _stated_moments(inertia)
         if tensor == _UNIT:
-            yield from _unit(inertia)
+            yield from _unit(masses.robot, inertia)
         elif any(tensor) and masses.share(name) > share:
             by_tensor.setdefault(tensor, []).append(inertia)
     for tensor, group in by_tensor.items():
         if len(group) >= links and not _alike(masses, group, alike):
-            yield from _repeated_tensors(group, tensor)
+            yield from _repeated_tensors(masses.robot, group, tensor)
 
 
 def _stated_moments(inertia: LinkInertia) -> tuple[float, ...]:
@@ -54,7 +56,7 @@ def _stated_moments(inertia: LinkInertia) -> tuple[float, ...]:
     return tuple(moment.value for moment in inertial.moments)
 
 
-def _unit(inertia: LinkInertia) -> Iterator[Finding]:
+def _unit(robot: Robot, inertia: LinkInertia) -> Iterator[Finding]:
     if inertia.link.inertial is not None:
         yield finding(
             inertia.moments_span,
@@ -62,6 +64,7 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
             "of inertia, 1 kg·m² about each axis",
             key="unit",
             covered_by=_MORE_PRECISE,
+            fix=moments_fix(robot, inertia.link),
         )
 
 
@@ -80,7 +83,9 @@ def _are_near(values: Sequence[float], tolerance: float) -> bool:
     return not values or max(values) - min(values) <= tolerance * max(values)
 
 
-def _repeated_tensors(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator[Finding]:
+def _repeated_tensors(
+    robot: Robot, group: Sequence[LinkInertia], tensor: Sequence[float]
+) -> Iterator[Finding]:
     moments = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
     first = group[0].link.name.value
     for inertia in group:
@@ -91,6 +96,7 @@ def _repeated_tensors(group: Sequence[LinkInertia], tensor: Sequence[float]) -> 
                 f"or size have the same inertia tensor (ixx, iyy, izz = {moments} kg·m²)",
                 key=f"copied {first}",
                 covered_by=_MORE_PRECISE,
+                fix=moments_fix(robot, inertia.link),
             )
 
 

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator
 
 from checker.base.resources import table
+from checker.formats.corrections import rewrite
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
@@ -49,7 +50,8 @@ def _judged(joint: Joint, axis: Axis, tolerance: float) -> Iterator[Finding]:
         yield finding(axis.xyz[0], f"{what} is {written}, which has no direction")
     elif abs(length - 1.0) > tolerance:
         message = f"{what} is {written}, of length {length:.4g}, expected 1"
-        yield finding(axis.xyz[0], message, severity=Severity.WARNING)
+        unit = rewrite([(number, number.value / length) for number in axis.xyz])
+        yield finding(axis.xyz[0], message, severity=Severity.WARNING, fix=unit)
 
 
 def _hinge(axis: str, kind: str = "revolute") -> str:

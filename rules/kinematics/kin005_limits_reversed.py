@@ -8,6 +8,7 @@ Source: SDFormat specification, axis/limit; URDF, joint/limit.
 """
 
 from checker.base.resources import table
+from checker.formats.corrections import rewrite
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -26,6 +27,7 @@ def check(robot: Robot) -> Findings:
                     lower if lower.stated else upper,
                     f"joint {joint.name.value!r} has the lower limit {lower.value:g} "
                     f"above its upper limit {upper.value:g}",
+                    fix=rewrite([(lower, upper.value), (upper, lower.value)]),
                 )
 
 

@@ -8,6 +8,7 @@ Fix: write a positive number, or 0 for none.
 Source: SDFormat specification, axis/dynamics; URDF, joint/dynamics.
 """
 
+from checker.formats.corrections import rewrite
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -25,7 +26,8 @@ def check(robot: Robot) -> Findings:
             for kind, value in stated.items():
                 if value.value < 0.0:
                     message = f"joint {joint.name.value!r} has the {kind} {value.value:g}"
-                    yield finding(value, f"{message}, expected 0 or more")
+                    fix = rewrite([(value, -value.value)])
+                    yield finding(value, f"{message}, expected 0 or more", fix=fix)
 
 
 def _hinge(dynamics: str) -> str:

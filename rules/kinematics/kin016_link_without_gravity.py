@@ -14,7 +14,16 @@ gz-physics reads of a link (dartsim/src/SDFFeatures.cc).
 """
 
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+)
 
 
 @rule("KIN016", "link-without-gravity", Severity.WARNING, Concern.ROBOT)
@@ -32,7 +41,8 @@ def check(robot: Robot, context: Context) -> Findings:
             severity = Severity.WARNING if carries else Severity.INFO
             advice = "remove the setting" if carries else "expected only where springs balance it"
             message = f"no gravity acts on link {name!r} (set to {stated}): {advice}"
-            yield finding(link.gravity, message, severity=severity, key="gravity")
+            fix = replace_text(link.gravity, "true", Safety.UNSAFE) if carries else None
+            yield finding(link.gravity, message, severity=severity, key="gravity", fix=fix)
         if link.kinematic.value:
             ignored = "Gazebo's default engine ignores it; in others, no force moves the link"
             message = (

@@ -8,9 +8,19 @@ the COLLADA file, or remove a scale that was applied twice.
 Source: geometry; Gazebo uses the unit of a COLLADA file and reads STL and OBJ as metres.
 """
 
-from checker.model.geometry.mesh_units import UNIT_LIMITS, UnitLimits, misscaled_meshes
+from checker.finding import Fix, Safety
+from checker.formats.corrections import number_text, rewrite
+from checker.formats.xacro.expanded import written_element
+from checker.model.geometry.mesh_units import (
+    UNIT_LIMITS,
+    UNITS,
+    MisscaledMesh,
+    UnitLimits,
+    misscaled_meshes,
+)
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.xml_insertion import append_to, with_attributes
 
 
 @rule("MSH005", "mesh-unit", Severity.ERROR, Concern.ROBOT)
@@ -54,7 +64,23 @@ def check(
             uri,
             f"{uri.value} measures {mesh.size:.3g} m, but the {mesh.whose} measures "
             f"{mesh.rest:.3g} m: {why}",
+            fix=_scaled(robot, mesh),
         )
+
+
+def _scaled(robot: Robot, mesh: MisscaledMesh) -> Fix | None:
+    """Return the fix that scales a mesh by its unit."""
+    times = 1.0 / UNITS[mesh.unit] if mesh.is_large else UNITS[mesh.unit]
+    geometry = mesh.use.shape.geometry
+    written, scale = written_element(geometry.element), geometry.sizes["scale"]
+    if scale[0].stated:
+        return rewrite((number, number.value * times) for number in scale)
+    text = " ".join([number_text(times)] * 3)
+    if robot.conventions.joint_types == "urdf":
+        edits = [each.edit for each in with_attributes(written, {"scale": text})]
+    else:
+        edits = [append_to(written, [f"<scale>{text}</scale>"])]
+    return Fix(Safety.UNSAFE, tuple(edits))
 
 
 def _rover(visual: str, collision: str = "<box><size>0.6 0.4 0.3</size></box>") -> str:

@@ -12,7 +12,7 @@ Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resour
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
-from checker.formats.xacro.expanded import written_elements
+from checker.formats.xacro.expanded import written_element
 from checker.ros.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,
@@ -62,9 +62,7 @@ def _missing(hardware: Hardware) -> Iterator[Finding]:
 
 def _has_plugin_elsewhere(hardware: Element) -> bool:
     """Return whether xacro leaves out a plugin because of the values of its arguments."""
-    pairs = written_elements(hardware.document).items()
-    origin = next((written for it, written in pairs if it.node is hardware.node), None)
-    return origin is not None and next(origin.descendants("plugin"), None) is not None
+    return next(written_element(hardware).descendants("plugin"), None) is not None
 
 
 def _strange(hardware: Hardware) -> Iterator[Finding]:

@@ -18,7 +18,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rename, rule
 from checker.rulebook.example_parts import GAZEBO, MOCK, ros2_control
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {
@@ -65,13 +65,15 @@ def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[
     for hardware in control.hardware:
         owner = hardware.plugin.value.partition("/")[0]
         if packages is not None and owner in _EVERY_PACKAGE and owner not in packages:
+            meant = _HARDWARE[manager.library]
             yield finding(
                 manager,
                 f"{manager.plugin.filename.value} cannot load hardware "
                 f"{hardware.plugin.value!r}, which is for another simulator: expected "
-                f"{_HARDWARE[manager.library]!r}",
+                f"{meant!r}",
                 key=f"{manager.library} {owner}",
                 related=[(hardware.plugin, "the hardware")],
+                fix=None if manager.library in _FILES else rename(hardware.plugin, meant),
             )
 
 
@@ -82,6 +84,7 @@ def _names(manager: GazeboManager) -> Iterator[Finding]:
             name,
             f"plugin of {manager.plugin.filename.value} is named {name.value!r}, which is not a "
             f"class of it: expected {classes[0]}",
+            fix=rename(name, classes[0]),
         )
 
 

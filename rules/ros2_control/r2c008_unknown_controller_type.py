@@ -25,7 +25,17 @@ from checker.ros.ros2_control.distributions import (
     distribution_of,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    rename,
+    rule,
+)
 from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located
 
@@ -76,7 +86,8 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             instead = _INSTEAD.get(name)
             message = f"ROS 2 {distribution.title()} has no controller of type {name}"
             if instead:
-                yield finding(controller.type, f"{message}, expected {instead}")
+                message += f", expected {instead}"
+                yield finding(controller.type, message, fix=rename(controller.type, instead))
             else:
                 yield misspelt(controller.type, message, suggestions)
 

@@ -15,6 +15,7 @@ from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
 from checker.package.package import Package
+from checker.physics.mass.even_inertia import inertial_fix
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"
@@ -65,11 +66,13 @@ def _left_out(
     with_it = f", with {' and '.join(lost)}" if lost else ""
     missed = lost or any(link.collisions or link.visuals for link in links)
     is_grave = missed and description.robot.is_for_gazebo
-    lacks = "<inertial>" if link.inertial is None else "mass"
+    bare = link.inertial is None
     return finding(
         link,
-        f"link {link.name.value!r} has no {lacks}, so Gazebo drops it{with_it}",
+        f"link {link.name.value!r} has no {'<inertial>' if bare else 'mass'}, so Gazebo drops "
+        f"it{with_it}",
         severity=grave if is_grave else severity,
+        fix=inertial_fix(description.robot, link) if bare else None,
     )
 
 

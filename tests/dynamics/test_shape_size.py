@@ -1,4 +1,4 @@
-"""Volumes and reaches of shapes: against trimesh's bodies of the same sizes."""
+"""Volumes, moments and reaches of shapes: against trimesh's bodies of the same sizes."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.model.geometry.bodies import Body, together
 from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.solids import solid_of
 from checker.model.geometry.transform import Transform
-from checker.model.mesh import Mesh, MeshFault, NoMeshes
-from checker.physics.mass.link_geometry import farthest, volume_of
+from checker.model.mesh import Mesh, Meshes, MeshFault, NoMeshes
+from checker.physics.mass.link_geometry import farthest
 from checker.source.text import Located
 from tests.dynamics.bodies import collision, link, poses
 from tests.model.robots import as_matrix, sdf
@@ -47,10 +49,35 @@ def geometry(shape: str, size: str) -> Geometry:
     return robot.links[0].collisions[0].geometry
 
 
+def volume_of(shape: Geometry, meshes: Meshes) -> float | None:
+    solid = solid_of(shape, meshes)
+    return None if solid is None else solid.amount
+
+
 @pytest.mark.parametrize("shape", sorted(BODIES))
-def test_volumes(shape: str) -> None:
+def test_volumes_and_moments(shape: str) -> None:
     size, body = BODIES[shape]
-    assert volume_of(geometry(shape, size), NoMeshes()) == pytest.approx(body.volume, rel=0.01)
+    at = Transform.from_xyz_rpy((0.1, -0.2, 0.3), (0.4, -0.5, 0.6))
+    solid = solid_of(geometry(shape, size), NoMeshes())
+    assert solid is not None
+    placed, moved = solid.placed(at), body.copy().apply_transform(as_matrix(at))
+    assert placed.amount == pytest.approx(moved.volume, rel=0.01)
+    assert placed.centre == pytest.approx(tuple(moved.center_mass), abs=1e-3)
+    xx, xy, xz, yy, yz, zz = placed.moments(2.0)
+    expected = moved.moment_inertia * 2.0 / moved.volume
+    ours = np.array(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)))
+    assert ours == pytest.approx(expected, rel=0.01, abs=0.01 * expected.max())
+
+
+def test_bodies_together_have_the_moments_of_one() -> None:
+    halves = [
+        Body(0.5, (side * 0.25, 0.0, 0.0), ((0.25 / 12, 0, 0), (0, 1 / 12, 0), (0, 0, 1 / 12)))
+        for side in (-1, 1)
+    ]
+    whole = together(halves)
+    assert whole is not None
+    assert whole.moments(3.0) == pytest.approx((0.5, 0, 0, 0.5, 0, 0.5))
+    assert together([]) is None
 
 
 @given(shapes, poses, st.tuples(*[st.floats(-3, 3)] * 3))

@@ -35,6 +35,8 @@ CASES = [
 REVEALED = {
     "REF001": "MSH001",  # the mesh is found, and is empty
     "SEN002": "ROS001",  # the lidar is simulated, and its scan is not bridged
+    "GEO003": "GEO004",  # the radius of a wheel that lies right is compared with the drive's
+    "GEO008": "INE009",  # the shape that it stands on is known
     "SDF010": "KIN003",  # the link is one of the robot's own, and no joint ties it
 }
 """What another rule can see only once a fix is made."""

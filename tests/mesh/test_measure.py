@@ -41,6 +41,9 @@ def test_a_box(suffix: str, x: float, y: float, z: float, far: float) -> None:
     assert read.volume == pytest.approx(x * y * z, rel=1e-2)
     assert read.hull_volume == pytest.approx(x * y * z, rel=1e-2)
     assert len(read.hull) == 8
+    assert read.centre == pytest.approx((far, 0.0, -far), abs=1e-4)
+    moments = (y * y + z * z, 0, 0, x * x + z * z, 0, x * x + y * y)
+    assert read.solid.moments(12.0) == pytest.approx(moments, rel=0.02, abs=2e-4)
     assert read.low == pytest.approx((far - x / 2, -y / 2, -far - z / 2), abs=1e-4)
     assert read.high == pytest.approx((far + x / 2, y / 2, -far + z / 2), abs=1e-4)
 
@@ -73,9 +76,11 @@ def test_a_hull_of_many_corners_keeps_its_box_and_nearly_its_shape() -> None:
     assert reach == pytest.approx(0.5, rel=2e-3)
 
 
-def test_inside_out_has_a_negative_volume() -> None:
+def test_inside_out_has_a_negative_volume_and_the_same_moments() -> None:
     turned = [(a, c, b) for a, b, c in box(1, 1, 1)]
-    assert mesh(binary_stl(turned), "a.stl").volume == pytest.approx(-1.0)
+    read = mesh(binary_stl(turned), "a.stl")
+    assert read.volume == pytest.approx(-1.0)
+    assert read.solid.moments(6.0) == pytest.approx((1, 0, 0, 1, 0, 1), abs=1e-6)
 
 
 def test_triangles_of_both_senses_have_no_volume() -> None:
@@ -90,6 +95,7 @@ def test_a_hole() -> None:
     assert not read.watertight
     assert read.volume is None
     assert read.hull_volume == pytest.approx(1.0)
+    assert read.solid.moments(6.0) == pytest.approx((1, 0, 0, 1, 0, 1), abs=1e-6)
 
 
 def test_triangles_without_area_leave_no_hole() -> None:

@@ -65,6 +65,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="with --fix or --diff: also fixes that change behaviour",
     )
     parser.add_argument(
+        "--prove",
+        action="store_true",
+        help="with --fix or --diff: keep a fix only if it brings no error, in the trial neither",
+    )
+    parser.add_argument(
         "--diff",
         action="store_true",
         help="print the fixes as a patch and do nothing else; exit code 1 if there are any",
@@ -108,7 +113,12 @@ _APART = {
     "quiet": ("info", "statistics"),
 }
 """Options, and those that do not go with them."""
-_NEEDS = {"unsafe": ("fix", "diff"), "allow_dirty": ("fix",), "open": ("report",)}
+_NEEDS = {
+    "unsafe": ("fix", "diff"),
+    "prove": ("fix", "diff"),
+    "allow_dirty": ("fix",),
+    "open": ("report",),
+}
 """Options, and those of which they need one."""
 
 

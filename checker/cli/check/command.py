@@ -45,8 +45,9 @@ def run(options: argparse.Namespace) -> int:
 
         allowed = list(Safety) if options.unsafe else [Safety.SAFE]
         if options.diff:
-            return show_patch(paths, wishes, allowed, options.output or "")
-        apply_fixes(paths, wishes, allowed, dirty=options.allow_dirty)
+            output = options.output or ""
+            return show_patch(paths, wishes, allowed, output, prove=options.prove)
+        apply_fixes(paths, wishes, allowed, dirty=options.allow_dirty, prove=options.prove)
     report = check_and_print(paths, wishes, options)
     if renewed:
         ids = {rule.id for rule in all_rules()}

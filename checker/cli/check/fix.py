@@ -143,6 +143,7 @@ def fix_paths(
     *,
     write: bool,
     dirty: bool = False,
+    prove: bool = False,
 ) -> list[FixedPackage]:
     """Fix every package at the paths; files are written when all packages are fixed.
 
@@ -152,6 +153,7 @@ def fix_paths(
         allowed: Fixes that may be made.
         write: Whether files are changed; else it is only found out what would change.
         dirty: Whether files may be changed that have changes which git does not know.
+        prove: Whether a fix is kept only if no error is new after it, in the trial neither.
 
     Raises:
         UnreadableInput: There is nothing to fix at a path, or it is an archive; then nothing was
@@ -162,7 +164,8 @@ def fix_paths(
     """
     for path in paths if write else ():
         _refuse_archives(path)
-    found = [fixed for path in paths for fixed in _fix_input(Task(path, wishes=wishes), allowed)]
+    tasks = [Task(path, wishes=wishes) for path in paths]
+    found = [fixed for task in tasks for fixed in _fix_input(task, allowed, prove=prove)]
     if write and not dirty:
         _refuse_uncommitted(found)
     for package, fixed in found if write else ():
@@ -193,27 +196,35 @@ def _refuse_archives(path: Path) -> None:
             raise UnreadableInput(path, "is an archive; archives are not changed", _ARCHIVES_STAY)
 
 
-def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Package, FixedPackage]]:
+def _fix_input(
+    task: Task, allowed: Collection[Safety], *, prove: bool
+) -> Iterator[tuple[Package, FixedPackage]]:
     with open_input(task.path) as opened:
         for given in opened.packages:
             settings = task.settings_for(given)
             package = with_package_path(given, settings.package_path)
-            fixed = fix_package(package, _judge(settings), allowed)
+            # The trial corrects nothing, but it proves.
+            judge = _judge(settings.with_overrides(trial=False, thorough=False))
+            fixed = fix_package(package, judge, allowed, _judge(settings) if prove else None)
             yield package, FixedPackage(package.name, task.display_path_of(package), fixed)
 
 
 def _judge(settings: Settings) -> FindingsOf:
-    """Return how a package is checked between rounds: without a trial, which corrects nothing."""
-    still = settings.with_overrides(trial=False, thorough=False)
+    """Return how a package is checked between rounds."""
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
-    return lambda package: findings_of(package, still, cache)
+    return lambda package: findings_of(package, settings, cache)
 
 
 def show_patch(
-    paths: Sequence[Path], wishes: Mapping[str, Any], allowed: Collection[Safety], output: str = ""
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    allowed: Collection[Safety],
+    output: str = "",
+    *,
+    prove: bool = False,
 ) -> int:
     """Print what fixing would change, or write it to a file; return 1 when there is something."""
-    packages = fix_paths(paths, wishes, allowed, write=False)
+    packages = fix_paths(paths, wishes, allowed, write=False, prove=prove)
     text = "".join(patch(package.fixed.files, _folder(package, packages)) for package in packages)
     if output:
         write(Path(output), text)
@@ -241,9 +252,10 @@ def apply_fixes(
     allowed: Collection[Safety],
     *,
     dirty: bool = False,
+    prove: bool = False,
 ) -> None:
-    """Fix files, and state on the standard error what was done; `dirty` as in `fix_paths`."""
-    for package in fix_paths(paths, wishes, allowed, write=True, dirty=dirty):
+    """Fix files, and state on the standard error what was done; the rest as in `fix_paths`."""
+    for package in fix_paths(paths, wishes, allowed, write=True, dirty=dirty, prove=prove):
         for line in _summary(package):
             say_progress(f"{plain(package.shown)}: {line}")
 
@@ -257,6 +269,9 @@ def _summary(package: FixedPackage) -> Iterator[str]:
         yield "nothing to fix"
     if fixed.left:
         yield f"could not fix {count(len(fixed.left), 'finding')} ({_rules(fixed.left)})"
+    if fixed.unproven:
+        findings, rules = count(len(fixed.unproven), "finding"), _rules(fixed.unproven)
+        yield f"{findings} not fixed, because that would bring other errors ({rules})"
     if fixed.elsewhere:
         edits = [
             edit for reported in fixed.elsewhere if reported.fix for edit in reported.fix.edits

@@ -100,6 +100,12 @@ def written_elements(document: XmlDocument) -> Mapping[Element, Element]:
     return {copy: origin for copy, origin in pairs if origin is not None}
 
 
+def written_element(element: Element) -> Element:
+    """Return the element of a file that xacro made another one of; that one where it did not."""
+    pairs = written_elements(element.document).items()
+    return next((origin for copy, origin in pairs if copy.node is element.node), element)
+
+
 def _origins(answer: Mapping[str, Any], gathered: Gathered) -> list[Element | None]:
     """Return the element that each expanded one is a copy of."""
     documents = [gathered.documents.get(path) for path in answer["files"]]

@@ -9,46 +9,18 @@ from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.solids import solid_of
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshTrouble, mesh_of
 from checker.model.robot import Robot
 
-# How much room a shape takes, and how far it reaches from a point: closed formulas.
-
-
-def volume_of(geometry: Geometry, meshes: Meshes) -> float | None:
-    """Return the volume of a shape, m³; None for shapes without end and meshes that are not known.
-
-    A mesh that is not closed counts by its convex hull.
-    """
-    size = {name: tuple(number.value for number in sizes) for name, sizes in geometry.sizes.items()}
-    volume: float | None = None
-    match geometry.shape:
-        case "box":
-            volume = math.prod(size["size"])
-        case "sphere":
-            volume = 4 / 3 * math.pi * size["radius"][0] ** 2 * size["radius"][0]
-        case "cylinder":
-            volume = math.pi * size["radius"][0] * size["radius"][0] * size["length"][0]
-        case "capsule":
-            radius, length = size["radius"][0], size["length"][0]
-            volume = math.pi * radius * radius * (length + 4 / 3 * radius)
-        case "cone":
-            volume = math.pi * size["radius"][0] * size["radius"][0] * size["length"][0] / 3
-        case "ellipsoid":
-            volume = 4 / 3 * math.pi * math.prod(size["radii"])
-        case "mesh":
-            mesh = mesh_of(geometry, meshes)
-            if isinstance(mesh, Mesh):
-                own = abs(mesh.volume) if mesh.watertight and mesh.volume else mesh.hull_volume
-                volume = own * abs(math.prod(size["scale"]))
-    return volume if volume is None or math.isfinite(volume) else None
+# How far a shape reaches from a point: closed formulas.
 
 
 def farthest(geometry: Geometry, pose: Transform, point: Vector, meshes: Meshes) -> float | None:
     """Return the distance of a point from the farthest point of a shape, metres.
 
-    None as for `volume_of`.
+    None as for `solid_of`.
 
     Args:
         geometry: The shape.
@@ -165,9 +137,9 @@ def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float]
     They may be in one another: the largest alone, and all side by side. None without shapes, and
     where one is not known.
     """
-    volumes = [volume_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]
-    known = [volume for volume in volumes if volume is not None]
-    if not known or len(known) < len(volumes):
+    solids = [solid_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]
+    known = [each.amount for each in solids if each is not None]
+    if not known or len(known) < len(solids):
         return None
     total = math.fsum(known) if max(known) < 1e300 else math.inf
     return max(known), total

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from checker.base.record import Record
+from checker.model.geometry.bodies import POINT, Matrix
 from checker.model.geometry.transform import Vector
 from checker.model.mesh import Mesh
 from checker.physics.mesh.content import MeshContent, NoSurface
@@ -93,26 +94,33 @@ MOST_CORNERS = 2_000
 _AT_ONCE = 100_000
 
 
-def convex_hull(points: NDArray[float64]) -> tuple[tuple[Vector, ...], float]:
-    """Return the corners of the convex hull, metres, and its volume, m³.
+def convex_hull(
+    points: NDArray[float64],
+) -> tuple[tuple[Vector, ...], float, NDArray[float64]]:
+    """Return the corners of the convex hull, metres, its volume, m³, and its facets (m × 3 × 3).
 
-    No corners and no volume where all points are in a plane. A hull of more than `MOST_CORNERS`
-    is reduced to the corners that reach farthest in that many directions, spread evenly, and along
-    the axes: its box stays exact. The volume is that of the whole hull.
+    Nothing of these where all points are in a plane. A hull of more than `MOST_CORNERS` is reduced
+    to the corners that reach farthest in that many directions, spread evenly, and along the axes:
+    its box stays exact. Volume and facets are those of the whole hull; which side of a facet is
+    outside is left open.
     """
+    import numpy as np
     from scipy.spatial import ConvexHull, QhullError
 
+    nothing = (), 0.0, np.empty((0, 3, 3))
     if len(points) < 4:
-        return (), 0.0
+        return nothing
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
-        return (), 0.0
+        return nothing
     corners = points[hull.vertices]
     if len(corners) > MOST_CORNERS:
         corners = corners[_farthest(corners)]
     vertices = tuple((float(x), float(y), float(z)) for x, y, z in corners)
-    return (vertices, float(hull.volume)) if math.isfinite(hull.volume) else ((), 0.0)
+    if not math.isfinite(hull.volume):
+        return nothing
+    return vertices, float(hull.volume), points[hull.simplices]
 
 
 def _farthest(corners: NDArray[float64]) -> list[int]:
@@ -159,10 +167,13 @@ def measure(content: MeshContent, path: str, format: str) -> Mesh:
     joined = Joined.from_corners(corners)
     flat = _without_area(joined)
     points = joined.vertices
-    hull, hull_volume = convex_hull(points)
+    hull, hull_volume, facets = convex_hull(points)
     # A triangle whose corners are one leaves no hole where it is left out.
     joined = joined.only(_with_three_corners(joined))
     watertight, wound_alike = joined.is_closed()
+    volume = _volume(joined) if wound_alike else None
+    surface = joined.vertices[joined.faces] if volume else facets
+    centre, spread = even_spread(surface, convex=not volume)
     return Mesh(
         path=path,
         format=format,
@@ -171,8 +182,10 @@ def measure(content: MeshContent, path: str, format: str) -> Mesh:
         high=_vector(points.max(axis=0)),
         metres_per_unit=content.metres_per_unit,
         hull=hull,
-        volume=_volume(joined) if wound_alike else None,
+        volume=volume,
         hull_volume=hull_volume,
+        centre=centre,
+        spread=spread,
         watertight=watertight,
         degenerate=int(flat.sum()),
         textures=content.textures,
@@ -221,6 +234,32 @@ def _volume(mesh: Joined) -> float | None:
     a, b, c = corners.transpose(1, 0, 2)
     volume = float((a * np.cross(b, c)).sum() / 6.0)
     return volume if math.isfinite(volume) else None
+
+
+def even_spread(triangles: NDArray[float64], *, convex: bool = False) -> tuple[Vector, Matrix]:
+    """Return the centre and the spread of what triangles enclose (see `Body`).
+
+    Args:
+        triangles: Corners (n × 3 × 3), metres.
+        convex: Whether the surface is convex and which sides are outside is not known.
+    """
+    import numpy as np
+
+    if not len(triangles):
+        return (0.0, 0.0, 0.0), POINT
+    middle = triangles.reshape(-1, 3).mean(axis=0)
+    a, b, c = (triangles - middle).transpose(1, 0, 2)
+    sixfold = (a * np.cross(b, c)).sum(axis=1)
+    sixfold = np.abs(sixfold) if convex else sixfold
+    total = float(sixfold.sum())
+    if not total or not math.isfinite(total):
+        return _vector(middle), POINT
+    # The mean over a tetrahedron with a corner in the middle.
+    shares, ends = sixfold / total, a + b + c
+    centre = shares @ ends / 4
+    products = sum(np.einsum("n,ni,nj->ij", shares, each, each) for each in (a, b, c, ends)) / 20
+    x, y, z = products - np.outer(centre, centre)
+    return _vector(middle + centre), (_vector(x), _vector(y), _vector(z))
 
 
 def _vector(point: NDArray[float64]) -> Vector:

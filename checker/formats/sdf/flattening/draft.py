@@ -12,7 +12,7 @@ from checker.formats.sdf.flattening.names import FlatNames
 from checker.model.frames import MODEL_FRAME
 from checker.source.text import Located, SourceText, Span
 from checker.source.xml import Element
-from checker.source.xml_insertion import insertion, with_blanks
+from checker.source.xml_insertion import insertion, with_attributes, with_blanks
 
 Change = tuple[int, int, str]
 """Characters from the first offset up to the second, and what is to be there."""
@@ -39,9 +39,8 @@ class Draft:
         if element.attribute(name) is not None:
             self.name(element.attribute(name), value)
             return
-        end = element.name_span.end
-        behind = Span(element.source, end, end, element)
-        self.put(behind, f' {name}="{escape_xml(value)}"')
+        for span, text in with_attributes(element, {name: escape_xml(value)}):
+            self.put(span, text)
 
     def take_attribute(self, element: Element, name: str) -> None:
         """Leave out an attribute."""
