@@ -34,7 +34,7 @@ from checker.package.inheritance import (
     own_sheet,
 )
 from checker.package.installed import data_file_items, installed_items
-from checker.package.kind import PackageKind, kind_of
+from checker.package.kind import PackageKind, kind_of, looks_like_package
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
 from checker.package.overlay import Overlay, OverlayText
@@ -229,7 +229,15 @@ class Package(Record, eq=False, dict=True):
         if name == self.root.name and not self.only:
             return self.resolve(rest)
         sibling = self.workspace.package(name)
-        return sibling.resolve(rest) if sibling else None
+        return sibling.resolve(rest) if sibling else self._resolve_beside(normal)
+
+    def _resolve_beside(self, normal: str) -> FileEntry | None:
+        """Return what is beside a loose folder of models, within what the user gave."""
+        given = self.workspace.given
+        is_loose = not self.only and not looks_like_package(self.root)
+        if given is None or not is_loose or not self.root.parent.is_relative_to(given):
+            return None
+        return entry_at(self.root / normal, normal, given, self.workspace.holds)
 
     def _below_link(self, normal: str) -> bool:
         parts = normal.split("/")

@@ -1,0 +1,46 @@
+"""Folders of URDF files without a package around them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from checker.pipeline import check_package
+from checker.report.report import PackageReport
+from checker.settings import Settings
+
+URDF = """<robot name="{name}">
+  <link name="base">
+    <inertial>
+      <mass value="1"/>
+      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    </inertial>
+    <visual><geometry><mesh filename="../meshes/plate.obj"/></geometry></visual>
+    <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+  </link>
+</robot>
+"""
+PLATE = """v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2
+f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4
+"""
+
+
+def checked(given: Path, top: Path, *files: str) -> dict[str, PackageReport]:
+    """Check a folder, with URDF files below its folder `top`; return the reports by package."""
+    (top / "meshes").mkdir(parents=True)
+    (top / "meshes" / "plate.obj").write_text(PLATE)
+    for file in files:
+        (top / file).parent.mkdir(parents=True, exist_ok=True)
+        (top / file).write_text(URDF.format(name=Path(file).stem))
+    return {report.name: report for report in check_package(given, Settings(trial=False)).packages}
+
+
+def test_a_mesh_in_the_folder_beside_is_read(tmp_path: Path) -> None:
+    report = checked(tmp_path, tmp_path / "dog", "solver/dog.urdf")["solver"]
+    assert report.facts["visual_triangles"] == 4
+    assert not any("in meshes" in it.reason for it in report.not_checked)
+
+
+def test_a_mesh_above_the_given_folder_is_not_read(tmp_path: Path) -> None:
+    top = tmp_path / "dog"
+    report = checked(top / "solver", top, "solver/dog.urdf")["solver"]
+    assert report.facts["visual_triangles"] == 0
