@@ -218,7 +218,9 @@ def _siblings(folder: Path, within: Path | None) -> tuple[Unit, ...]:
 
 
 def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
-    """Yield the subfolders of a folder of packages that contain none."""
+    """Yield the subfolders of a folder of packages that contain none, and models beside these."""
+    seen = {unit.folder for unit in found.units if not unit.only}
+    seen.update(mark.parent for mark in found.ignored)
     for place in sorted(folder.iterdir()):
         if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
             continue
@@ -230,7 +232,10 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
             marks = [mark.name for mark in found.ignored if mark.is_relative_to(place)]
             why = f"is excluded by {marks[0]}" if marks else "contains no package"
             models = "" if marks else models_of(place)
+            seen.add(place)
             yield Skipped(place.name, f"{why}; {models}" if models else why)
+    if models := models_of(folder, seen):
+        yield Skipped("", f"contains models outside its packages: {models}")
 
 
 def _open_single(path: Path, file: Path) -> Opened:

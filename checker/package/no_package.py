@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from itertools import islice
 from pathlib import Path
 
@@ -61,9 +61,15 @@ def reason_not_checked(name: str) -> tuple[str, str]:
     return f"is {found.kind}, not a package, archive or model file", found.advice
 
 
-def models_of(folder: Path) -> str:
-    """Return what the models are that a folder contains and no rule reads; empty without any."""
-    paths = (path.relative_to(folder).as_posix() for path in islice(_files(folder), _FILES_LIMIT))
+def models_of(folder: Path, without: Collection[Path] = ()) -> str:
+    """Return what the models are that a folder contains and no rule reads; empty without any.
+
+    Args:
+        folder: The folder.
+        without: Folders in it that are left out.
+    """
+    files = islice(_files(folder, without), _FILES_LIMIT)
+    paths = (path.relative_to(folder).as_posix() for path in files)
     return "; ".join(unchecked_models(paths, lambda path: head_of(folder / path)))
 
 
@@ -91,8 +97,12 @@ def _instead(names: list[str]) -> Instead | None:
     return None
 
 
-def _files(folder: Path) -> Iterator[Path]:
+def _files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
     """Yield the files, those of hidden folders left out."""
     for place, folders, files in os.walk(folder):
-        folders[:] = [name for name in sorted(folders) if not name.startswith((".", "__MACOSX"))]
+        folders[:] = [
+            name
+            for name in sorted(folders)
+            if not name.startswith((".", "__MACOSX")) and Path(place, name) not in without
+        ]
         yield from (Path(place, name) for name in sorted(files) if not name.startswith("."))

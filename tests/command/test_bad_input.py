@@ -98,6 +98,19 @@ def test_a_package_with_unchecked_models_is_incomplete(run: Run, rover: Path) ->
     }
 
 
+def test_models_beside_packages_are_named_and_nothing_is_incomplete(run: Run, rover: Path) -> None:
+    (rover.parent / "demo/models").mkdir(parents=True)
+    rover.rename(rover.parent / "demo/models/rover")
+    for name in ("arm.xml", "hand.xml"):
+        (rover.parent / f"demo/models/{name}").write_text(MJCF)
+    report = json.loads(run(rover.parent, "--output-format", "json").stdout)
+    (beside,) = report["not_opened"]
+    assert beside["reason"].startswith(
+        "contains models outside its packages: demo/models/arm.xml and 1 more are MuJoCo models"
+    )
+    assert "MJCF" not in json.dumps(report["packages"][0]["not_checked"])
+
+
 def test_devices_and_pipes_are_not_read(run: Run, tmp_path: Path, rover: Path) -> None:
     os.mkfifo(tmp_path / "pipe.sdf")
     assert refused(run("pipe.sdf"), "is not a package, archive or model file")
