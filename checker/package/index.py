@@ -33,6 +33,9 @@ class LinkState(StrEnum):
     LOOP = "loop"
 
 
+_BROKEN = ("bad_", "broken_", "invalid_", "malformed_")
+
+
 class FileEntry(Record):
     """A file, folder or link.
 
@@ -70,6 +73,11 @@ class FileEntry(Record):
     def is_of_tests(self) -> bool:
         """True if it is in a folder of tests, which may be about another robot."""
         return not {"test", "tests"}.isdisjoint(self.path.split("/")[:-1])
+
+    @property
+    def is_broken_for_tests(self) -> bool:
+        """True if its name says that a test expects its readers to refuse it."""
+        return self.is_of_tests and self.path.rsplit("/", 1)[-1].lower().startswith(_BROKEN)
 
 
 class IndexFault(Record):

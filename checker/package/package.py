@@ -199,8 +199,9 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def unloaded_files(self) -> frozenset[str]:
-        """Files that nothing loads, as the package itself states."""
-        return frozenset(filter(None, (unused_model(self),)))
+        """Files that nothing loads as a robot, as the package itself states."""
+        broken = (file.path for file in self.index.files if file.is_broken_for_tests)
+        return frozenset(filter(None, (unused_model(self), *broken)))
 
     def folder_place(self) -> Place:
         """Return the place of the package as a whole, for findings about what is missing."""

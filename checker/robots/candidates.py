@@ -117,7 +117,7 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
 def _files(package: Package) -> list[str]:
     if package.only:
         return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
-    files = package.index.with_suffix(*_SUFFIXES)
+    files = (it for it in package.index.with_suffix(*_SUFFIXES) if not it.is_broken_for_tests)
     paths = (file.path for file in files if not file.path.lower().endswith(_OF_MOVEIT))
     if package.kind is PackageKind.URDF_DESCRIPTION:
         return [*paths]

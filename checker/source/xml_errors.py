@@ -280,12 +280,21 @@ def _unclosed(text: str, at: int) -> str:
     return "a quote of the tag that starts here is missing"
 
 
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+
+
+def _late_declaration(text: str, at: int) -> str:
+    if _COMMENT.sub("", text[:at]).strip():
+        return "remove the second <?xml …?>"
+    return f"move line {text.count(chr(10), 0, at) + 1}, <?xml …?>, to the beginning of the file"
+
+
 _HINTS: Mapping[str, Callable[[str, int], str]] = {
     "junk after document element": _second_root,
     "unclosed token": _unclosed,
     "unclosed CDATA section": lambda *_: "the CDATA section that starts here has no ]]>",
     "undefined entity": lambda *_: "XML knows only &amp; &lt; &gt; &quot; and &apos;",
     "duplicate attribute": lambda *_: "keep one of them",
-    "XML or text declaration not at start of entity": lambda *_: "remove the second <?xml …?>",
+    "XML or text declaration not at start of entity": _late_declaration,
     "reference to invalid character number": lambda *_: "this number is not a character",
 }

@@ -3,7 +3,8 @@
 A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, control characters and a second root element. In files that only Gazebo
-reads these are infos; the parsers of ROS refuse them.
+reads these are infos; the parsers of ROS refuse them. So are faults of files in a folder of tests
+whose name says that a test expects them: `invalid_tree.urdf`.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested.
@@ -87,5 +88,9 @@ BAD = [
     {"model.config": "\n<?xml version='1.0'?><!-- ^ SDF001 -->\n<model/>\n"},
     {"worlds/example.sdf": "<sdf><!-- & --><world name='a & b'/></sdf><!-- ^ SDF001 -->"},
     {"worlds/example.sdf": "<sdf version='1.6'/>\n<sdf version='1.7'/><!-- ^ SDF001 -->\n"},
+    {
+        "@urdf": True,
+        "urdf/a.urdf": "<!-- a -->\n<?xml version='1.0'?><!-- ^ SDF001 -->\n<robot/>\n",
+    },
     {"urdf/model.urdf": "", "@reported": ["urdf/model.urdf:1"]},
 ]

@@ -52,6 +52,7 @@ FAULTS = [
     ("<a><!- x -></a>", "1:7", "a comment starts with <!--"),
     ("<a><b//></a>", "1:7", "ends with />"),
     ('<a><?xml version="1.0"?></a>', "1:4", "remove the second"),
+    ('<!-- <b> -->\n<?xml version="1.0"?><a/>', "2:1", "move line 2, <?xml …?>, to the beginning"),
     ('<!DOCTYPE a [<!ENTITY b "c">]><a/>', "1:1", "document type"),
     ('<!DOCTYPE a SYSTEM "file:///etc/passwd"><a/>', "1:1", "document type"),
 ]
