@@ -3,7 +3,8 @@
 Physics engines divide by these values: the robot flies apart, drifts off, or does not load. The sum
 of any two principal moments must be at least the third; a plate reaches equality. One number covers
 all conditions: the smallest eigenvalue of the pseudo-inertia, the matrix of the second moments of
-mass, must not be negative.
+mass, must not be negative. Gazebo Classic takes what differs from a possible inertia by no more
+than half of the last digits written: that is not reported.
 
 Fix: take mass, centre of mass and inertia from CAD, all in kg and m and about the centre of mass.
 Look for a moment that is too large by a factor of 1000, or a lost sign; where the products of
@@ -16,6 +17,7 @@ accepts a mass of zero.
 
 import math
 from collections.abc import Iterator
+from decimal import Decimal, InvalidOperation
 
 from checker.formats.sdf.auto_inertia import is_automatic
 from checker.model.components import Inertial, Link
@@ -25,10 +27,12 @@ from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.link_inertias import LinkInertias
 from checker.physics.mass.mass_properties import LinkInertia
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
-from checker.source.text import Span
+from checker.source.text import Located, Span
 
 _OF_A_BODY = 1e-4
 """kg·m²: a link without mass but with a larger moment is not a mere frame."""
+_ROUNDED = 3
+"""Digits from which a number is taken as rounded; one of fewer is an estimate."""
 
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
@@ -66,6 +70,8 @@ def check(
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = merges and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR
+        if context.release in ("", "classic") and _is_rounded(inertia, inertial):
+            continue
         yield from _moments(robot, inertia, inertial, possible, share)
 
 
@@ -91,6 +97,22 @@ def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Itera
             "positive number",
             severity=Severity.ERROR if inertia.mass < 0.0 else readable,
         )
+
+
+def _is_rounded(inertia: LinkInertia, inertial: Inertial) -> bool:
+    """Return whether the moments fit together but for half of the last digit of each."""
+    first, second, third = inertia.principal
+    allowed = sum(_half_of_last_digit(inertial.moments[number]) for number in (0, 3, 5))
+    return first >= 0.0 and third - first - second <= allowed
+
+
+def _half_of_last_digit(moment: Located[float]) -> float:
+    try:
+        _, digits, exponent = Decimal(moment.span.text.strip("\"' \t\r\n")).as_tuple()
+    except InvalidOperation:
+        return 0.0
+    is_rounded = len(digits) >= _ROUNDED and isinstance(exponent, int)
+    return float(Decimal((0, (5,), int(exponent) - 1))) if is_rounded else 0.0
 
 
 def _moments(
@@ -143,9 +165,13 @@ GOOD = [
     _link("2", "1", "1", "2"),
     _link("2", "0.01", "0.02", "0.025", "0.004"),
     _link("2", "0", "1", "1"),
+    {"@profile": "sdf", "@fragment": _link("2", "1.53E-6", "1.18E-4", "1.16E-4")},
 ]
 BAD = [
     _link("2", "1", "1", "3", mark=_MARK),
+    _link("2", "1.53E-6", "1.18E-4", "1.16E-4", mark=_MARK),
+    {"@profile": "sdf", "@fragment": _link("2", "1.53E-6", "1.22E-4", "1.16E-4", mark=_MARK)},
+    {"@profile": "sdf", "@fragment": _link("2", "1", "1", "3", mark=_MARK)},
     _link("2", "-1", "1", "1", mark=_MARK),
     _link("2", "1", "1", "1", "2", mark=_MARK),
     _link(f"0</mass>{_MARK}<mass>5", "1", "1", "1"),
