@@ -3,8 +3,8 @@
 In the pose with the largest load, such as a stretched arm, gravity needs more torque than the
 joint's effort limit. There the arm drops, and a controller cannot move it through such poses. With
 `--payload KG`, or `payload` in the settings, the arm also carries that mass at the origin of the
-last link that is not a finger. Joints above parts that are on the ground are skipped. Poses in
-which parts collide are included.
+last link that is not a finger. Joints above parts that are on the ground are skipped, and so are
+the six of a floating base, which stays upright. Poses in which parts collide are included.
 
 Fix: write the motor's stall torque (after its gear) as the effort limit, correct the masses of the
 parts that the joint carries, or restrict the joints to poses that the robot can hold.

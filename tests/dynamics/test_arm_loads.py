@@ -68,3 +68,30 @@ def test_a_slide_reaches_out() -> None:
     reach = math.hypot(UPPER + LOWER, 0.5)
     assert found["shoulder"] == pytest.approx(G * reach, rel=1e-4)
     assert found["elbow"] == pytest.approx(G, rel=1e-4)
+
+
+_FREE = {"x": "prismatic", "y": "prismatic", "z": "prismatic", "rx": "revolute", "ry": "revolute"}
+
+
+def _floating(mass: float) -> set[str]:
+    """Return which joints of a pillar that turns about its axis, behind six more, hold a load."""
+    parts = f'<link name="root"><inertial><mass>{mass}</mass></inertial></link>'
+    above = "root"
+    for name, kind in {**_FREE, "rz": "revolute", "turn": "revolute"}.items():
+        solid = {"rz": 10, "turn": 20}.get(name, mass)
+        centre = "0.2 0 0.5" if name == "turn" else "0 0 0"
+        axis = {"x": "1 0 0", "y": "0 1 0"}.get(name.removeprefix("r"), "0 0 1")
+        parts += f"""<link name="{name}"><inertial><pose>{centre} 0 0 0</pose><mass>{solid}</mass>
+</inertial></link><joint name="to_{name}" type="{kind}"><parent>{above}</parent>
+<child>{name}</child>
+<axis><xyz>{axis}</xyz><limit><lower>-1.57</lower><upper>1.57</upper><effort>0.01</effort></limit>
+</axis></joint>"""
+        above = name
+    arms = arm_loads(weigh(sdf(parts)))
+    assert not arms.unknown
+    return {load.joint.name.value for load in arms.loads() if load.effort > 1e-6}
+
+
+def test_a_floating_base_stays_upright() -> None:
+    assert _floating(0.001) == set()
+    assert "to_turn" in _floating(1.0)

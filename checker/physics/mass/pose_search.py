@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.model.components import Joint
 from checker.model.robot import Robot
+from checker.physics.mass.floating_base import floating_base
 from checker.physics.mass.pinocchio_model import PinModel, joint_label, pin_model
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class PoseSearch:
 
     The load of a joint is a sine of the angle of any other, and linear in its way: three values
     give the largest one in a range exactly, so that a few sweeps find a pose that no single joint
-    improves.
+    improves. The joints of a floating base stay at 0, and have no load.
     """
 
     def __init__(self, robot: Robot, tool: str, payload: float) -> None:
@@ -81,7 +82,9 @@ class PoseSearch:
             mass = pin.Inertia(payload, frame.placement.translation, np.zeros((3, 3)))
             self.model.appendBodyToJoint(frame.parentJoint, mass, pin.SE3.Identity())
         self.data = self.model.createData()
-        self.coordinates = {each.name: each for each in _coordinates(robot, built)}
+        held = floating_base(robot)
+        found = _coordinates(robot, built)
+        self.coordinates = {each.name: each for each in found if each.name not in held}
         self.neutral = pin.neutral(self.model)
 
     def worst(self, joint: Joint) -> JointLoad:
