@@ -19,6 +19,8 @@ from checker.ros.ros2_control.hardware import Hardware, HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
+_STOPS = "the controller manager (ros2_control_node) stops, and no controller runs"
+
 
 @rule("R2C002", "invalid-mimic-joint", Severity.ERROR, Concern.INTERFACE)
 def check(control: RobotControl, context: Context) -> Findings:
@@ -41,7 +43,8 @@ def _judged(hardware: Hardware, joint: HardwareJoint, known: Joint) -> Iterator[
     if leader is None:
         if joint.mimic is not None and says == "true":
             yield finding(
-                joint.mimic, f"joint {name!r} is marked as mimic, but has no <mimic> in the URDF"
+                joint.mimic,
+                f"{_STOPS}: joint {name!r} is marked as mimic, but has no <mimic> in the URDF",
             )
         elif "mimic" in joint.params and not joint.commands:
             yield finding(
@@ -54,14 +57,14 @@ def _judged(hardware: Hardware, joint: HardwareJoint, known: Joint) -> Iterator[
         if joint.commands:
             yield finding(
                 joint.commands[0],
-                f"joint {name!r} mimics {leader.value!r}, but has the command interface "
+                f"{_STOPS}: joint {name!r} mimics {leader.value!r}, but has the command interface "
                 f"{joint.commands[0].name.value!r}",
                 related=[(leader, "the joint that it mimics")],
             )
         elif leader.value not in hardware.joints_by_name:
             yield finding(
                 joint,
-                f"joint {name!r} mimics {leader.value!r}, which is not in <ros2_control> "
+                f"{_STOPS}: joint {name!r} mimics {leader.value!r}, which is not in <ros2_control> "
                 f"{hardware.name.value!r}",
                 related=[(leader, "the joint that it mimics")],
             )
