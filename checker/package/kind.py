@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 # What makes a folder a package, before anything in it is read.
 
 
-MODEL_MARKERS = frozenset({"model.config", "model.sdf"})
+MODEL_CONFIG = "model.config"
+MODEL_MARKERS = frozenset({MODEL_CONFIG, "model.sdf"})
 MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
 IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 """Files that keep the build tools out of a folder; colcon puts one into what it builds."""

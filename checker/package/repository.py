@@ -10,7 +10,7 @@ from pathlib import Path
 from checker.base.record import Record
 from checker.package.formats import is_checked_by_itself, model_suffixes
 from checker.package.inheritance import SPAWNER
-from checker.package.kind import IGNORED, MODEL_MARKERS, looks_like_package
+from checker.package.kind import IGNORED, MODEL_CONFIG, MODEL_MARKERS, looks_like_package
 
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
@@ -53,7 +53,8 @@ class Units(Record):
 def units_below(folder: Path) -> Units:
     """Find packages, model folders and loose model files in a folder, however deep.
 
-    What is in a model folder or a submission is a part of it. A ROS package may contain models and
+    What is in a model folder or a submission is a part of it; models with a model.config in a model
+    folder without a model of its own are separate units. A ROS package may contain models and
     worlds; these are separate units. Links are not followed.
 
     Args:
@@ -105,7 +106,10 @@ class _Search:
         is_package = looks_like_package(folder)
         if is_package:
             yield Unit(folder)
-            if not MODEL_MARKERS.isdisjoint(files) or (folder / SPAWNER).is_file():
+            if (folder / SPAWNER).is_file():
+                return
+            if not MODEL_MARKERS.isdisjoint(files):
+                yield from self._below_config(folder, files, folders, depth)
                 return
         inside = inside or is_package
         # Loose model files of URDF belong to the package around.
@@ -116,6 +120,16 @@ class _Search:
         for name in folders:
             is_part = holds_urdf and name == _URDF_FOLDER
             yield from self.at(folder / name, inside=inside or is_part, depth=depth + 1)
+
+    def _below_config(
+        self, folder: Path, files: list[str], folders: list[str], depth: int
+    ) -> Iterator[Unit]:
+        """Yield the models in a folder whose own model.config names no model beside it."""
+        if any(name.lower().endswith(model_suffixes()) for name in files):
+            return
+        for name in folders:
+            if (folder / name / MODEL_CONFIG).is_file():
+                yield from self.at(folder / name, inside=True, depth=depth + 1)
 
 
 def _holds_urdf(folder: Path, files: list[str], folders: list[str]) -> bool:

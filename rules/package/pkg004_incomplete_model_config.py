@@ -84,7 +84,8 @@ def _missing_files(
         file = package.resolve(path) if written else None
         if file is not None and file.is_file:
             continue
-        alike = [other for other in package.index.similar_files(path) if other != path]
+        others = (path, "model.config")
+        alike = [it for it in package.index.similar_files(path) if it not in others]
         same = [other for other in alike if other.casefold() == path.casefold()] or alike
         meant = same[0] if len(same) == 1 else ""
         yield finding(

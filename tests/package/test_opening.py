@@ -72,6 +72,18 @@ def test_a_workspace_is_searched_at_any_depth(write: Write) -> None:
     assert names(write({f"src/{deep}/a/model.sdf": MODEL, "src/b/model.sdf": MODEL})) == ["b", "a"]
 
 
+def test_models_below_a_model_config_without_a_model_are_found(write: Write) -> None:
+    config = "<model><sdf>model.sdf</sdf></model>"
+    floors = {
+        "floors/model.config": config,
+        "floors/plain/model.config": config,
+        "floors/plain/model.sdf": MODEL,
+        "floors/parts/model.sdf": MODEL,
+    }
+    assert names(write(floors)) == ["floors", "plain"]
+    assert names(write({**floors, "floors/model.sdf": MODEL})) == ["floors"]
+
+
 @pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])
 def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> None:
     files = {f"install/{mark}": "", "install/share/a/model.sdf": MODEL, "src/b/model.sdf": MODEL}
