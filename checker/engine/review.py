@@ -26,6 +26,7 @@ from checker.engine.other_robots import (
     rules_of_one_robot,
     with_only_robot,
 )
+from checker.engine.real_paths import with_real_paths
 from checker.engine.run import Outcome, join_outcomes, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
@@ -198,7 +199,7 @@ def _report(
         package.name,
         shown,
         str(package.kind),
-        outcome.findings,
+        tuple(with_real_paths(package, outcome.findings)),
         (*outcome.not_checked, *blind, *unread, *undone, *trouble, *unwired, *undrawn),
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited

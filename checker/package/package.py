@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -210,6 +211,14 @@ class Package(Record, eq=False, dict=True):
     def place(self, path: str) -> Place:
         """Return the place of a file or folder as a whole."""
         return Place(path)
+
+    def path_on_disk(self, path: str) -> str:
+        """Return the path to a sibling's file from the package's folder, wherever both lie."""
+        name, _, rest = path.removeprefix("../").partition("/")
+        sibling = self.workspace.package(name) if path.startswith("../") else None
+        if sibling is None or sibling.root.parent == self.root.parent:
+            return path
+        return Path(os.path.relpath(sibling.root / rest, self.root)).as_posix()
 
     def resolve(self, path: str) -> FileEntry | None:
         """Return the file or folder at a path, or None if there is none in the workspace."""
