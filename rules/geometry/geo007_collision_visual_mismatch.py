@@ -8,7 +8,9 @@ Wheels of published robots differ by up to 0.25 of the diagonal, as a narrow dis
 does, and other links by up to 0.46.
 
 The collision of a link may also cover the links that are fixed to it, such as a capsule around a
-flange with its gripper: it is compared with the visuals of all of them, too.
+flange with its gripper: it is compared with the visuals of all of them, too. If a contact sensor
+names all collisions of a link, only these may be meant to touch, such as the tip of a leg: a box,
+cylinder or sphere in the middle of its visual or at an end of it is not compared.
 
 The collision of a wheel may also be too far out or in along the axle. If the mesh of a wheel's
 visual is not available, its pose and that of the joint give the position of the wheel. In 18
@@ -73,10 +75,14 @@ def check(
             and seen is not None
             and _difference(touched, seen) > share
             and not _fits_body(robot, link, touched, share)
+            and not (name not in wheels and _is_tip(link, touched, seen))
         ):
             yield finding(link, _message(link, touched, seen, share))
         elif name in rolling:
             yield from _along_axle(robot, rolling[name], axle_share)
+
+
+_SOLIDS = ("box", "cylinder", "capsule", "ellipsoid", "sphere")
 
 
 def _is_sphere(link: Link) -> bool:
@@ -88,6 +94,17 @@ def _cube_around(wheel: Box) -> Box:
     x, y, z = wheel.centre
     radius = max(_size(wheel)) / 2
     return Box((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
+
+
+def _is_tip(link: Link, touched: Box, seen: Box) -> bool:
+    """Return whether all that touches is sensed, and is a smaller solid within the visual."""
+    contacts = (contact for sensor in link.sensors for contact in sensor.element.all("contact"))
+    sensed = {named.text.value for contact in contacts for named in contact.all("collision")}
+    solids = {it.name.value for it in link.collisions if it.geometry.shape in _SOLIDS}
+    if len(solids) != len(link.collisions) or not solids <= sensed:
+        return False
+    corners = zip(seen.low, touched.centre, seen.high, strict=True)
+    return touched.diagonal < seen.diagonal and all(low <= at <= high for low, at, high in corners)
 
 
 def _fits_body(robot: Robot, link: Link, touched: Box, share: float) -> bool:
@@ -252,6 +269,22 @@ def _flange(collision: str, mark: str = "") -> str:
 """
 
 
+def _leg(tip: str, sensed: str, mark: str = "") -> str:
+    """Return a leg of which only the tip touches."""
+    return f"""
+<link name="leg">{mark}
+  <collision name="tip">
+    <pose>0 0 {tip} 0 0 0</pose>
+    <geometry><sphere><radius>0.02</radius></sphere></geometry>
+  </collision>
+  <visual name="v"><geometry><box><size>0.03 0.03 0.3</size></box></geometry></visual>
+  <sensor name="touch" type="contact">
+    <contact><collision>{sensed}</collision></contact>
+  </sensor>
+</link>
+"""
+
+
 _MARK = "  <!-- ^ GEO007 -->"
 GOOD = [
     _body("0 0 0.1", "1 0.5 0.2"),
@@ -265,6 +298,7 @@ GOOD = [
     _wheel("0", "-0.04", 0.19),
     _ball("0.1"),
     _flange("0.12 0.12 0.3"),
+    _leg("-0.14", "tip"),
 ]
 BAD = [
     _body("0 0 0.8", "1 0.5 0.2", _MARK),
@@ -274,4 +308,6 @@ BAD = [
     _wheel("0.04", "0", mesh=True, mark=_MARK),
     _ball("0.15", _MARK),
     _flange("0.12 0.12 0.9", _MARK),
+    _leg("-0.4", "tip", _MARK),
+    _leg("-0.14", "toe", _MARK),
 ]
