@@ -111,12 +111,11 @@ def _beside(package: Package) -> Iterator[str]:
     """Yield what can be seen of the other packages without opening their files."""
     if package.only:
         yield from _below(package.root)
-    is_loose = not package.only and not looks_like_package(package.root)
     for directory in package.workspace.directories:
         for folder in _folders(directory):
             yield str(folder)
             # A loose folder of models may use what is in any folder beside it.
-            if folder != package.root and (is_loose or looks_like_package(folder)):
+            if folder != package.root and (package.is_loose or looks_like_package(folder)):
                 yield from _below(folder)
     for other in map(package.workspace.package, sorted(PROVIDED)):
         if other is not None and other.root.parent not in package.workspace.directories:

@@ -167,6 +167,11 @@ class Package(Record, eq=False, dict=True):
         """All files, folders and links, with what is not saved."""
         return self.workspace.overlay.indexed(self.on_disk, self.root / self.only)
 
+    @property
+    def is_loose(self) -> bool:
+        """True for a folder of model files that has nothing of a package."""
+        return not self.only and not looks_like_package(self.root)
+
     @cached_property
     def kind(self) -> PackageKind:
         """Kind of the package."""
@@ -244,8 +249,7 @@ class Package(Record, eq=False, dict=True):
     def _resolve_beside(self, normal: str) -> FileEntry | None:
         """Return what is beside a loose folder of models, within what the user gave."""
         given = self.workspace.given
-        is_loose = not self.only and not looks_like_package(self.root)
-        if given is None or not is_loose or not self.root.parent.is_relative_to(given):
+        if given is None or not self.is_loose or not self.root.parent.is_relative_to(given):
             return None
         return entry_at(self.root / normal, normal, given, self.workspace.holds)
 
@@ -350,9 +354,10 @@ class Package(Record, eq=False, dict=True):
         Meshes are left out, and models and worlds that are checked by themselves.
         """
         paths = (file.path for file in self.index.with_suffix(*xml_suffixes()))
-        return tuple(path for path in paths if not self._lies_in_unit(path))
+        return tuple(path for path in paths if not self.lies_in_unit(path))
 
-    def _lies_in_unit(self, path: str) -> bool:
+    def lies_in_unit(self, path: str) -> bool:
+        """Return whether a file is in a unit within that is checked by itself."""
         return any(path == unit or path.startswith(f"{unit}/") for unit in self._units)
 
     @cached_property

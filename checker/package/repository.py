@@ -87,13 +87,16 @@ class _Search:
         self.complete = True
         self.ignored: list[Path] = []
 
-    def at(self, folder: Path, *, inside: bool, depth: int) -> Iterator[Unit]:
+    def at(
+        self, folder: Path, *, inside: bool, depth: int, below_urdf: bool = False
+    ) -> Iterator[Unit]:
         """Yield a folder if it is a unit, and what it contains.
 
         Args:
             folder: The folder to look into.
             inside: Whether it is in a ROS package.
             depth: Folders above it that were searched.
+            below_urdf: Whether it is in a loose folder of URDF files, to which its own then belong.
         """
         self.folders += 1
         if self.folders > MAX_FOLDERS or depth > MAX_DEPTH:
@@ -113,13 +116,19 @@ class _Search:
                 return
         inside = inside or is_package
         # Loose model files of URDF belong to the package around.
-        holds_urdf = not inside and _holds_urdf(folder, files, folders)
+        loose = [] if below_urdf else files
+        holds_urdf = not inside and _holds_urdf(folder, loose, folders)
         if holds_urdf:
             yield Unit(folder)
         yield from (Unit(folder, name) for name in files if is_checked_by_itself(name))
         for name in folders:
             is_part = holds_urdf and name == _URDF_FOLDER
-            yield from self.at(folder / name, inside=inside or is_part, depth=depth + 1)
+            yield from self.at(
+                folder / name,
+                inside=inside or is_part,
+                depth=depth + 1,
+                below_urdf=below_urdf or holds_urdf,
+            )
 
     def _below_config(
         self, folder: Path, files: list[str], folders: list[str], depth: int

@@ -119,6 +119,8 @@ def _files(package: Package) -> list[str]:
         return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
     files = (it for it in package.index.with_suffix(*_SUFFIXES) if not it.is_broken_for_tests)
     paths = (file.path for file in files if not file.path.lower().endswith(_OF_MOVEIT))
+    if package.is_loose:
+        return [path for path in paths if not package.lies_in_unit(path)]
     if package.kind is PackageKind.URDF_DESCRIPTION:
         return [*paths]
     return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]

@@ -44,3 +44,16 @@ def test_a_mesh_above_the_given_folder_is_not_read(tmp_path: Path) -> None:
     top = tmp_path / "dog"
     report = checked(top / "solver", top, "solver/dog.urdf")["solver"]
     assert report.facts["visual_triangles"] == 0
+
+
+def files_of(report: PackageReport) -> list[str]:
+    """Return the files of a report's robots; of a single robot, its name."""
+    robots = (report.facts, *report.other_robots)
+    return [str(robot.get("file", robot["robot"])) for robot in robots]
+
+
+def test_urdf_files_in_folders_below_are_judged_once(tmp_path: Path) -> None:
+    files = "urdf/first.urdf", "xacro/second.urdf", "arm/urdf/third.urdf"
+    reports = checked(tmp_path, tmp_path / "examples", *files)
+    found = {name: files_of(report) for name, report in reports.items()}
+    assert found == {"examples": ["urdf/first.urdf", "xacro/second.urdf"], "arm": ["third"]}
