@@ -29,6 +29,7 @@ __all__ = [
     "misspelt",
     "rename",
     "replace_text",
+    "respelling",
     "rule",
     "unchecked",
 ]
@@ -131,6 +132,12 @@ def rename(where: Located[str], name: str) -> Fix | None:
     return replace_text(where, text.replace(where.value, name), Safety.UNSAFE)
 
 
+def respelling(where: Located[str], names: Suggestions) -> Fix | None:
+    """Return the fix that writes the one known name that is meant; None if several may be."""
+    sure = names.correction(where.value)
+    return rename(where, sure) if sure else None
+
+
 def misspelt(
     where: Located[str],
     message: str,
@@ -148,9 +155,8 @@ def misspelt(
         severity: The severity, if it differs from the rule's own.
         key: See `finding`.
     """
-    name, sure = where.value, names.correction(where.value)
-    fix = rename(where, sure) if sure else None
-    return finding(where, f"{message}{names.hint(name)}", severity=severity, key=key, fix=fix)
+    message += names.hint(where.value)
+    return finding(where, message, severity=severity, key=key, fix=respelling(where, names))
 
 
 class Context(Record):

@@ -59,4 +59,4 @@ def test_the_reference_tells_of_all_public_names(site: Path) -> None:
 
 def test_links_to_files_lead_to_the_repository(site: Path) -> None:
     page = (site / "tutorials/write-a-rule.html").read_text("utf-8")
-    assert "github.com/OWNER/subt-check/blob/main/CONTRIBUTING.md#add-a-rule" in page
+    assert "/subt-check/blob/main/CONTRIBUTING.md#add-a-rule" in page

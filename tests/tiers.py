@@ -45,6 +45,7 @@ BY_PLACE: Mapping[str, str] = {
     "repository/test_action.py": "install",
     "repository/test_init.py": "programs",
     "repository/test_pre_commit.py": "install",
+    "test_readme_commands.py": "install",
     "test_wheel.py": "install",
     "command/test_nothing_is_fetched.py": "service",
     "survival": "service",

@@ -12,7 +12,7 @@ Source: ros_gz_bridge, bridge_config.cpp; gazebosim/ros_gz issue 337.
 
 from checker.launch.ros2.bridges.entry import BridgeFaultKind
 from checker.ros.simulation import Simulations
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 
 
 @rule("BRG006", "invalid-bridge-file", Severity.ERROR, Concern.INTERFACE)
@@ -23,7 +23,12 @@ def check(simulations: Simulations) -> Findings:
             if fault.kind is BridgeFaultKind.ARGUMENT or fault.is_elsewhere:
                 continue
             ignored = fault.kind is BridgeFaultKind.UNKNOWN_KEY
-            yield finding(fault, fault.message, severity=Severity.WARNING if ignored else None)
+            yield finding(
+                fault,
+                fault.message,
+                severity=Severity.WARNING if ignored else None,
+                fix=replace_text(fault, fault.meant, Safety.UNSAFE) if fault.meant else None,
+            )
 
 
 _ENTRY = """- ros_topic_name: scan

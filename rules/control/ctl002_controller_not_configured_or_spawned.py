@@ -10,9 +10,13 @@ Source: ros_control, `controller_manager::ControllerManager::loadController`: th
 `<namespace>/<controller>/type`.
 """
 
+import re
+
 from checker.base.words import Suggestions
+from checker.finding import Fix
 from checker.ros.control.controllers import Controller, ControlSystem
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
+from checker.source.text import Span
 
 
 @rule("CTL002", "controller-not-configured-or-spawned", Severity.ERROR, Concern.INTERFACE)
@@ -52,7 +56,15 @@ def _unconfigured_controllers(control: ControlSystem) -> Findings:
             spawned,
             f"controller {spawned.name!r} is spawned, but no loaded file configures it{hint}",
             related=[(near, f"{near.name!r} is configured here")] if near is not None else (),
+            fix=_renamed(spawned.name, spawned.span, near.name) if near is not None else None,
         )
+
+
+def _renamed(name: str, span: Span, meant: str) -> Fix | None:
+    if span.text.split().count(name) != 1:
+        return None
+    text = re.sub(rf"(?<!\S){re.escape(name)}(?!\S)", meant, span.text)
+    return replace_text(span, text, Safety.UNSAFE)
 
 
 def _misspelt(control: ControlSystem) -> dict[str, Controller]:

@@ -12,9 +12,10 @@ Source: gazebo_ros, `spawn_model`; gazebo_ros_api_plugin, `walkChildAddRobotName
 from collections.abc import Iterable
 
 from checker.base.words import Suggestions
+from checker.finding import Fix
 from checker.ros.control.controllers import ControlSystem
 from checker.ros.control.nodes import SpawnedModel
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
 
 FORMATS = ("-urdf", "-sdf")
 SOURCES = ("-param", "-file", "-database", "-stdin")
@@ -53,11 +54,22 @@ def _without_parameter(control: ControlSystem, model: SpawnedModel) -> Findings:
     if control.unread:
         yield from map(unchecked, control.unread)
         return
+    suggestions = Suggestions(names)
     yield finding(
         model.options["-param"],
         f"node {model.node.name!r} spawns the model from parameter {model.parameter}, which no "
-        f"launch file sets{Suggestions(names).hint(model.parameter)}",
+        f"launch file sets{suggestions.hint(model.parameter)}",
+        fix=_other_parameter(model, suggestions),
     )
+
+
+def _other_parameter(model: SpawnedModel, names: Suggestions) -> Fix | None:
+    """Return the fix that writes the parameter that is meant, with or without its `/`."""
+    span, meant = model.options["-param"].span, names.correction(model.parameter)
+    own = model.parameter.lstrip("/")
+    if not meant or span.text.count(own) != 1:
+        return None
+    return replace_text(span, span.text.replace(own, meant.lstrip("/")), Safety.UNSAFE)
 
 
 def _misspelt_names(control: ControlSystem, model: SpawnedModel) -> Findings:

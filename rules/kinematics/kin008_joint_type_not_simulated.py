@@ -14,7 +14,7 @@ supports.
 from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule
 
 _BECOMES = {
     "fixed": "which {} turns into a fixed joint",
@@ -38,7 +38,8 @@ def check(robot: Robot, context: Context) -> Findings:
         message = f"joint {joint.name.value!r} has the type {joint.type.value!r}"
         if joint.type.stated and type not in known:
             hint = suggestions.hint(type) or f"; expected one of {', '.join(known)}"
-            yield finding(joint.type, f"{message}, which does not exist{hint}")
+            fix = respelling(joint.type, suggestions)
+            yield finding(joint.type, f"{message}, which does not exist{hint}", fix=fix)
         elif type in lost:
             release = f"Gazebo {context.release.capitalize()}"
             yield finding(

@@ -11,8 +11,9 @@ Source: launch_ros, `Node`: `executable` is required, and other keywords raise a
 import re
 from collections.abc import Mapping
 
+from checker.finding import Fix
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span
 
 OLD: Mapping[str, str] = {
@@ -39,7 +40,15 @@ def check(launch: Ros2Launch) -> Findings:
                     f"{fault.message}{hint}",
                     severity=Severity.WARNING if is_for_old else None,
                     key=fault.message,
+                    fix=_renamed(fault.span, fault.name, new) if new else None,
                 )
+
+
+def _renamed(where: Span, old: str, new: str) -> Fix | None:
+    """Return the fix that writes another keyword in front of its value."""
+    if not where.text.startswith(old):
+        return None
+    return replace_text(where, where.text.replace(old, new, 1), Safety.UNSAFE)
 
 
 def _executable(node: Span) -> str:

@@ -43,6 +43,7 @@ from checker.rule import (
     Safety,
     Severity,
     finding,
+    rename,
     rule,
     unchecked,
 )
@@ -183,7 +184,8 @@ def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
             slip = is_slip_for(name, other) or (is_plugin and _is_own(package, name, other))
             if slip and other != package.name:
                 message = f"there is no package {name}; did you mean {other!r}?"
-                yield finding(dependency.package, message, key=name)
+                fix = rename(dependency.package, other)
+                yield finding(dependency.package, message, key=name, fix=fix)
                 break
 
 

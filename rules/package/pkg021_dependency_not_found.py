@@ -16,7 +16,7 @@ from checker.base.resources import table
 from checker.package.manifests import Dependency, Paperwork
 from checker.package.package import Package
 from checker.package.released import ReleasedNames, distributions_with, is_of_system
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 
 
 @rule("PKG021", "dependency-not-found", Severity.WARNING, Concern.PAPERWORK)
@@ -44,6 +44,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
                 f"neither {context.distro.capitalize()} nor rosdep has {name!r}; did you mean "
                 f"{meant!r}?",
                 key=name,
+                fix=rename(dependency.package, meant),
             )
     yield from _elsewhere(others, context.distro)
 

@@ -22,6 +22,7 @@ resource_retriever: the share folder of the installed package.
 import re
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.package.downloaded import downloaded_by
 from checker.package.installed import left_out, resolve_listed
@@ -29,7 +30,17 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.released import distributions_with
 from checker.package.uris import Unknown, path_behind
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
 from checker.source.text import Located
 
 _NAMED = re.compile(r"package://([^/]+)/(.+)")
@@ -55,13 +66,15 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
         if place := downloaded_by(package, path):
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
+        alike = [other for other in package.index.similar_files(path) if other != path]
         where = f" (looked for {path})" if path != uri.value else ""
         yield finding(
             uri,
-            f"{uri.value} does not exist{where}{_hint(package, path)}",
+            f"{uri.value} does not exist{where}" + (f"; did you mean {alike[0]}?" if alike else ""),
             severity=None if uri in meshes else Severity.WARNING,
             key=path,
             covered_by=("REF004",),
+            fix=_other_file(uri, path, alike),
         )
 
 
@@ -106,9 +119,14 @@ def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -
         )
 
 
-def _hint(package: Package, path: str) -> str:
-    alike = [other for other in package.index.similar_files(path) if other != path]
-    return f"; did you mean {alike[0]}?" if alike else ""
+def _other_file(uri: Located[str], path: str, alike: list[str]) -> Fix | None:
+    """Return the fix that writes the one file in the same folder that is called alike."""
+    around, _, name = path.rpartition("/")
+    beside = [other for other in alike if other.rpartition("/")[0] == around]
+    if len(beside) != 1 or not uri.value.endswith(name) or uri.span.text != uri.value:
+        return None
+    meant = beside[0].rpartition("/")[2]
+    return replace_text(uri, uri.value.removesuffix(name) + meant, Safety.UNSAFE)
 
 
 _BUILD = """project(acme_arm)

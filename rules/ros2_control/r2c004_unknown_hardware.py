@@ -26,7 +26,17 @@ from checker.ros.ros2_control.distributions import (
     is_from,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    respelling,
+    rule,
+)
 from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located, SourceText
 from checker.source.xml import XmlDocument
@@ -82,16 +92,19 @@ def _old(plugin: Located[str]) -> Finding:
 def _absent(plugin: Located[str], package: Package, distribution: str) -> Finding:
     name = plugin.value
     classes = [known for known in hardware_classes().values() if known.exists_in(distribution)]
-    hint = Suggestions(known.name for known in classes).hint(name)
+    suggestions = Suggestions(known.name for known in classes)
     others = _other_names(plugin, package)
-    severity, more = None, hint
+    severity, more = None, suggestions.hint(name)
     if others:
         severity = Severity.INFO
         more = f"; the file also names {others[0]}, so an argument chooses"
     elif (name, distribution) == _ALSO_BUILT:
         severity, more = Severity.WARNING, " unless gz_ros2_control is built for Gazebo Harmonic"
     return finding(
-        plugin, f"ROS 2 {distribution.title()} has no hardware {name!r}{more}", severity=severity
+        plugin,
+        f"ROS 2 {distribution.title()} has no hardware {name!r}{more}",
+        severity=severity,
+        fix=None if others else respelling(plugin, suggestions),
     )
 
 

@@ -18,8 +18,9 @@ from checker.ros.ros2_control.distributions import (
     distribution_of,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule, unchecked
 from checker.rulebook.example_parts import SHOULDER, ros2_control
+from checker.source.text import Located
 
 _STAMPED = "use_stamped_vel"
 _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinematics.")
@@ -64,6 +65,9 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
                 parameter.key,
                 message,
                 severity=Severity.INFO if elsewhere and not grave else None,
+                fix=None
+                if elsewhere
+                else respelling(Located(name, parameter.key.span), suggestions),
             )
 
 

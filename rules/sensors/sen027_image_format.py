@@ -14,7 +14,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule
 
 _SHOWN = 40
 
@@ -40,7 +40,8 @@ def check(robot: Robot, context: Context) -> Findings:
         else:
             continue
         message = f"camera {sensor.name.value!r} has format {format_name[:_SHOWN]!r}{fault}"
-        yield finding(camera.format, message, severity=severity, key=format_name)
+        fix = respelling(camera.format, suggestions) if format_name not in names else None
+        yield finding(camera.format, message, severity=severity, key=format_name, fix=fix)
 
 
 def _format_list(formats: Sequence[str], names: Mapping[str, str]) -> str:

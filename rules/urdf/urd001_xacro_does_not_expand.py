@@ -14,11 +14,23 @@ Source: xacro, "unknown macro name", "Undefined substitution argument".
 import re
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.bare_tags import TAGS
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.robots.urdf_files import UrdfFiles
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+from checker.source.text import Located
 from checker.source.xml import Element
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
@@ -90,7 +102,17 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
                 element.attribute(name) or element,
                 f"{name} is {value[:80]!r}; did you mean ${{{match[1]}}}?",
                 key=match.group(),
+                fix=_as_expression(element.attribute(name), match),
             )
+
+
+def _as_expression(value: Located[str] | None, braces: re.Match[str]) -> Fix | None:
+    """Return the fix that writes `$` in front of braces."""
+    if value is None or value.span.text != value.value:
+        return None
+    start = braces.start()
+    text = f"{value.value[:start]}${value.value[start:]}"
+    return replace_text(value, text, Safety.UNSAFE)
 
 
 _DESCRIPTION = "urdf/robot_from_sdf.xacro"

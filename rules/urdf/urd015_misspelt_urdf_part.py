@@ -8,9 +8,10 @@ Source: URDF specification; urdfdom reads elements and attributes by their names
 (`urdf_spec.json`).
 """
 
+from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.specification import misspelt_parts
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 
 _ONLY_LOOKS = "link/visual"
 
@@ -28,6 +29,7 @@ def check(description: UrdfDescription) -> Findings:
             f"URDF readers do not know {part.name} in <{part.parent}>; did you mean {part.meant}?",
             severity=Severity.WARNING if harmless else None,
             key=f"{part.parent}/{part.name}",
+            fix=Fix(Safety.UNSAFE, part.edits) if part.edits else None,
         )
 
 

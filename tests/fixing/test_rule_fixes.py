@@ -34,6 +34,7 @@ CASES = [
 ]
 REVEALED = {
     "REF001": "MSH001",  # the mesh is found, and is empty
+    "REF002": "MSH001",
     "SEN002": "ROS001",  # the lidar is simulated, and its scan is not bridged
     "GEO003": "GEO004",  # the radius of a wheel that lies right is compared with the drive's
     "GEO008": "INE009",  # the shape that it stands on is known

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -108,6 +109,19 @@ def test_nothing_that_a_stranger_names_stands_in_a_script(run: str) -> None:
     assert "${{" not in run
 
 
-def test_the_addresses_are_those_of_the_readme() -> None:
-    assert all("OWNER" in url for url in PROJECT["urls"].values())
-    assert "OWNER/subt-check" in (ROOT / "README.md").read_text("utf-8")
+@pytest.mark.programs
+def test_one_command_writes_who_keeps_the_repository(tmp_path: Path) -> None:
+    copy, owner = tmp_path / "copy", PROJECT["urls"]["Homepage"].split("/")[-2]
+    subprocess.run(["git", "clone", "--quiet", ROOT, copy], check=True)
+    shutil.copy(ROOT / "scripts/owner", copy / "scripts/owner")
+    command = [sys.executable, copy / "scripts/owner", "acme-robots"]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    assert {"README.md", "pyproject.toml", "checker/report/sarif.py"} <= {*done.stdout.split()}
+    left = subprocess.run(
+        ["git", "grep", "--extended-regexp", rf"{owner}(/|\.github\.io/)subt-check"],
+        check=False,
+        capture_output=True,
+        text=True,
+        cwd=copy,
+    )
+    assert left.stdout == ""

@@ -11,6 +11,7 @@ import msgspec
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.base.words import Suggestions
+from checker.finding import Edit
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
 from checker.model.values import parse_number
 from checker.source.text import Located, Span
@@ -69,6 +70,7 @@ class MisspeltPart(Record):
         meant: What it resembles, which is not there.
         span: Its place.
         path: The path of the tag around it.
+        edits: What writes the other name; none where it is not sure.
     """
 
     name: str
@@ -76,6 +78,7 @@ class MisspeltPart(Record):
     meant: str
     span: Span
     path: str
+    edits: tuple[Edit, ...] = ()
 
 
 @cache
@@ -140,7 +143,10 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
         for child in element.children:
             known = _children().get(path, frozenset())
             if child.tag not in known and (meant := Suggestions(known - there).closest(child.tag)):
-                yield MisspeltPart(f"<{child.tag}>", element.tag, f"<{meant}>", child.span, path)
+                names = [child.name_span, child.end_name_span]
+                edits = tuple(name.replacement(meant) for name in names if name is not None)
+                name, right = f"<{child.tag}>", f"<{meant}>"
+                yield MisspeltPart(name, element.tag, right, child.span, path, edits)
         spec = _elements().get(path, {})
         # What is required and missing is reported as such.
         lost = [key for key, it in spec.items() if not it.required and element.get(key) is None]
@@ -148,7 +154,8 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
             text = element.attribute(name)
             meant = _suggestion(name, lost) if name not in spec else None
             if text is not None and meant is not None:
-                yield MisspeltPart(name, element.tag, meant, text.span, path)
+                edits = (element.attribute_name_span(name).replacement(meant),)
+                yield MisspeltPart(name, element.tag, meant, text.span, path, edits)
 
 
 def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:

@@ -27,11 +27,17 @@ class BridgeFaultKind(enum.Enum):
 
 
 class BridgeFault(Record, eq=False):
-    """One fault of an argument or a file; the message is the whole sentence."""
+    """One fault of an argument or a file.
+
+    Attributes:
+        message: The whole sentence.
+        meant: What to write in its place; empty if it is not known.
+    """
 
     kind: BridgeFaultKind
     span: Span
     message: str
+    meant: str = ""
 
     @property
     def is_elsewhere(self) -> bool:

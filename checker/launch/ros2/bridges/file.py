@@ -104,7 +104,7 @@ def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
             name = names.get(id(key))
             hint = f"; expected {name}" if name else ""
             message = f"the bridge ignores the key {_text(key)!r:.60}{hint}"
-            yield BridgeFault(BridgeFaultKind.UNKNOWN_KEY, key.span, message)
+            yield BridgeFault(BridgeFaultKind.UNKNOWN_KEY, key.span, message, name or "")
 
 
 def _dropped(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
@@ -120,7 +120,8 @@ def _dropped(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[Brid
     direction = entry.get("direction")
     if direction is not None and _text(direction) not in DIRECTIONS:
         message = f"direction is {direction.plain()!r:.60}, expected one of {', '.join(DIRECTIONS)}"
-        yield _ignored(direction, message)
+        meant = Suggestions(DIRECTIONS).closest(_text(direction))
+        yield _ignored(direction, message, meant=meant or "")
 
 
 def _missing(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
@@ -132,14 +133,15 @@ def _missing(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[Brid
     for key in missing if named else [topic, *missing]:
         written = misspelt.get(key)
         if written is not None:
-            yield _ignored(written, f"the key is {_text(written)!r:.60}, expected {key}")
+            message = f"the key is {_text(written)!r:.60}, expected {key}"
+            yield _ignored(written, message, meant=key)
         else:
             yield _ignored(first, f"the entry has no {key}", f"; write '{key}: {_REQUIRED[key]}'")
 
 
-def _ignored(node: YamlNode, message: str, advice: str = "") -> BridgeFault:
+def _ignored(node: YamlNode, message: str, advice: str = "", meant: str = "") -> BridgeFault:
     text = f"{message}: the bridge ignores the entry{advice}"
-    return BridgeFault(BridgeFaultKind.DROPPED, node.span, text)
+    return BridgeFault(BridgeFaultKind.DROPPED, node.span, text, meant)
 
 
 def _passed(entry: YamlNode) -> Iterator[Passed]:
