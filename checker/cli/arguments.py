@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 PROFILES = (
     *("subt", "sdf", "urdf", "gazebo-harmonic", "gazebo-fortress", "gazebo-ionic", "gazebo-jetty"),
@@ -91,6 +93,14 @@ def add_search_options(parser: argparse.ArgumentParser) -> None:
         type=argument,
         help="argument for xacro files; may be repeated",
     )
+
+
+def search_wishes(options: argparse.Namespace) -> Mapping[str, Any]:
+    """Return these options as fields of `Settings`; None leaves one to the settings files."""
+    return {
+        "package_path": tuple(options.package_path) if options.package_path else None,
+        "xacro_args": dict(options.xacro_arg) if options.xacro_arg else None,
+    }
 
 
 def add_data(parser: argparse.ArgumentParser) -> None:

@@ -7,15 +7,19 @@ import os
 import posixpath
 import re
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 
-from checker.base.cache import NO_CACHE, Cache, cache_folder
+from checker.base.cache import Cache
 from checker.base.errors import CheckerError
 from checker.base.extras import PHYSICS
 from checker.base.output import EXIT_CLEAN, say_progress, show, write
 from checker.base.parts import NotAvailable, WorkerFailed
 from checker.base.record import Record
 from checker.base.words import plain, shortened
+from checker.cli.arguments import add_search_options, search_wishes
+from checker.cli.robot import named_robots
+from checker.cli.subjects import subject_of
 from checker.convert.mjcf_files import controls_of, meshes_apart, mjcf_of, scene_of_trial
 from checker.convert.sdf_to_urdf import converted_to_urdf
 from checker.convert.xml_writer import document_text
@@ -27,6 +31,7 @@ from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.uris import MeshFile, file_behind
 from checker.physics.trial.recording import Recording, recorded
 from checker.physics.trial.run import TIMESTEP
+from checker.pipeline import Task
 from checker.report.scene.builder import scene_of
 from checker.report.scene.mesh_files import MeshFiles, NoSurfaces
 
@@ -50,23 +55,23 @@ class Exported(Record):
     notes: Sequence[str] = ()
 
 
-def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> int:
-    """Write the robot of one package in another format; return the exit code.
+def export(task: Task, form: str, output: str = "", robot: str = "") -> int:
+    """Write a robot in another format; return the exit code.
 
     Args:
-        path: Package, archive or model file.
+        task: Package, archive or model file, with the settings of the command line.
         form: `urdf` or `mjcf`.
         output: A file; or, if it exists or ends with `/`, a folder, which then also gets the meshes
             of an MJCF and the commands of its trial. It is created if needed. The standard output
             when empty.
-        cached: Whether meshes may come from the cache.
+        robot: Its name or file, where there are several.
 
     Raises:
         CheckerError: There is not one robot at the path, or nothing can be written.
     """
     target = Path(output)
     folder = target if output.endswith(("/", os.sep)) or (output and target.is_dir()) else None
-    done = export_package(path, form, apart=folder is not None, cached=cached)
+    done = exported(task, form, robot, apart=folder is not None)
     for note in done.notes:
         say_progress(plain(shortened(note, 400)))
     if folder is not None:
@@ -80,40 +85,58 @@ def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> i
     return EXIT_CLEAN
 
 
-def export_package(path: Path, form: str, *, apart: bool = False, cached: bool = True) -> Exported:
-    """Return the robot of one package in another format.
+def exported(task: Task, form: str, robot: str = "", *, apart: bool = False) -> Exported:
+    """Return a robot in another format.
 
     Args:
-        path: Package, archive or model file.
+        task: Package, archive or model file, with the settings of the command line.
         form: `urdf` or `mjcf`.
+        robot: Its name or file, where there are several.
         apart: Whether the meshes of an MJCF are separate files.
-        cached: Whether meshes may come from the cache.
 
     Raises:
         CheckerError: There is not one robot at the path, or it cannot be written.
     """
-    with open_input(path) as opened:
-        if len(opened.packages) != 1:
-            number = len(opened.packages)
-            raise CheckerError(f"{path} contains {number} packages; give one of them")
-        package = opened.packages[0]
-        subject = Subject(package, Cache(cache_folder()) if cached else NO_CACHE)
-        try:
-            return _exported(path, package, subject, form, apart=apart)
-        finally:
-            subject.close()
+    with open_input(task.path) as opened, ExitStack() as ends:
+        subjects = [ends.enter_context(subject_of(each, task))[0] for each in opened.packages]
+        subject, chosen = _chosen(task.path, subjects, robot)
+        package = subject.package
+        if form == "mjcf":
+            return _as_mjcf(task.path, package, chosen, subject.cache, apart=apart)
+        done = converted_to_urdf(chosen, mesh_uri=package_uris(package, chosen))
+        return Exported(_name(package), document_text(done.tree), notes=done.notes)
 
 
-def _exported(
-    path: Path, package: Package, subject: Subject, form: str, *, apart: bool
-) -> Exported:
-    robot = subject.one(Robot)
-    if isinstance(robot, NotAvailable):
-        raise CheckerError(f"{path} has no robot to write: {robot.reason}")
-    if form == "mjcf":
-        return _as_mjcf(path, package, robot, subject.cache, apart=apart)
-    done = converted_to_urdf(robot, mesh_uri=package_uris(package, robot))
-    return Exported(_name(package), document_text(done.tree), notes=done.notes)
+def _chosen(path: Path, subjects: Sequence[Subject], name: str) -> tuple[Subject, Robot]:
+    """Return the one robot that is there, or that has a name or file."""
+    found: list[tuple[Subject, Robot]] = []
+    reasons: list[str] = []
+    for subject in subjects:
+        robots = subject.all(Robot)
+        if isinstance(robots, NotAvailable):
+            reasons.append(robots.reason)
+        else:
+            found += [(subject, robot) for robot in robots]
+    # Objects of a world are not meant where there is a robot.
+    found = [it for it in found if not it[1].is_prop] or found
+    named = [(robot.name.value, _file(path, subject, robot)) for subject, robot in found]
+    wanted = [it for it, names in zip(found, named, strict=True) if not name or name in names]
+    if len(wanted) == 1:
+        return wanted[0]
+    if not found:
+        raise CheckerError(f"{path} has no robot to write: {reasons[0] if reasons else 'none'}")
+    there = f"{path} has {named_robots(named)}"
+    if name:
+        raise CheckerError(f"no robot, or more than one, is {name!r}; {there}")
+    raise CheckerError(f"{there}; choose one with --robot NAME or --robot FILE")
+
+
+def _file(path: Path, subject: Subject, robot: Robot) -> str:
+    """Return the file of a robot, as seen from the path that was given."""
+    around, file = subject.package.root, robot.element.source.file
+    folder = path.resolve() if path.is_dir() else around
+    near = around.relative_to(folder).as_posix() if around.is_relative_to(folder) else ""
+    return posixpath.normpath(posixpath.join(near, file))
 
 
 def _as_mjcf(path: Path, package: Package, robot: Robot, cache: Cache, *, apart: bool) -> Exported:
@@ -185,16 +208,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="urdf: for RViz, with package:// meshes; mjcf: the trial's scene for MuJoCo",
     )
+    parser.add_argument("--robot", metavar="NAME", help="the robot of this name or file")
     parser.add_argument(
         "--output",
         metavar="FILE",
         help="output file; or DIR/, a folder for the scene and its meshes, created if needed",
     )
+    add_search_options(parser)
     parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
 
 
 def run(options: argparse.Namespace) -> int:
     """Write a package's robot in another format."""
     PHYSICS.require_for("export")
-    output = options.output or ""
-    return export(Path(options.path), options.format, output, cached=not options.no_cache)
+    wishes = {**search_wishes(options), "cache": False if options.no_cache else None}
+    task = Task(Path(options.path), wishes=wishes)
+    return export(task, options.format, options.output or "", options.robot or "")

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import CheckerError
 from checker.base.output import EXIT_CLEAN, show, write
 from checker.base.words import and_list
-from checker.cli.arguments import add_distro, add_profile, add_search_options
+from checker.cli.arguments import add_distro, add_profile, add_search_options, search_wishes
+from checker.cli.subjects import subject_of
 from checker.engine.robot_facts import package_facts
-from checker.engine.subject import Subject
-from checker.model.devices.known import known_devices
-from checker.package.inputs import open_input, with_package_path
+from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.pipeline import Task
 from checker.report.robot_facts import PackageFacts, facts_json
@@ -47,31 +45,25 @@ def facts_at(path: Path, wishes: Mapping[str, Any], robot: str = "") -> tuple[Pa
 
 
 def _facts(package: Package, task: Task) -> PackageFacts:
-    settings = task.settings_for(package)
-    package = with_package_path(package, settings.package_path)
-    settings = settings.for_package(package)
-    subject = Subject(
-        package,
-        Cache(cache_folder()) if settings.cache else NO_CACHE,
-        devices=known_devices(settings.devices),
-        xacro_args=settings.xacro_args,
-    )
-    try:
+    with subject_of(package, task) as (subject, settings):
         return package_facts(subject, task.display_path_of(package), settings)
-    finally:
-        subject.close()
 
 
 def _with_robot(found: tuple[PackageFacts, ...], robot: str) -> tuple[PackageFacts, ...]:
     chosen = tuple(_chosen(found, robot))
     if chosen:
         return chosen
-    names = [f"{it.name} ({it.file})" for package in found for it in package.robots]
-    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    there = f"{and_list(names[:_NAMED])}{more}" if names else "none"
+    there = named_robots([(it.name, it.file) for package in found for it in package.robots])
     reasons = [each.reason for package in found for each in package.not_read]
     why = f"; not read: {reasons[0]}" if reasons else ""
     raise CheckerError(f"no robot is called or described by {robot!r}; there is {there}{why}")
+
+
+def named_robots(robots: Sequence[tuple[str, str]]) -> str:
+    """Return the names and files of robots as a list in words."""
+    names = [f"{name} ({file})" for name, file in robots]
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{and_list(names[:_NAMED])}{more}" if names else "none"
 
 
 def _chosen(found: tuple[PackageFacts, ...], robot: str) -> Iterator[PackageFacts]:
@@ -112,8 +104,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the facts."""
     wishes = {
-        "package_path": tuple(options.package_path) if options.package_path else None,
-        "xacro_args": dict(options.xacro_arg) if options.xacro_arg else None,
+        **search_wishes(options),
         "profile": options.profile,
         "distro": options.distro,
         "cache": False if options.no_cache else None,

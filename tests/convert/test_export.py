@@ -96,7 +96,7 @@ def test_to_standard_output(samples: Path, capsys: pytest.CaptureFixture[str]) -
 
 @pytest.mark.parametrize(
     ("path", "said"),
-    [("nowhere", "does not exist"), ("packages", "give one"), ("plugin", "has no robot")],
+    [("nowhere", "does not exist"), ("packages", "choose one"), ("plugin", "has no robot")],
 )
 def test_what_cannot_be_written(
     path: str, said: str, samples: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -156,3 +156,41 @@ def test_what_looks_like_xacro_in_a_name_is_left_as_it_is() -> None:
     content = '<link name="${1+1}"/>'
     text = document_text(xacro_of(sdf(content), name="p", mesh_uri=str))
     assert '<link name="${name}/$${1+1}"' in text
+
+
+TWO = """<robot name="{}" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:arg name="mass" default="1"/>
+<link name="base_link">
+  <inertial>
+    <mass value="$(arg mass)"/>
+    <inertia ixx="1e-2" ixy="0" ixz="0" iyy="1e-2" iyz="0" izz="1e-2"/>
+  </inertial>
+  <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+</link>
+</robot>
+"""
+
+
+def test_one_of_several_robots_beside_a_world(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = tmp_path / "two_description"
+    for name, text in {
+        "package.xml": "<package format='3'><name>two_description</name></package>",
+        "urdf/one.urdf.xacro": TWO.format("one"),
+        "urdf/other.urdf.xacro": TWO.format("other"),
+        "worlds/hall.sdf": "<sdf version='1.9'><world name='hall'/></sdf>",
+    }.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text, "utf-8")
+    command = ["export", str(package), "--format", "urdf"]
+    assert main(command) == 2
+    assert "one (urdf/one.urdf.xacro) and other (urdf/other.urdf.xacro)" in capsys.readouterr().err
+    assert main([*command, "--robot", "third"]) == 2
+    assert "'third'" in capsys.readouterr().err
+    assert main([*command, "--robot", "other", "--xacro-arg", "mass:=3"]) == 0
+    written = capsys.readouterr().out
+    assert '<robot name="other"' in written
+    assert '<mass value="3"/>' in written
+    assert main([*command, "--robot", "urdf/one.urdf.xacro"]) == 0
+    assert '<robot name="one"' in capsys.readouterr().out

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from checker.cli import main
-from checker.cli.export import export_package
+from checker.cli.export import exported
 from checker.convert.mjcf_files import scene_of_trial
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
@@ -20,6 +20,7 @@ from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
 from checker.physics.trial.trial import Replay
 from checker.physics.trial.worker import run_trial
+from checker.pipeline import Task
 from support.real_packages import CORPUS, named_folder, needs
 
 ROOM = 1e-9
@@ -138,7 +139,7 @@ def test_its_sensors_can_be_read(samples: Path, tmp_path: Path) -> None:
 
 def test_one_file_holds_everything(samples: Path, tmp_path: Path) -> None:
     package = samples / "subtcheck_buggy_sensor_config_1"
-    text = export_package(package, "mjcf").text
+    text = exported(Task(package), "mjcf").text
     assert "file=" not in text
     model = mujoco.MjModel.from_xml_string(text)
     assert [model.key(number).name for number in range(model.nkey)] == ["settled"]

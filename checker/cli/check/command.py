@@ -11,6 +11,7 @@ from typing import Any
 from checker.base.errors import InvalidSettings, UnreadableInput
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, current_folder, empty_of, show
+from checker.cli.arguments import search_wishes
 from checker.cli.check.arguments import add_arguments, refuse_contradictions
 from checker.cli.check.baseline import baseline_to_renew, write_baseline
 from checker.cli.check.results import check_and_print, write_results
@@ -64,8 +65,7 @@ def _wishes(options: argparse.Namespace, renewed: Baseline | None) -> Mapping[st
         "distro": options.distro,
         "select": options.select,
         "ignore": options.ignore,
-        "package_path": tuple(options.package_path) if options.package_path else None,
-        "xacro_args": dict(options.xacro_arg) if options.xacro_arg else None,
+        **search_wishes(options),
         "payload": options.payload,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
         "trial": False if options.no_trial else None,
