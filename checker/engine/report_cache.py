@@ -63,6 +63,7 @@ def memory_key(package: Package, settings: Settings) -> str:
     resolved = replace(settings.for_package(package), commanded=())
     options = json.dumps(msgspec.to_builtins(resolved, enc_hook=str))
     parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
+    parts.append(str(package.workspace.given))
     parts += _content(package)
     limit = ENTRIES_AROUND_A_FILE if package.only else ENTRIES_LIMIT
     beside = list(islice(_beside(package), limit))

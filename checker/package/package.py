@@ -148,6 +148,11 @@ class Package(Record, eq=False, dict=True):
         name = manifest.root.child("name") if isinstance(manifest, XmlDocument) else None
         return (name.text.value if name is not None else "") or self.root.name
 
+    def named(self, name: str) -> Package | None:
+        """Return the available package of a name: this one if it has the name, else a neighbour."""
+        own = name in (self.declared_name, self.root.name)
+        return self if own else self.workspace.package(name)
+
     @property
     def other_packages(self) -> tuple[Package, ...]:
         """The other available packages; what is edited in memory is the same package."""

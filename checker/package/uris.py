@@ -78,7 +78,7 @@ def _in_package(package: Package, name: str, path: str) -> str | Unknown:
     """Return a path in a named package or model."""
     # Models on Fuel bear the package's name in upper case.
     own = name.casefold() == package.name.casefold()
-    holder = package if own else package.workspace.package(name)
+    holder = package if own else package.named(name)
     if holder is None:
         return _absent(name)
     inside = path if holder.exists(path or ".") else source_of(holder, path) or path

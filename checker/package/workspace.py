@@ -93,8 +93,8 @@ class Workspace(Record, eq=False, dict=True):
                 return found
         if name in PROVIDED:
             return self._package_above(name)
-        folder = self._folder_by_declared_name.get(name)
-        return self.at(folder) if folder else None
+        folders = self.folders_by_declared_name.get(name)
+        return self.at(folders[0]) if folders else None
 
     def at(self, folder: Path) -> Package:
         """Return the one `Package` of a folder, links resolved."""
@@ -174,12 +174,13 @@ class Workspace(Record, eq=False, dict=True):
         return None
 
     @cached_property
-    def _folder_by_declared_name(self) -> dict[str, Path]:
-        names: dict[str, Path] = {}
+    def folders_by_declared_name(self) -> dict[str, list[Path]]:
+        """The folders of packages by the names that their package.xml declare."""
+        names: dict[str, list[Path]] = {}
         for directory in self.directories:
             for folder in _subfolders(directory):
                 if name := self._declared_name(folder):
-                    names.setdefault(name, folder)
+                    names.setdefault(name, []).append(folder)
         return names
 
     def _declared_name(self, folder: Path) -> str:

@@ -68,7 +68,7 @@ def _may_be_given(fault: LaunchFault, included: Collection[str]) -> bool:
 def _missing_file(package: Package, param: Param) -> Iterator[Finding]:
     """Report a parameter whose file an available package does not have."""
     name, path = target_of(param.value)
-    holder = package.workspace.package(name) if name and name != package.name else package
+    holder = package.named(name or package.name)
     if path and holder is not None and not holder.exists(path):
         named = f"{path} of {name}" if name else path
         yield finding(param, f"{named}, from which {param.name} is read, does not exist")

@@ -104,9 +104,7 @@ def _argument(package: Package, description: RobotDescription, robot: str) -> It
 
 
 def _holder(package: Package, file: DescriptionFile) -> Package | None:
-    if file.package in ("", package.name):
-        return package
-    return package.workspace.package(file.package)
+    return package.named(file.package) if file.package else package
 
 
 def _is_given(description: RobotDescription, robot: str, script: DescriptionScript | None) -> bool:

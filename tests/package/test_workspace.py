@@ -26,6 +26,17 @@ def test_a_package_is_found_by_its_declared_name(manifest: str, tmp_path: Path) 
     assert found.root == folder
 
 
+def test_a_package_comes_before_a_neighbour_that_declares_the_same_name(tmp_path: Path) -> None:
+    """$(find rover) in one of two copies means that copy."""
+    folders = [tmp_path / "backup", tmp_path / "current"]
+    for folder in folders:
+        folder.mkdir()
+        (folder / "package.xml").write_text("<package><name>rover</name></package>", "utf-8")
+    packages = map(Workspace((tmp_path,)).at, folders)
+    found = [package.named("rover") for package in packages]
+    assert [package.root for package in found if package] == folders
+
+
 @pytest.mark.parametrize(
     "manifest",
     [b"", b"  \n", b"\0", b"rover", b"<", b"<!-- rover -->", b"\xff\xfe", b"<package><name/>"],

@@ -49,8 +49,7 @@ def local_path(package: Package, path: str) -> str | None:
     rest = posixpath.normpath(path).removeprefix(f"{ROOT}/{name}").lstrip("/")
     if not name:
         return None
-    own = name == package.root.name
-    holder = package if own else package.workspace.package(name)
+    holder = package.named(name)
     if holder is None:
         return None
     if not holder.exists(rest):

@@ -145,7 +145,7 @@ class LaunchFiles(Record):
         prefix = self._folder(package)
         if prefix is None:
             return f"package {package} is not available"
-        holder = self.package if not prefix else self.package.workspace.package(package)
+        holder = self.package.named(package)
         files = holder.index.files if holder else ()
         named = (
             candidate.path for candidate in files if posixpath.basename(candidate.path) == file
@@ -157,7 +157,7 @@ class LaunchFiles(Record):
         """Return the way from the package to another one."""
         if name == self.package.name:
             return ""
-        package = self.package.workspace.package(name)
+        package = self.package.named(name)
         if package is None:
             return None
         return "" if package is self.package else f"../{package.name}"

@@ -19,7 +19,7 @@ def holder_of(package: Package, name: str) -> Package | None:
         package: The package being checked.
         name: The name as package.xml declares it, or that of its folder.
     """
-    return package if name in own_names(package) else package.workspace.package(name)
+    return package.named(name)
 
 
 def own_names(package: Package) -> tuple[str, ...]:
