@@ -79,7 +79,7 @@ def controlled_robots(
     # Files of parameters are read for those robots alone that need them.
     loaded = ask.one(Parameters) if others else NotAvailable("no robot has a transmission")
     if isinstance(loaded, Parameters):
-        found |= {id(it): (it, controllers_for(it, loaded.controllers)) for it in others}
+        found |= {id(it): (it, controllers_for(it, loaded.reached)) for it in others}
     robots = tuple(
         ControlledRobot(robot, without_idle(controllers, started))
         for robot, controllers in found.values()

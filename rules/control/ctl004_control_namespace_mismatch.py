@@ -2,8 +2,9 @@
 
 Gazebo's plugin runs the controller manager in its own namespace and reads the controllers'
 parameters there. A spawner in another namespace waits forever for its manager, and parameters in
-another namespace are not found. Without a joint_state_controller no node receives the joint
-positions: RViz shows no transforms of the moving links.
+another namespace are not found: the controllers are not loaded, and the joints move freely.
+Without a joint_state_controller (a warning) no node receives the joint positions: RViz shows no
+transforms of the moving links.
 
 Fix: use one namespace in the YAML file, in `<robotNamespace>` and in the spawner's `ns`, and spawn
 a controller of type `joint_state_controller/JointStateController`.
@@ -14,9 +15,12 @@ from checker.ros.control.controllers import ControlSystem
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("CTL004", "control-namespace-mismatch", Severity.WARNING, Concern.INTERFACE)
+@rule("CTL004", "control-namespace-mismatch", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
-    """Report spawners, parameters and plugins whose namespaces differ, and missing joint states."""
+    """Report spawners, parameters and plugins whose namespaces differ, and missing joint states.
+
+    Missing joint states are a warning, as is what launch files that are not read may put right.
+    """
     yield from _parameters_elsewhere(control)
     if control.unread_robot:
         yield unchecked(control.unread_robot)
@@ -32,8 +36,9 @@ def _parameters_elsewhere(control: ControlSystem) -> Findings:
             continue
         yield finding(
             spawned,
-            f"controllers are started in namespace {spawned.namespace!r}, but their parameters are "
-            f"loaded in {configured.namespace!r}: use one namespace",
+            f"the controllers are not loaded: they are started in namespace {spawned.namespace!r}, "
+            f"but their parameters are in {configured.namespace!r}: use one namespace",
+            severity=Severity.WARNING if control.unread else None,
             key=f"{spawned.namespace} {configured.namespace}",
             related=[(configured, f"loaded in namespace {configured.namespace!r}")],
         )
@@ -53,6 +58,7 @@ def _manager_elsewhere(control: ControlSystem) -> Findings:
                 f"gazebo_ros_control runs their manager in "
                 f"{', '.join(map(repr, sorted(managed)))}: "
                 "use one namespace",
+                severity=Severity.WARNING if control.unread else None,
                 key=f"manager {spawned.namespace}",
                 related=[(stated[0], "the namespace of the controller manager")],
             )
@@ -78,6 +84,7 @@ def _untold_states(control: ControlSystem) -> Findings:
         source.whole(),
         f"no controller of {source.file} publishes the joint states: expected one of type "
         "joint_state_controller/JointStateController",
+        severity=Severity.WARNING,
     )
 
 

@@ -89,7 +89,18 @@ def test_transmissions_alone_move_nothing() -> None:
     motors = "".join(TRANSMISSION.format(name, "Velocity") for name in TWO)
     plan = plan_of(urdf('<link name="base_link"/>' + REAR + motors))
     assert not plan.speeds
-    assert "2 transmissions for controllers of ROS 1, and no file" in plan.not_driven
+    assert "2 transmissions for controllers of ROS 1, and the package loads none" in plan.not_driven
+
+
+@pytest.mark.parametrize(("namespace", "is_loaded"), [("acme", True), ("rover", False)])
+def test_a_controller_spawned_in_another_namespace_moves_nothing(
+    tmp_path: Path, namespace: str, is_loaded: bool
+) -> None:
+    spawner = f"""<node ns="{namespace}" name="spawner" pkg="controller_manager" type="spawner"
+        args="base"/></launch>"""
+    launch = LOAD.replace("</launch>", spawner)
+    plan = plan_of(robot(tmp_path, REAR + BALL, TWO, DIFF, launch))
+    assert bool(plan.speeds) is is_loaded
 
 
 def test_controllers_of_another_robot_move_nothing(tmp_path: Path) -> None:

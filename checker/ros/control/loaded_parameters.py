@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -15,6 +16,7 @@ from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.ros.control.controllers import Controller, ParameterFault, SimulatorGains
 from checker.ros.control.controllers_reader import read_controllers
+from checker.ros.control.nodes import Spawned, read_spawned
 from checker.source.text import Excerpt, SourceText, Span, text_excerpt
 
 if TYPE_CHECKING:
@@ -37,6 +39,7 @@ class Parameters:
         gains: The gains of `gazebo_ros_control` itself.
         faults: Files that are not there or cannot be read.
         unread: The reasons why parameters are not known.
+        spawned: Full names of the controllers that launch files start.
     """
 
     package: Package
@@ -44,6 +47,7 @@ class Parameters:
     gains: list[SimulatorGains] = field(default_factory=list)
     faults: list[ParameterFault] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)
+    spawned: set[str] = field(default_factory=set)
     _seen: set[tuple[str, str, str, int]] = field(default_factory=set)
     _loaded: set[str] = field(default_factory=set)
     _documents: dict[str, YamlDocument] = field(default_factory=dict)
@@ -52,6 +56,8 @@ class Parameters:
     def load(self, graph: LaunchGraph) -> None:
         """Read what the launch files of a graph load."""
         files = LaunchFiles(self.package)
+        read = (item for node in graph.nodes for item in read_spawned(node))
+        self.spawned |= {item.full_name for item in read if isinstance(item, Spawned)}
         for param in graph.params:
             if param.kind not in ("load", "yaml"):
                 continue
@@ -61,6 +67,14 @@ class Parameters:
                 continue
             self._seen.add(key)
             self._load(param, files)
+
+    @property
+    def reached(self) -> Iterator[Controller]:
+        """Controllers without those that their spawner looks for in another namespace (CTL004)."""
+        names = {posixpath.basename(name) for name in self.spawned}
+        for it in self.controllers:
+            if it.full_name in self.spawned or it.name not in names or self.unread:
+                yield it
 
     def _load(self, param: Param, files: LaunchFiles) -> None:
         if not is_known(param.name):

@@ -68,7 +68,7 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
         yield _moved_by(plugin.class_name for plugin in robot.driven_joints.values())
     if transmissions := len(robot.element.all("transmission")):
         has = f"it has {count(transmissions, 'transmission')}"
-        yield f"{has} for controllers of ROS 1, and no file of the package configures one"
+        yield f"{has} for controllers of ROS 1, and the package loads none that moves it"
     if robot.driven_in:
         yield f"its drive is in {robot.driven_in}, which describes the same robot for Gazebo"
     wheels = [wheel.link.name.value for wheel in locomotion.undriven if wheel.steering is None]
