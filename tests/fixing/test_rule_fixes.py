@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from checker.base.cache import NO_CACHE
 from checker.engine.review import findings_of
 from checker.finding import Safety, Severity
-from checker.fix.rounds import fix_package
+from checker.fix.rounds import MAX_ROUNDS, fix_package
 from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
@@ -47,11 +47,22 @@ def judge(rule: Rule, example: Example, **wishes: Any) -> Settings:
     return Settings(trial=False, profile=profile_of(rule, example).name, **wishes)
 
 
-def fixed(package: Package, settings: Settings) -> tuple[Package, bool]:
-    """Return the package with all fixes made, in memory, and whether any was."""
-    found = fix_package(package, lambda each: findings_of(each, settings, NO_CACHE), list(Safety))
+Judged = list[tuple[ReportedFinding, ...]]
+"""The findings of each round, those of the last one without any fix to make."""
+
+
+def fixed(package: Package, settings: Settings) -> tuple[Package, Judged]:
+    """Return the package with all fixes made, in memory, and what was found in each round."""
+    judged: Judged = []
+
+    def findings(each: Package) -> tuple[ReportedFinding, ...]:
+        judged.append(findings_of(each, settings, NO_CACHE))
+        return judged[-1]
+
+    found = fix_package(package, findings, list(Safety))
+    assert len(judged) <= MAX_ROUNDS
     texts = {file.path: replace(file.before, text=file.after) for file in found.files}
-    return package.with_texts(texts), bool(found.files)
+    return package.with_texts(texts), judged
 
 
 def counted(findings: Iterable[ReportedFinding]) -> Counter[str]:
@@ -72,15 +83,11 @@ def test_a_fix_mends_its_fault_and_brings_no_other(
     with open_input(write_example(example, tmp_path)) as opened:
         before = opened.packages[0]
         alone, every = judge(rule, example, select=(rule.id,)), judge(rule, example)
-        faults = findings_of(before, alone, NO_CACHE)
+        after, (faults, *rounds) = fixed(before, alone)
         mended = {each.fingerprint for each in faults if each.fix}
         if not mended:
             return
-        after, changed = fixed(before, alone)
-        assert changed
-        left = findings_of(after, alone, NO_CACHE)
-        assert not mended & {each.fingerprint for each in left}
-        assert not fixed(after, alone)[1]
+        assert not mended & {each.fingerprint for each in rounds[-1]}
         assert_well_laid_out(before, after)
         new = counted(findings_of(after, every, NO_CACHE))
         new -= counted(findings_of(before, every, NO_CACHE))
@@ -155,8 +162,7 @@ def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
     build = "project(a)\ninstall(DIRECTORY model launch DESTINATION share/a)\n"
     with open_input(write_example({"CMakeLists.txt": build}, tmp_path)) as opened:
         settings = Settings(trial=False, profile="subt", select=("PKG009",))
-        after, changed = fixed(opened.packages[0], settings)
-        assert changed
+        after, _ = fixed(opened.packages[0], settings)
         source = after.read("CMakeLists.txt")
     assert isinstance(source, SourceText)
     assert "install(DIRECTORY launch DESTINATION" in source.text
