@@ -76,8 +76,9 @@ def _moments_fix(robot: Robot, link: Link) -> Fix | None:
     moments = even_moments(robot, link)
     if link.inertial is None or moments is None:
         return None
-    pairs = zip(link.inertial.moments, moments, strict=True)
-    return rewrite((read, value) for read, value in pairs if read.stated or read.value != value)
+    pairs = list(zip(link.inertial.moments, moments, strict=True))
+    # Products that are left out are 0, and the moments are possible without them.
+    return rewrite(pair for pair in pairs if pair[0].stated or pair[0].value)
 
 
 def centre_fix(robot: Robot, link: Link) -> Fix | None:
