@@ -48,10 +48,9 @@ def started(spawner: Spawner) -> StartedXml | NotAvailable:
 
 @part
 def entries(package: Package) -> LaunchEntries:
-    """Return the launch files that a URDF package can be started with."""
-    if package.kind is not PackageKind.URDF_DESCRIPTION:
-        return LaunchEntries()
-    return launch_entries(package)
+    """Return the launch files that a package of ROS can be started with."""
+    known = package.kind in (PackageKind.URDF_DESCRIPTION, PackageKind.UNKNOWN)
+    return launch_entries(package) if known else LaunchEntries()
 
 
 @part

@@ -136,7 +136,7 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
         tuple(model for model in models if model),
         frozenset(topic for topic in topics if topic),
         frozenset(param.name for param in graph.params),
-        tuple(_missing(package, graph)),
+        tuple(missing_descriptions(package, graph)),
     )
 
 
@@ -154,7 +154,7 @@ def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
         yield from _spawned(entry.graph.dormant_nodes, [])
 
 
-def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
+def missing_descriptions(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
     """Yield the descriptions that a launch file reads and that no available package contains."""
     named = [(param.value, param.span) for param in graph.params if param.kind in _READING]
     named += [

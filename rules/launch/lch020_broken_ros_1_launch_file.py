@@ -1,0 +1,141 @@
+"""A launch file of ROS 1 that roslaunch refuses, or a program of a node that does not exist.
+
+roslaunch reads all files before it starts anything, so nothing starts where an included file does
+not exist, gets an arg that it does not declare, or lacks one that it requires, and where the file
+of a description does not exist (a warning if its path depends on an arg, which may be given). A
+node whose package has no program of its `type` does not start, and roslaunch goes on without it.
+Programs without the ending `.py` are only reported if the package has one of nearly the same name:
+CMake may build them. Packages of ROS 2 are not checked.
+
+Fix: correct the path, the name of the arg or the `type`; pass an arg with
+`<arg name="…" value="…"/>` inside the include.
+Source: roslaunch XML specification, `<include>`, `<arg>` and `<node>`; roslib, `find_node`.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.base.words import Suggestions
+from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, Node
+from checker.launch.ros1.package_launch import LaunchEntries
+from checker.launch.ros1.substitution import is_known
+from checker.launch.ros2.package_launch import is_ros2_only
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.ros.control.system import missing_descriptions
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.text import SourceText
+
+_FATAL = (
+    LaunchFaultKind.MISSING_ARG,
+    LaunchFaultKind.UNKNOWN_ARG,
+    LaunchFaultKind.MISSING_FILE,
+    LaunchFaultKind.INCLUDE_LOOP,
+)
+_WORD = re.compile(r"[\w.-]+")
+_BUILD = ("CMakeLists.txt", "setup.py")
+_NOT_PLAIN = re.compile(r"\bGLOB\b|\bforeach\b|\badd_subdirectory\b|add_executable\W{1,8}\$")
+"""What may build programs whose names CMakeLists.txt does not state."""
+_PROGRAM = re.compile(r"\.(?:py|sh|bash)\Z")
+
+
+@rule("LCH020", "broken-ros-1-launch-file", Severity.ERROR, Concern.INTERFACE)
+def check(package: Package, launch: LaunchEntries) -> Findings:
+    """Report what stops roslaunch, and nodes whose program an available package does not have."""
+    if is_ros2_only(package):
+        return
+    for fault in launch.graph.faults:
+        if fault.kind in _FATAL and not _may_be_given(fault):
+            yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
+    if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
+        for entry in launch.entries:
+            for missing in missing_descriptions(package, entry.graph):
+                given = "$(arg " in missing.span.text
+                severity = Severity.WARNING if given else None
+                yield finding(missing, missing.message, key=missing.message, severity=severity)
+    for node in launch.graph.nodes:
+        yield from _without_program(package, node)
+
+
+def _may_be_given(fault: LaunchFault) -> bool:
+    """Return whether an arg is missing in the file that a person starts, and gives it to."""
+    return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
+
+
+def _without_program(package: Package, node: Node) -> Iterator[Finding]:
+    holder = package.named(node.package) if is_known(node.package + node.type) else None
+    if holder is None or not node.type or is_ros2_only(holder):
+        return
+    files = {posixpath.basename(file.path) for file in holder.index.files}
+    build = _build_text(holder)
+    if node.type in files or node.type in _WORD.findall(build):
+        return
+    is_script = node.type.endswith(".py")
+    if is_script or not _NOT_PLAIN.search(build):
+        scripts = {_PROGRAM.sub("", file): file for file in files if _PROGRAM.search(file)}
+        meant = Suggestions((*scripts, *scripts.values())).closest(node.type) or ""
+        near = scripts.get(node.type) or scripts.get(meant, meant)
+        if not near and not is_script:
+            return
+        hint = f"; did you mean {near!r}?" if near else ""
+        yield finding(
+            node,
+            f"node {node.name!r} does not start: {node.package} has no program {node.type!r}{hint}",
+            key=f"{node.package}/{node.type}",
+        )
+
+
+def _build_text(holder: Package) -> str:
+    """Return what builds and installs the programs of a package."""
+    sources = [holder.read(name) for name in _BUILD if holder.exists(name)]
+    text = "\n".join(it.text for it in sources if isinstance(it, SourceText))
+    return text.replace("${PROJECT_NAME}", holder.declared_name)
+
+
+def _launch(content: str, name: str = "launch/all.launch") -> dict[str, object]:
+    return {"@urdf": True, name: f"<launch>\n{content}\n</launch>\n", "scripts/watch.py": ""}
+
+
+def _include(inside: str, file: str = "one.launch", mark: str = "") -> dict[str, object]:
+    path = f"$(find acme_arm_description)/launch/{file}"
+    included = {"launch/one.launch": '<launch><arg name="arm"/></launch>'}
+    return {**_launch(f'<include file="{path}">{mark}\n{inside}\n</include>'), **included}
+
+
+def _node(program: str, mark: str = "", package: str = "acme_arm_description") -> dict[str, object]:
+    return _launch(f'<node name="watch" pkg="{package}" type="{program}"/>{mark}')
+
+
+_MARK = "  <!-- ^ LCH020 -->"
+_ARM = '<arg name="arm" value="1"/>'
+_LOAD = "$(find acme_arm_bringup)/urdf/$(arg model).xacro"
+_BRINGUP = {
+    "@name": "acme_arm_bringup",
+    "package.xml": "<package><name>acme_arm_bringup</name></package>",
+    "urdf/arm.urdf": None,
+}
+GOOD = [
+    _include(_ARM),
+    _include(_ARM, "$(arg nobody)/one.launch"),
+    _launch('<arg name="arm"/>'),
+    _node("watch.py"),
+    _node("planner"),
+    _node("wacth.py", package="acme_tools"),
+    _launch('<node name="watch" pkg="acme_arm_description" type="wacth.py" if="false"/>'),
+]
+BAD = [
+    _include("", mark=_MARK),
+    _include(f'{_ARM}\n<arg name="ram" value="1"/>{_MARK}'),
+    _include(_ARM, "two.launch", _MARK),
+    _node("wacth.py", _MARK),
+    _node("watch", _MARK),
+    {
+        **_launch(
+            f"""<arg name="model" default="tall"/>
+<param name="robot_description" command="xacro '{_LOAD}'"/>{_MARK}"""
+        ),
+        **_BRINGUP,
+        "launch/spawn.launch": None,
+    },
+]
