@@ -17,6 +17,16 @@ from checker.source.xml_positions import XmlFault
 
 GAZEBO_FILES = (".sdf", ".world", ".config")
 """Endings of files that only Gazebo reads."""
+_OF_PLUGINLIB = ("<library", "<class_libraries")
+_FIRST_TAG = re.compile(r"<[A-Za-z_]+")
+
+
+def is_lenient(source: SourceText) -> bool:
+    """Return whether only tinyxml2 reads a file: Gazebo's, and descriptions of pluginlib."""
+    first = _FIRST_TAG.search(source.text)
+    of_pluginlib = first is not None and first.group() in _OF_PLUGINLIB
+    return of_pluginlib or source.file.endswith(GAZEBO_FILES)
+
 
 _LATE_DECLARATION = re.compile(r"\s+(<\?xml\s[^>]*?\?>)")
 _HYPHENS = re.compile(r"-{2,}|-\Z")
@@ -77,6 +87,19 @@ def mend_characters(source: SourceText, text: str) -> tuple[str, list[XmlFault]]
         return " "
 
     return _FORGIVEN.sub(blanked, text), faults
+
+
+_VALUE = re.compile(r"""=\s{0,9}(?:"[^"\n]{0,999}"|'[^'\n]{0,999}')(?=[\s/>])""")
+_ANGLE_FAULT = ("a '<' inside a value", "write &lt; for <")
+
+
+def mend_angles(source: SourceText, text: str) -> tuple[str, list[XmlFault]]:
+    """Forgive `<` inside the values of attributes; the first ones are reported."""
+    values = [value.span() for value in _VALUE.finditer(text) if "<" in value.group()]
+    for start, end in values:
+        text = text[:start] + text[start:end].replace("<", " ") + text[end:]
+    spans = (Span(source, *value) for value in values[:_REPORTED])
+    return text, [XmlFault(span, *_ANGLE_FAULT) for span in spans]
 
 
 _SECOND_ROOT = "junk after document element"
@@ -266,6 +289,8 @@ def _invalid(source: SourceText, at: int) -> XmlFault:
 def _second_root(text: str, at: int) -> str:
     match = _OPENING.match(text, at)
     what = f"<{match.group(1)}>" if match else "text"
+    if what == "<library>":
+        return "put all <library> into one <class_libraries>"
     return f"an XML file has one root element, but {what} follows it"
 
 

@@ -16,8 +16,9 @@ from xml.parsers import expat
 from checker.base.record import Record
 from checker.source.text import SourceText, Span
 from checker.source.xml_errors import (
-    GAZEBO_FILES,
     explain,
+    is_lenient,
+    mend_angles,
     mend_characters,
     mend_comments,
     mend_declaration,
@@ -109,8 +110,10 @@ def locate_tags(source: SourceText, max_depth: int) -> LocatedTags | XmlFault:
         text, faults = mend_comments(source, text)
         tolerated += faults
         result = _TagReader(source, text, max_depth).run() if faults else result
-    if isinstance(result, XmlFault) and source.file.endswith(GAZEBO_FILES):
+    if isinstance(result, XmlFault) and is_lenient(source):
         text, faults = mend_characters(source, text)
+        text, angles = mend_angles(source, text)
+        faults += angles
         tolerated += faults
         result = _TagReader(source, text, max_depth).run() if faults else result
         if isinstance(result, XmlFault):

@@ -2,14 +2,17 @@
 
 A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
-comment, `&` for `&amp;`, control characters and a second root element. In files that only Gazebo
-reads these are infos; the parsers of ROS refuse them. So are faults of files in a folder of tests
-whose name says that a test expects them: `invalid_tree.urdf`.
+comment, `&` for `&amp;`, `<` for `&lt;` inside a value, control characters and a second root
+element. In files that only Gazebo or pluginlib reads these are infos; the other parsers of ROS
+refuse them. So are faults of files in a folder of tests whose name says that a test expects them
+(`invalid_tree.urdf`), and of templates: files with `[PLACEHOLDER]` in a folder `templates`.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
-Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested.
+Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
+`ClassLoader::processSingleXMLPluginFile`, which reads with tinyxml2.
 """
 
+import re
 from collections.abc import Iterator
 
 from checker.base.files import NotReadable, TooLarge
@@ -17,8 +20,11 @@ from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText, Span
-from checker.source.xml_errors import GAZEBO_FILES
+from checker.source.xml_errors import GAZEBO_FILES, is_lenient
 from checker.source.xml_positions import XmlFault
+
+_FOLDERS = {"template", "templates"}
+_PLACEHOLDER = re.compile(r"\[[A-Z][A-Z0-9_]{1,80}\]")
 
 
 @rule("SDF001", "not-well-formed", Severity.ERROR, Concern.ROBOT)
@@ -39,7 +45,7 @@ def check(package: Package) -> Findings:
         else:
             yield from _unread_encoding(path, document.source)
             for fault in document.tolerated:
-                severity = Severity.INFO if path.endswith(GAZEBO_FILES) else None
+                severity = Severity.INFO if is_lenient(document.source) else None
                 yield finding(fault.span, _message(path, fault), severity=severity)
 
 
@@ -54,6 +60,8 @@ def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
     if not fault.span.source.text.strip() and path.startswith("urdf/"):
         # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
         yield finding(fault.span, f"{path} is empty", severity=Severity.WARNING)
+    elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
+        yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
         yield finding(fault.span, _message(path, fault))
 
@@ -92,5 +100,8 @@ BAD = [
         "@urdf": True,
         "urdf/a.urdf": "<!-- a -->\n<?xml version='1.0'?><!-- ^ SDF001 -->\n<robot/>\n",
     },
+    {"plugins.xml": "<library path='a'><class type='a<b>'/></library><!-- ^ SDF001 -->"},
+    {"templates/a.launch": "<launch><arg [NAME]/></launch><!-- ^ SDF001 -->"},
+    {"launch/a.launch": "<launch><arg name='a<b>'/></launch><!-- ^ SDF001 -->"},
     {"urdf/model.urdf": "", "@reported": ["urdf/model.urdf:1"]},
 ]

@@ -177,6 +177,7 @@ def test_no_text_raises(text: str) -> None:
     [
         ("<a>x & y</a>", ["1:6"]),
         ("<a b='x&y;'>&foo &amp; &#65;</a>", ["1:8", "1:13"]),
+        ("<a b='x<y>' c='1'/>", ["1:5"]),
         ("<a><!-- & --><![CDATA[&]]>&</a>", ["1:27"]),
         ("<a>\xe9\x01</a>", ["1:5"]),
         ("<a/>\n<b/>", ["2:1"]),
@@ -193,3 +194,12 @@ def test_what_gazebo_forgives_is_told_in_its_files(text: str, places: list[str])
 def test_what_gazebo_refuses_is_a_fault_in_its_files(text: str) -> None:
     """tinyxml2 9.0 refuses each of these."""
     assert isinstance(parse_xml(SourceText("model.sdf", text)), XmlFault)
+
+
+def test_pluginlib_reads_angle_brackets_in_values_and_roslaunch_does_not() -> None:
+    """pluginlib parses with tinyxml2, roslaunch with expat."""
+    text = '<{0}><class type="arm::Cached<arm::Solver>"/></{0}>'
+    plugins = parse_xml(SourceText("plugins.xml", text.format("library")))
+    assert isinstance(plugins, XmlDocument)
+    assert plugins.tolerated
+    assert isinstance(parse_xml(SourceText("a.launch", text.format("launch"))), XmlFault)
