@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable
 from checker.formats.urdf.description import UrdfDescription, read_description
 from checker.formats.urdf.macro_calls import MacroCall, minimal_call
-from checker.formats.xacro.bare_tags import TAGS, bare_tags
+from checker.formats.xacro.bare_tags import bare_calls, bare_tags
 from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unread, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
@@ -295,7 +295,7 @@ class PackageDescriptions:
 
         The result takes its place in `expanded`, also where that is only why nothing is known.
         """
-        refused = {path: old for path in expanded if (old := _refusal(expanded[path], path))}
+        refused = {path: old for path in expanded if (old := self._refusal(expanded[path], path))}
         again = [replace(wish, as_melodic=True) for wish in self._wanted if wish.path in refused]
         if not again:
             return ()
@@ -303,7 +303,7 @@ class PackageDescriptions:
         causes: dict[str, XacroFault] = {}
         for wish, outcome in zip(again, expansions.outcomes(), strict=True):
             bare = {fault.file: fault for fault in bare_tags(self._package, wish.path)}
-            if isinstance(outcome, XmlDocument) and _refusal(outcome, wish.path) is None:
+            if isinstance(outcome, XmlDocument) and self._refusal(outcome, wish.path) is None:
                 expanded[wish.path] = outcome
                 self._taken[wish.path] = wish
                 causes |= bare or {wish.path: refused[wish.path]}
@@ -311,6 +311,16 @@ class PackageDescriptions:
                 expanded[wish.path] = outcome
                 causes |= bare
         return tuple(causes.values())
+
+    def _refusal(self, outcome: Outcome, file: str) -> XacroFault | None:
+        """Return what a newer xacro refuses that an older one may take."""
+        if isinstance(outcome, XmlDocument):
+            for call in bare_calls(self._package, file, outcome)[:1]:
+                message, hint = f"<{call.tag}> is not expanded", f"write <xacro:{call.tag}>"
+                return XacroFault(XacroFaultKind.EXPANSION, file, call.span, message, hint)
+        elif isinstance(outcome, XacroFault) and outcome.kind is XacroFaultKind.EXPANSION:
+            return outcome
+        return None
 
     def stop(self) -> None:
         """Stop the expansions that still run."""
@@ -332,20 +342,6 @@ def _further(candidate: Candidate) -> range:
 
 def _in_words(args: Mapping[str, str]) -> str:
     return " ".join(f"{name}:={value}" for name, value in args.items())
-
-
-def _refusal(outcome: Outcome, file: str) -> XacroFault | None:
-    """Return what a newer xacro refuses that an older one may take."""
-    if isinstance(outcome, XmlDocument):
-        for child in outcome.root.children:
-            if child.tag in TAGS:
-                message = f"<{child.tag}> is not expanded"
-                hint = f"write <xacro:{child.tag}>"
-                return XacroFault(XacroFaultKind.EXPANSION, file, child.span, message, hint)
-        return None
-    if isinstance(outcome, XacroFault):
-        return outcome if outcome.kind is XacroFaultKind.EXPANSION else None
-    return None
 
 
 def _needs_xacro(package: Package, candidate: Candidate) -> bool:

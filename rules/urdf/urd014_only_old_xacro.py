@@ -70,6 +70,10 @@ BAD = [
     _loaded(f'<link name="l${{(range(2) + [5])[2]}}"/>{_MARK}'),
     {**_loaded(f'{_INCLUDED}<xacro:wheel side="left"/>{_MARK}'), "urdf/parts.xacro": _PARTS},
     _loaded(f'<property name="radius" value="1"/>{_MARK}\n<link name="l"/>'),
+    _loaded(
+        '<xacro:macro name="eye" params="side"><link name="${side}"/></xacro:macro>\n'
+        f'<eye side="left"/>{_MARK}'
+    ),
     {
         **_loaded('<xacro:include filename="parts.xacro"/><xacro:wheel side="left"/>'),
         "urdf/parts.xacro": f"""{_HEAD}<property name="track" value="1"/>{_MARK}

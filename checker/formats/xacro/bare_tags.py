@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.formats.xacro.files import Gathered, path_of
+from checker.formats.xacro.macro_names import OF_URDF, macro_names
 from checker.package.package import Package
+from checker.source.xml import Element, XmlDocument
 
 TAGS = ("include", "insert_block", "macro", "property")
 """Those that no reader of URDF knows; they are directly in the robot."""
@@ -19,13 +21,28 @@ def bare_tags(package: Package, path: str) -> Iterator[XacroFault]:
         package: The package of the file.
         path: The path as the package lists it.
     """
-    gathered = Gathered(package)
-    gathered.follow([path_of(package, path)])
-    for document in gathered.documents.values():
-        bare = [child for child in document.root.children if child.tag in TAGS]
+    documents = _documents(package, path)
+    macros = macro_names(document.source.text for document in documents)
+    for document in documents:
+        bare = [each for each in document.root.children if each.tag in TAGS or each.tag in macros]
         if bare:
             names = dict.fromkeys(child.tag for child in bare)
             message = " and ".join(f"<{name}>" for name in names)
             hint = "write " + " and ".join(f"<xacro:{name}>" for name in names)
             file, span = document.source.file, bare[0].span
             yield XacroFault(XacroFaultKind.PREFIX, file, span, message, hint)
+
+
+def bare_calls(package: Package, path: str, expanded: XmlDocument) -> list[Element]:
+    """Return the tags of xacro that are left in what a file expands to, calls of macros too."""
+    unknown = [child for child in expanded.root.children if child.tag not in OF_URDF]
+    calls = [child for child in unknown if child.tag not in TAGS]
+    texts = (each.source.text for each in (_documents(package, path) if calls else ()))
+    known = macro_names(texts).union(TAGS)
+    return [child for child in unknown if child.tag in known]
+
+
+def _documents(package: Package, path: str) -> tuple[XmlDocument, ...]:
+    gathered = Gathered(package)
+    gathered.follow([path_of(package, path)])
+    return tuple(gathered.documents.values())

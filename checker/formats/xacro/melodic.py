@@ -7,8 +7,7 @@ prefix.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
@@ -51,22 +50,6 @@ def with_global_macros(evaluate: Callable[..., Any]) -> Callable[..., Any]:
 
 
 _TAGS = frozenset({"property", "macro", "include", "insert_block", "if", "unless"})
-_OF_URDF = frozenset(
-    {
-        *("axis", "box", "calibration", "collision", "color", "cylinder", "dynamics", "gazebo"),
-        *("geometry", "inertia", "inertial", "joint", "limit", "link", "mass", "material", "mesh"),
-        *("mimic", "origin", "plugin", "robot", "safety_controller", "sensor", "sphere"),
-        *("transmission", "visual"),
-    }
-)
-_MACRO = re.compile(
-    r"""<(?:xacro:)?macro\s[^>]{0,300}?\bname\s{0,8}=\s{0,8}["']([\w-]{1,100})["']"""
-)
-
-
-def macro_names(texts: Iterable[str]) -> frozenset[str]:
-    """Return the names of the macros in some texts, those of URDF's own elements left out."""
-    return frozenset(name for text in texts for name in _MACRO.findall(text)) - _OF_URDF
 
 
 def prefix(root: Any, macros: frozenset[str]) -> None:

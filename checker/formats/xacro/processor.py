@@ -31,6 +31,7 @@ from checker.formats.xacro.expression.bounds import (
 from checker.formats.xacro.expression.builtins import functions
 from checker.formats.xacro.expression.evaluation import Names, evaluate
 from checker.formats.xacro.files import ROOT
+from checker.formats.xacro.macro_names import macro_names
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read
 
@@ -193,7 +194,7 @@ class _Expansion:
 
     @cached_property
     def _macros(self) -> frozenset[str]:
-        return melodic.macro_names(self._request["texts"].values())
+        return macro_names(self._request["texts"].values())
 
     def glob(self, pattern: str) -> list[str]:
         """Return the given paths that match a pattern: what `glob.glob` is to xacro."""
