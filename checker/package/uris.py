@@ -18,6 +18,7 @@ _SCHEME = re.compile(r"(?:model://|package:///?)([^/]+)/?(.*)", re.DOTALL)
 _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
 """A path on the resource path of Gazebo, which may contain the folder of the model."""
 _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
+_AT_HOME = re.compile(r"(?:file://)?/(?:home|Users)/[^/]+/(.*)", re.DOTALL)
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
@@ -37,7 +38,7 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     """Return the path that a URI leads to, from a package; nothing need be there.
 
     A path below an installed package is that of the file in the source which is installed there. A
-    path on a drive of Windows is that of the same file in the package, if it has one.
+    path on its author's machine is that of the same file in the package, if it has one.
 
     Args:
         package: The package whose file states it.
@@ -52,26 +53,26 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     beside = _RELATIVE_FILE.match(uri)
     if beside and package.exists(near := posixpath.normpath(posixpath.join(folder, beside[1]))):
         return near
-    if (own := own_path_on_drive(package, uri)) is not None:
-        return own or Unknown("is on a drive of another machine")
     if _ELSEWHERE.match(uri) or not uri:
-        return Unknown("is outside the workspace")
+        on_drive = _ON_DRIVE.fullmatch(uri)
+        where = "on a drive of another machine" if on_drive else "outside the workspace"
+        return own_path_on_machine(package, uri) or Unknown(f"is {where}")
     path = posixpath.normpath(posixpath.join(folder, uri))
     sibling = path.split("/")[1] if path.startswith("../") else ""
     is_known = sibling in ("", package.root.name) or package.workspace.package(sibling)
     return path if is_known or package.exists(path) else _absent(sibling)
 
 
-def own_path_on_drive(package: Package, uri: str) -> str | None:
-    """Return the path in the package that ends a path on a drive of Windows: `D:/work/arm/a.stl`.
+def own_path_on_machine(package: Package, uri: str) -> str:
+    """Return the path in the package that ends a path on its author's machine; empty without one.
 
-    Empty where the package has no such file; None for any other URI.
+    That is a path on a drive of Windows, `D:/work/arm/a.stl`, or in a home: `/home/me/arm/a.stl`.
     """
-    on_drive = _ON_DRIVE.fullmatch(uri)
-    path = on_drive[1].replace("\\", "/") if on_drive else ""
+    on_machine = _ON_DRIVE.fullmatch(uri) or _AT_HOME.fullmatch(uri)
+    path = on_machine[1].replace("\\", "/") if on_machine else ""
     while path and not package.exists(path):
         path = path.partition("/")[2]
-    return path if on_drive else None
+    return path
 
 
 def _in_package(package: Package, name: str, path: str) -> str | Unknown:

@@ -6,7 +6,8 @@ default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. No accepted
 checked has this fault.
 
 An arm without gravity may be intended, to replace springs that balance the real one. For links
-other than the base and the wheels, it is an info.
+other than the base and the wheels, it is an info. A model without joints, sensors and plugins is an
+object that may be held in the air: there it is not reported.
 
 Fix: remove `<gravity>` and `<kinematic>` from the link.
 Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`; what
@@ -33,8 +34,9 @@ def check(robot: Robot, context: Context) -> Findings:
     For a link that is neither of the base nor a wheel, nor between them, it is an info.
     """
     carrying = _carrying_links(robot)
+    is_object = not (robot.joints or robot.sensors or robot.all_plugins)
     for link in robot.links:
-        if not link.gravity.value:
+        if not link.gravity.value and not is_object:
             stated = link.gravity.span.text
             name = link.name.value
             carries = link.scoped_name in carrying
@@ -64,13 +66,17 @@ def _carrying_links(robot: Robot) -> set[str]:
     return found
 
 
+_BASE = """<link name="base_link"><gravity>0</gravity></link>  <!-- ^ KIN016 -->
+<plugin name="a" filename="acme"/>"""
+_OBJECT = '<link name="box"><gravity>0</gravity></link>'
 GOOD = [
     '<link name="mast"><gravity>1</gravity><kinematic>0</kinematic></link>',
     '<link name="mast"><gravity>true</gravity></link>',
+    f'<sdf version="1.6"><model name="box">{_OBJECT}</model></sdf>',
 ]
-_BASE = '<link name="base_link"><gravity>0</gravity></link>  <!-- ^ KIN016 -->'
 BAD = [
     f'<sdf version="1.6"><model name="acme_rover_sensor_config_1">{_BASE}</model></sdf>',
-    '<link name="mast"><gravity>0</gravity></link>  <!-- ^ KIN016 -->',
+    """<link name="mast"><gravity>0</gravity></link>  <!-- ^ KIN016 -->
+<joint name="foot" type="fixed"><parent>base_link</parent><child>mast</child></joint>""",
     '<link name="mast"><kinematic>true</kinematic></link>  <!-- ^ KIN016 -->',
 ]

@@ -12,6 +12,9 @@ ROS distribution has it, and this package has every file that is named that way.
 found either. Files in one folder of which nothing is installed are reported once; PKG008 reports
 meshes/ and other usual folders.
 
+An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone. It is
+reported if the package has the file.
+
 A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked.
 
 Fix: add the file, correct the path, or install the folder.
@@ -19,6 +22,7 @@ Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in
 resource_retriever: the share folder of the installed package.
 """
 
+import posixpath
 import re
 from collections.abc import Iterator
 
@@ -29,7 +33,7 @@ from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.released import distributions_with
-from checker.package.uris import Unknown, path_behind
+from checker.package.uris import Unknown, own_path_on_machine, path_behind
 from checker.rule import (
     Concern,
     Finding,
@@ -60,6 +64,8 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
                 yield unchecked(f"{uri.value} {path.reason}")
             continue
         if package.exists(path):
+            if own_path_on_machine(package, uri.value):
+                yield _on_machine(uri, posixpath.relpath(path, robot.folder_of(uri) or "."))
             if uri.value.startswith("package://"):
                 yield from _not_installed(package, uri, path, uri in meshes)
             continue
@@ -104,6 +110,16 @@ def _misnamed(package: Package, uri: Located[str], name: str, mesh: bool) -> Fin
         f"write package://{package.name}/{path}",
         severity=None if mesh else Severity.WARNING,
         key=name,
+    )
+
+
+def _on_machine(uri: Located[str], near: str) -> Finding:
+    return finding(
+        uri,
+        f"{uri.value} is on its author's machine and is found on no other: write {near}",
+        key="machine",
+        fix=replace_text(uri, near),
+        covered_by=("REF001", "URD002"),
     )
 
 
@@ -172,6 +188,14 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        "@fragment": """
+<visual name="v"><geometry><mesh>
+  <uri>/home/ann/ws/src/rover/meshes/wheel.dae</uri>  <!-- ^ REF002 -->
+</mesh></geometry></visual>
+""",
+        "meshes/wheel.dae": "",
+    },
     {
         **_ARM,
         "urdf/arm.urdf": _FORMER.replace("</visual>", "</visual> <!-- ^ REF002 -->").replace(

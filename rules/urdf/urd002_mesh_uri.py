@@ -17,7 +17,7 @@ from collections.abc import Iterator
 
 from checker.formats.urdf.description import UrdfDescription
 from checker.package.package import Package
-from checker.package.uris import own_path_on_drive
+from checker.package.uris import own_path_on_machine
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -41,9 +41,9 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     for uri in description.robot.file_uris:
         if uri.value.startswith(_FETCHED):
             continue
-        if own := own_path_on_drive(package, uri.value):
+        if own := own_path_on_machine(package, uri.value):
             severity = None if description.for_rviz else Severity.ERROR
-            yield _on_drive(package, uri, own, severity)
+            yield _on_machine(package, uri, own, severity)
             continue
         named = _PACKAGE.match(uri.value)
         if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
@@ -72,16 +72,18 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     yield from _missing(missing)
 
 
-def _on_drive(package: Package, uri: Located[str], path: str, severity: Severity | None) -> Finding:
+def _on_machine(
+    package: Package, uri: Located[str], path: str, severity: Severity | None
+) -> Finding:
     folder = posixpath.dirname(uri.span.source.file)
     is_ros = package.exists("package.xml")
     named = f"package://{package.declared_name}/{path}"
     return finding(
         uri,
-        f"mesh {uri.value!r} is on a drive of its author's machine and is found on no other: write "
+        f"mesh {uri.value!r} is on its author's machine and is found on no other: write "
         f"{named if is_ros else posixpath.relpath(path, folder or '.')}",
         severity=severity,
-        key="drive",
+        key="machine",
     )
 
 
