@@ -8,7 +8,7 @@ that xacro made, and that nothing expands again, is a warning: readers of URDF i
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
 reports what xacro refuses from ROS Noetic on.
-Source: xacro, "unknown macro name", "Undefined substitution argument".
+Source: xacro, "unknown macro name", "Undefined substitution argument"; ros/xacro#282.
 """
 
 import re
@@ -35,6 +35,7 @@ from checker.source.xml import Element
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
+_PRIVATE = re.compile(r"double underscore:\s{0,8}(__\w{1,100})")
 _FOREIGN = ("gazebo",)
 """Elements with content that URDF does not define, so braces may mean anything."""
 
@@ -59,9 +60,15 @@ def _refused(fault: XacroFault) -> Finding:
     if fault.kind is XacroFaultKind.EMPTY:
         return finding(fault, f"{fault.file} is empty, expected a robot")
     hint = f": {fault.hint}" if fault.hint else ""
+    if private := _PRIVATE.search(fault.message):
+        hint = (
+            f": rename {private[1]}, xacro refuses names that begin with __ from 1.13.13 (Melodic) "
+            "and 1.14.9 (Noetic) on"
+        )
     severity = Severity.WARNING if fault.kind is XacroFaultKind.ENVIRONMENT else None
     message = f"{fault.file} does not expand: {fault.message}{hint}"
-    return finding(fault, message, severity=severity)
+    key = private[1] if private else ""
+    return finding(fault, message, severity=severity, key=key)
 
 
 def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
@@ -183,6 +190,7 @@ BAD = [
     _choice_example("'lagre'", _MARK),
     _example(f'<xacro:arg name="prefix" default=""/><xacro:wheel side="left"/>{_MARK}'),
     _example(f"{_MODEL}{_MARK}"),
+    _example(f'<xacro:property name="__size" value="1"/>{_MARK}'),
     {
         "urdf/arm.urdf.xacro": f"{_HEAD}{_LARGE}</robot>",
         "urdf/large.xacro": f'{_HEAD}<link name="base_link"/></robot>',
