@@ -33,8 +33,9 @@ def shown_only(
 ) -> str:
     """Return why no simulator gets a description, as a clause; empty if one may.
 
-    A description with an element for Gazebo is for a simulator, whatever starts it. Where no
-    launch file is available, it takes more than friction or colours: a plugin or a sensor.
+    A description with an element for Gazebo is for a simulator, whatever starts it, and so may be a
+    package whose launch files are in another one. In a folder without package.xml and without
+    launch files it takes more than friction or colours: a plugin or a sensor.
 
     Args:
         package: The package being checked.
@@ -44,14 +45,15 @@ def shown_only(
     """
     root, launch = document.root, package.workspace.launch_texts
     tags = [child.tag for tag in root.all("gazebo") for child in tag.children]
-    in_gazebo = root.child("gazebo") if launch else not _SIMULATED.isdisjoint(tags)
+    loose = not launch and not package.exists("package.xml")
+    in_gazebo = not _SIMULATED.isdisjoint(tags) if loose else root.child("gazebo")
     if package.only or root.child("ros2_control") or in_gazebo:
         return ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
     texts = _starting(launch, posixpath.basename(path)) or [*launch.values()]
     if not texts:
-        return "no launch file of the workspace starts anything"
+        return "no launch file of the workspace starts anything" if loose else ""
     if not any(map(_SIMULATORS.search, texts)):
         return "no launch file that loads it starts a simulator"
     graphs = [*own, *(graph for _, graph in launches_naming(package))]

@@ -17,14 +17,12 @@ from tests.trial.machines import trial_in_child, value
 pytestmark = needs(MODERN)
 
 GZ = "gz_ros2_control/gz_ros2_control_demos"
-NAV2 = "nav2_minimal_turtlebot_simulation"
 PX4 = "PX4-gazebo-models/models"
 CREATE3 = "create3_sim/irobot_create_common/irobot_create_description"
 CONTROLLED = [
     (GZ, "diff_drive", "differential drive"),
     (GZ, "tricycle_drive", "Ackermann steering"),
     (CREATE3, "create3", "differential drive"),
-    (f"{NAV2}/nav2_minimal_tb4_description", "turtlebot4", "differential drive"),
 ]
 """Robots that turn as they are told: package, name, drive."""
 ROVERS = [
