@@ -10,8 +10,6 @@ Source: ros_control, `controller_manager::ControllerManager::loadController`: th
 `<namespace>/<controller>/type`.
 """
 
-import re
-
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.ros.control.controllers import Controller, ControlSystem
@@ -61,10 +59,11 @@ def _unconfigured_controllers(control: ControlSystem) -> Findings:
 
 
 def _renamed(name: str, span: Span, meant: str) -> Fix | None:
-    if span.text.split().count(name) != 1:
+    words = span.text.split(" ")
+    if words.count(name) != 1:
         return None
-    text = re.sub(rf"(?<!\S){re.escape(name)}(?!\S)", meant, span.text)
-    return replace_text(span, text, Safety.UNSAFE)
+    words[words.index(name)] = meant
+    return replace_text(span, " ".join(words), Safety.UNSAFE)
 
 
 def _misspelt(control: ControlSystem) -> dict[str, Controller]:
