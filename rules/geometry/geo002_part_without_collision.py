@@ -58,7 +58,7 @@ def _without_any(robot: Robot, context: Context) -> Finding:
         return finding(robot, f"{what}: {robot.shown_only}", severity=Severity.INFO)
     if robot.drives or (robot.stands_alone and context.is_subt):
         return finding(robot, f"{what}: the robot falls through the ground")
-    alone = len(robot.links) > 1 or not context.is_gazebo_sim
+    alone = not robot.is_prop and (len(robot.links) > 1 or not context.is_gazebo_sim)
     return finding(
         robot,
         f"{what}: nothing touches the robot",
