@@ -173,9 +173,12 @@ def fix_package(
         fixed += applied
         if not applied:
             break
+    changes = tuple(_changes(package, edited))
+    # Fixes that contradict each other, as of wheels that share a macro, may end where they began.
+    done = {reported.fingerprint: reported for reported in fixed} if changes else {}
     return Fixed(
-        tuple(_changes(package, edited)),
-        tuple({reported.fingerprint: reported for reported in fixed}.values()),
+        changes,
+        tuple(done.values()),
         tuple(reported for reported in fixable if not _elsewhere(reported)),
         tuple(reported for reported in fixable if _elsewhere(reported)),
         tuple(finding for finding in findings if finding.fix and finding.fix.safety not in allowed),

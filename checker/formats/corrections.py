@@ -47,6 +47,12 @@ def rewrite(numbers: Iterable[tuple[Located[float], float]], times: float = 1.0)
     return Fix(Safety.UNSAFE, tuple(edits)) if edits else None
 
 
+def is_shared(one: Span, other: Span) -> bool:
+    """Return whether two values were read from one text: a macro, called twice."""
+    first, second = one.place(), other.place()
+    return (first.file, first.line, first.column) == (second.file, second.line, second.column)
+
+
 def is_literal(span: Span) -> bool:
     """Return whether a number stands in the file as it was read: xacro may have computed it."""
     place = span.place()

@@ -20,7 +20,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from checker.finding import Fix
-from checker.formats.corrections import rewrite
+from checker.formats.corrections import is_shared, rewrite
 from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
@@ -131,9 +131,9 @@ def _reversed_axes(
 
 def _turned_round(robot: Robot, joint: Joint) -> Fix | None:
     """Return the fix that turns an axis round, unless a macro gives it to other joints too."""
-    place = joint.axes[0].xyz[0].span.place()
-    axes = [axis for other in robot.joints for axis in other.axes]
-    if sum(axis.xyz[0].span.place() == place for axis in axes) > 1:
+    own = joint.axes[0].xyz[0].span
+    spans = [axis.xyz[0].span for other in robot.joints for axis in other.axes]
+    if sum(is_shared(own, span) for span in spans) > 1:
         return None
     return rewrite([(number, -number.value) for number in joint.axes[0].xyz])
 

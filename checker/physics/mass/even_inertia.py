@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from checker.finding import Edit, Fix, Safety
-from checker.formats.corrections import number_text, rewrite
+from checker.formats.corrections import is_shared, number_text, rewrite
 from checker.formats.xacro.expanded import written_elements
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.bodies import Body, together
@@ -62,14 +62,14 @@ def moments_fix(robot: Robot, link: Link) -> Fix | None:
     None if a shape is not known, and where links that share the text need different moments.
     """
     fixes = [_moments_fix(robot, each) for each in robot.links if _same_text(each, link)]
-    return fixes[0] if fixes and fixes.count(fixes[0]) == len(fixes) else None
+    texts = {tuple(edit.replacement for edit in fix.edits) if fix else () for fix in fixes}
+    return fixes[0] if len(texts) == 1 else None
 
 
 def _same_text(one: Link, other: Link) -> bool:
-    """Return whether two links have their moments from one place: a macro, called twice."""
     if one.inertial is None or other.inertial is None:
         return False
-    return one is other or one.inertial.span.place() == other.inertial.span.place()
+    return is_shared(one.inertial.span, other.inertial.span)
 
 
 def _moments_fix(robot: Robot, link: Link) -> Fix | None:
