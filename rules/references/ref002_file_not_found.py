@@ -72,7 +72,7 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
         if place := downloaded_by(package, path):
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
-        alike = [other for other in package.index.similar_files(path) if other != path]
+        alike = [other for other in package.index.similar_files(path) if _may_be(other, path)]
         where = f" (looked for {path})" if path != uri.value else ""
         yield finding(
             uri,
@@ -135,14 +135,17 @@ def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -
         )
 
 
+def _may_be(other: str, path: str) -> bool:
+    """Return whether a file may be the missing one: not the materials beside an OBJ."""
+    return other != path and not other.lower().endswith(".mtl")
+
+
 def _other_file(uri: Located[str], path: str, alike: list[str]) -> Fix | None:
-    """Return the fix that writes the one file in the same folder that is called alike."""
-    around, _, name = path.rpartition("/")
-    beside = [other for other in alike if other.rpartition("/")[0] == around]
-    if len(beside) != 1 or not uri.value.endswith(name) or uri.span.text != uri.value:
+    """Return the fix that writes the one file that differs in case only."""
+    same = [other for other in alike if other.casefold() == path.casefold()]
+    if len(same) != 1 or not uri.value.endswith(path) or uri.span.text != uri.value:
         return None
-    meant = beside[0].rpartition("/")[2]
-    return replace_text(uri, uri.value.removesuffix(name) + meant, Safety.UNSAFE)
+    return replace_text(uri, uri.value.removesuffix(path) + same[0], Safety.UNSAFE)
 
 
 _BUILD = """project(acme_arm)
