@@ -5,7 +5,8 @@ drives through walls, and a robot without collisions falls through the world. It
 URDF that no launch file of the workspace gives to a simulator, since RViz needs no collision. No
 accepted package that we checked has this fault.
 
-Fix: give each wheel a `<collision>` with a cylinder, and each track boxes and cylinders.
+Fix: give the part a `<collision>`: a wheel a cylinder, a track boxes and cylinders, a body a simple
+shape around it.
 Source: SDFormat specification: only `<collision>` elements make contacts.
 """
 

@@ -11,7 +11,8 @@ places: what drives them relies on their names.
 In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel, unless it has
 `<legacyMode>false</legacyMode>`.
 
-Fix: reverse the joint's `<xyz>`, or swap `<left_joint>` and `<right_joint>`.
+Fix: reverse the joint's axis, or swap the left and the right joint of the drive. Where a macro
+makes all wheels, turn the origin of the joint instead.
 Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with positive rates on both
 sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 """

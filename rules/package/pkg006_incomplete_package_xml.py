@@ -8,8 +8,9 @@ only maintainers without a name occur. An entry that is left from the template o
 such as "The acme_rover_sensor_config_2 package" or a link to that package's page on ros.org, is
 incomplete as well; the link is an info as long as it is a comment.
 
-Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
-`<buildtool_depend>catkin</buildtool_depend>`.
+Fix: write the entry that the finding names: a version such as `1.0.0`, a maintainer with an email
+address, a license such as `Apache-2.0`, or the build tool, `catkin` in ROS 1 and `ament_cmake` in
+ROS 2.
 Source: REP 127, 140 and 149, "Required tags"; what catkin_pkg 1.1 refuses, tested tag by tag. The
 warnings are this rule's own: catkin_pkg accepts a maintainer without a name, and a package without
 catkin.

@@ -141,11 +141,12 @@ def _may_be(other: str, path: str) -> bool:
 
 
 def _other_file(uri: Located[str], path: str, alike: list[str]) -> Fix | None:
-    """Return the fix that writes the one file that differs in case only."""
-    same = [other for other in alike if other.casefold() == path.casefold()]
-    if len(same) != 1 or not uri.value.endswith(path) or uri.span.text != uri.value:
+    """Return the fix that writes the one file of the folder that is called alike."""
+    folder = posixpath.dirname(path)
+    beside = [other for other in alike if posixpath.dirname(other) == folder]
+    if len(beside) != 1 or not uri.value.endswith(path) or uri.span.text != uri.value:
         return None
-    return replace_text(uri, uri.value.removesuffix(path) + same[0], Safety.UNSAFE)
+    return replace_text(uri, uri.value.removesuffix(path) + beside[0], Safety.UNSAFE)
 
 
 _BUILD = """project(acme_arm)
