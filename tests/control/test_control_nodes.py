@@ -133,6 +133,12 @@ def test_spawn_model() -> None:
     assert model.is_known
 
 
+def test_a_package_name_with_a_dot_is_known() -> None:
+    model = read_model(node("gazebo_ros", "spawn_model", "-file $(find crane.SLDASM)/a.urdf"))
+    assert model is not None
+    assert model.is_known
+
+
 def test_spawn_model_takes_its_own_namespace() -> None:
     model = read_model(node("gazebo_ros", "spawn_model", "-file $(find p)/a.urdf", 'ns="r"'))
     assert model is not None

@@ -18,7 +18,7 @@ _STARTING = frozenset({"spawn", "start"})
 _LISTENERS = frozenset({"robot_state_publisher", "state_publisher"})
 _SOURCES = ("joint_state_publisher", "joint_state_publisher_gui")
 
-_FIND = re.compile(r"\$\(find\s{1,8}[\w-]{1,200}\)")
+_FIND = re.compile(r"\$\(find\s{1,8}[\w.-]{1,200}\)")
 
 _SPAWN_MODEL: Mapping[str, int] = MappingProxyType(
     {

@@ -36,7 +36,9 @@ _MANAGER = "control"
 """Part of the names of plugins that run a controller manager, gazebo_ros_control or another."""
 _PARAMETER = "robot_description"
 _READING = ("command", "textfile")
-_DESCRIPTION = re.compile(r"\$\(find\s{1,8}[\w-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b")
+_DESCRIPTION = re.compile(
+    r"\$\(find\s{1,8}[\w.-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b"
+)
 _LONGEST = 5_000
 """Characters of a command that are read."""
 
