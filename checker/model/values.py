@@ -45,13 +45,13 @@ class ValueReader:
         """Remember a fault."""
         self.faults.append(Fault(kind, span, message))
 
-    def numbers_in(self, text: Located[str]) -> tuple[Located[float], ...]:
-        """Split a text at its blanks and read each word as a number."""
+    def numbers_in(self, text: Located[str], *, commas: bool = False) -> tuple[Located[float], ...]:
+        """Split a text at its blanks and read each word as a number, also before a comma if so."""
         if not text.stated:
             return ()
         read = []
         for word, span in _words(text):
-            value = parse_number(word)
+            value = parse_number(word.removesuffix(",") if commas else word)
             if value is None:
                 self.fault(FaultKind.VALUE, span, f"{short(word)!r} is not a number")
             read.append(Located(0.0 if value is None else value, span))
@@ -72,9 +72,11 @@ class ValueReader:
             return tuple(Located(value, parent.span, stated=False) for value in default)
         return self.numbers_of(child, default)
 
-    def numbers_of(self, element: Element, default: Sequence[float]) -> tuple[Located[float], ...]:
+    def numbers_of(
+        self, element: Element, default: Sequence[float], *, commas: bool = False
+    ) -> tuple[Located[float], ...]:
         """Read the numbers that an element's text contains, as many as the default has."""
-        read = self.numbers_in(element.text)
+        read = self.numbers_in(element.text, commas=commas)
         return self._expect(element.text, read, default, f"<{element.tag}>")
 
     def attribute_numbers(

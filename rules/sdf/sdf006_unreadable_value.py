@@ -3,15 +3,16 @@
 Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean.
 Parsers refuse the file, or read only the first part, so that the robot weighs 1 kg instead of 101
 kg. Words after the numbers that are expected have no effect: a warning; from libsdformat 12 on a
-pose may not have any. This rule also checks numbers that the specification limits (a stddev below
-0), as the newest version that the target reads has them, and words that it lists (the type of a
-light).
+pose may not have any, but may have a comma behind a number: a warning, because the specification
+has none. This rule also checks numbers that the specification limits (a stddev below 0), as the
+newest version that the target reads has them, and words that it lists (the type of a light).
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
 Source: SDFormat specification, type, min and max of each element; what libsdformat 12 loads.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.base.resources import table
@@ -30,6 +31,8 @@ from checker.source.xml import Element
 
 _Attributes = Mapping[str, Sequence[str]]
 """Attribute name → type, default, required, as the schema has them."""
+_COMMA = re.compile(r"(?<=[\d.]),(?=\s|\Z)")
+"""What `std::stod`, with which libsdformat reads each word of a pose since 12, leaves out."""
 
 
 @rule("SDF006", "unreadable-value", Severity.ERROR, Concern.ROBOT)
@@ -84,9 +87,12 @@ def _text(
         # A file of an older version is read by the newest description that the target has.
         newest = type_of(element, context.reads) or kind
         faults += values_out_of_bounds(text, newest.bounds)
-    taken = kind.value_type != "pose" or not _counts_words_of_poses(context)
+    by_word = kind.value_type == "pose" and _counts_words_of_poses(context)
+    plain = Located(_COMMA.sub("", text.value), text.span)
+    is_taken = by_word and not misread_values(plain, value_type)
     for fault in faults:
-        severity = Severity.WARNING if fault.lossy and taken else None
+        lossy = is_taken if by_word else fault.lossy
+        severity = Severity.WARNING if lossy else None
         yield finding(fault.span, f"<{element.tag}> {fault.problem}", severity=severity)
 
 
@@ -151,6 +157,7 @@ BAD = [
     _inertial("3.6 kg</mass>  <!-- ^ SDF006 -->"),
     _inertial("1</mass>", "0 0 0 0 0 0 0</pose>  <!-- ^ SDF006 -->"),
     _inertial("1</mass>", "0 0 inf 0 0 0</pose>  <!-- ^ SDF006 -->"),
+    _inertial("1</mass>", "0, 0.2, 0, 0, 0, 0</pose>  <!-- ^ SDF006 -->"),
     "<link name='arm'><gravity>no</gravity></link>  <!-- ^ SDF006 -->",
     "<light name='lamp' type='bulb'/>  <!-- ^ SDF006 -->",
     """

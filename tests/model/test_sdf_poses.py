@@ -20,6 +20,11 @@ def test_links_stand_in_the_model() -> None:
     assert_pose(robot.pose_of("a"), A)
 
 
+def test_a_comma_behind_a_number_is_left_out() -> None:
+    robot = sdf(f'<link name="a"><pose>{A_TEXT.replace(" ", ", ")}</pose></link>')
+    assert_pose(robot.pose_of("a"), A)
+
+
 def test_relative_to_chains() -> None:
     robot = sdf(
         f"""<link name="c"><pose relative_to="b">{C_TEXT}</pose></link>

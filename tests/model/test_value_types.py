@@ -81,6 +81,7 @@ def test_forms_that_read(value_type: str, text: str) -> None:
         ("double", "3.6 kg", "kg"),
         ("color", "1 0", "1 0"),
         ("pose", "0 0 0 0 0 inf", "inf"),
+        ("vector3", "1, 0, 2", "1, 0, 2"),
         ("vector3", "1 0 x", "x"),
         ("time", "12.5", "12.5"),
     ],

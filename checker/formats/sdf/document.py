@@ -77,6 +77,10 @@ def _numbers(
     well = [_reads_well(value, finite=finite) for value in values]
     if len(values) in counts and all(well):
         return
+    separate = numbers_of_words(text.value.replace(",", " "))
+    if len(separate) in counts and all(_reads_well(value, finite=finite) for value in separate):
+        yield Misread(text.span, "has commas between its numbers, expected spaces")
+        return
     # Parsers stop when they have enough.
     lossy = len(values) > counts[-1] and all(well[: counts[-1]])
     reader = ValueReader()

@@ -74,7 +74,7 @@ class Scope(Record):
     def _finite_numbers(
         self, element: Element, default: tuple[float, ...]
     ) -> tuple[Located[float], ...]:
-        return self.values.finite(self.values.numbers_of(element, default))
+        return self.values.finite(self.values.numbers_of(element, default, commas=True))
 
     def _from_quaternion(
         self,
