@@ -21,6 +21,7 @@ _COMPARED = re.compile(
     r"""\b([A-Za-z_]\w{0,100})['"]?\s{0,8}[=!]=\s{0,8}(?:['"]([\w./-]{1,100})['"]|(\d{1,9})\b)"""
 )
 _EITHER = re.compile(r"\b[A-Za-z_]\w{0,100}(?:\s{1,8}or\s{1,8}[A-Za-z_]\w{0,100}){1,9}")
+_SIMULATOR = re.compile(r"gz|gazebo|ign|sim", re.IGNORECASE)
 _OPPOSITES = {
     "true": "false",
     "false": "true",
@@ -58,6 +59,27 @@ def further_values(
     ]
     tried = dict.fromkeys((*listed, *found))
     return [(name, value) for name, value in tried if value != values.get(name)]
+
+
+def compared_texts(documents: Iterable[XmlDocument], name: str) -> list[str]:
+    """Return the texts that conditions compare an argument with, or a parameter of its name.
+
+    A default, which counts only behind its declaration, is the first; then the simulator's texts.
+    """
+    elements = [e for document in documents for e in document.elements if _is_xacro(e)]
+    aliases = {name: name} | _aliases(elements)
+    found = (
+        text or number
+        for element in elements
+        if element.tag in ("xacro:if", "xacro:unless")
+        for named, text, number in _COMPARED.findall(
+            _ARGUMENT.sub(r"\1", element.get("value") or "")
+        )
+        if aliases.get(named) == name
+    )
+    default = _defaults(elements).get(name, "")
+    texts = dict.fromkeys((default, *found) if default else found)
+    return sorted(texts, key=lambda text: (text != default, _SIMULATOR.match(text) is None))
 
 
 def alternatives(documents: Iterable[XmlDocument], name: str) -> set[str]:

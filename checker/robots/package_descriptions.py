@@ -27,6 +27,7 @@ from checker.robots.candidates import (
     unread_models,
     unused_parts,
 )
+from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.robots.other_robots import Made, other_robots
 from checker.robots.shown_only import shown_only
@@ -103,6 +104,7 @@ class PackageDescriptions:
         """Results of the files; the first call waits for their expansion."""
         expanded = self._expanded
         unread, assumed = self._choose(expanded)
+        assumed |= self._compare(expanded)
         old = self._expand_as_melodic(expanded)
         needed = self._needed(expanded)
         descriptions, faults, fragments = [], [], []
@@ -112,7 +114,8 @@ class PackageDescriptions:
                 if self._is_fragment(outcome, candidate):
                     fragments.append(candidate.path)
                 elif _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
-                    descriptions.append(self._read(outcome, candidate.path))
+                    read = self._read(outcome, candidate.path)
+                    descriptions.append(replace(read, values=assumed.get(candidate.path, "")))
             elif isinstance(outcome, Unread):
                 unread.append((candidate, self._unread(candidate, outcome.reason)))
             elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate, outcome):
@@ -267,6 +270,25 @@ class PackageDescriptions:
                 unread.append((candidate, f"{why}; {taken} is used instead"))
                 assumed[candidate.path] = taken
         return unread, assumed
+
+    def _compare(self, expanded: dict[str, Outcome]) -> dict[str, str]:
+        """Expand what lacks an argument with a text that its file compares the argument with.
+
+        The result takes its place in `expanded`. Return what is assumed, by path.
+        """
+        assumed = {}
+        for candidate in self._candidates:
+            outcome, path = expanded.get(candidate.path), candidate.path
+            if outcome is None or (candidate.loaded and not candidate.missing):
+                continue
+            may_set = candidate.missing if candidate.loaded else ()
+            found = with_compared(
+                self._package, self._expander, self._taken[path], outcome, may_set
+            )
+            if found is not None:
+                self._taken[path], expanded[path], values = found
+                assumed[path] = _in_words(values)
+        return assumed
 
     def _needed(self, expanded: Mapping[str, Outcome]) -> dict[str, list[str]]:
         """Return, by path, the arguments without which a file does not expand.

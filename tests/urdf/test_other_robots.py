@@ -160,3 +160,26 @@ def test_robots_are_tried_before_files_of_macros(tmp_path: Path) -> None:
         f'<xacro:macro name="m" params="tool">{tests}</xacro:macro></robot>'
     )
     assert messages(judged(tmp_path, TEST, ("urdf/a.xacro", macros)), "KIN001")
+
+
+def test_an_argument_without_a_value_is_a_text_that_it_is_compared_with(tmp_path: Path) -> None:
+    real = "<xacro:if value=\"${'$(arg via)' == 'real'}\"><link name='drive'/></xacro:if>"
+    body = f"{real}<xacro:unless value=\"${{'$(arg via)' == 'gz'}}\">{HAND}</xacro:unless>"
+    report = judged(tmp_path, body)
+    assert report.facts["assumed"] == "via:=gz"
+    assert report.facts["also_tried"] == "via:=real"
+    (message,) = messages(report, "KIN001")
+    assert message.endswith("(with via:=real)")
+
+
+def test_a_launch_file_that_gives_no_value_is_wrong(tmp_path: Path) -> None:
+    launch = LAUNCH.replace(", ' tool:=', LaunchConfiguration('tool')", "")
+    body = TEST.replace("arg tool", "arg via")
+    report = judged(tmp_path, body, ("launch/view.launch.py", launch))
+    assert "arg via is neither given" in messages(report, "URD001")[0]
+
+
+def test_a_default_behind_its_use_is_taken(tmp_path: Path) -> None:
+    late = '<link name="$(arg via)"/><xacro:arg name="via" default="cable"/>'
+    test = "<xacro:if value=\"${'$(arg via)' == 'gz'}\"/>"
+    assert judged(tmp_path, late + test).facts["assumed"] == "via:=cable"

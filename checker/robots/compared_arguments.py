@@ -1,0 +1,68 @@
+"""Arguments of xacro that have no value, and the texts that their file compares them with."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping
+
+from msgspec.structs import replace
+
+from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Wanted
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.package.package import Package
+from checker.robots.further_values import compared_texts
+from checker.source.xml import XmlDocument
+
+_NEEDED = re.compile(r"arg ([\w.-]{1,100}) is neither given nor has a default\b")
+_ARGUMENTS_LIMIT = 3
+"""Arguments of one file that get a value."""
+_TEXTS_LIMIT = 6
+"""Texts that are tried of one argument."""
+
+
+def _needed_argument(outcome: Outcome) -> str:
+    """Return the argument without which a file does not expand; empty if there is none."""
+    if not isinstance(outcome, XacroFault) or outcome.kind is not XacroFaultKind.ARGUMENT:
+        return ""
+    found = _NEEDED.match(outcome.message)
+    return found[1] if found else ""
+
+
+def with_compared(
+    package: Package, expander: Expander, wish: Wanted, fault: Outcome, may_set: Collection[str]
+) -> tuple[Wanted, XmlDocument, Mapping[str, str]] | None:
+    """Expand a file with texts that it compares arguments with.
+
+    Args:
+        package: The package of the file.
+        expander: Expands it.
+        wish: What was to be expanded.
+        fault: The result of it.
+        may_set: Names of the arguments that may get a value; empty for any.
+
+    Returns:
+        What is expanded, the result, and the values; None if no text leads to a robot.
+    """
+    taken: dict[str, str] = {}
+    for _ in range(_ARGUMENTS_LIMIT):
+        name = _needed_argument(fault)
+        if not isinstance(fault, XacroFault) or not name or (may_set and name not in may_set):
+            return None
+        paths = (fault.span.source.file, *(it.path for it in package.index.with_suffix(".xacro")))
+        documents = (package.xml(path) for path in dict.fromkeys(paths))
+        texts = compared_texts((it for it in documents if isinstance(it, XmlDocument)), name)
+        tried = [{**taken, name: text} for text in texts[:_TEXTS_LIMIT]]
+        wanted = [replace(wish, args={**wish.args, **values}) for values in tried]
+        outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
+        for made, outcome, values in zip(wanted, outcomes, tried, strict=True):
+            if isinstance(outcome, XmlDocument):
+                return made, outcome, values
+        further = [
+            (it, values)
+            for it, values in zip(outcomes, tried, strict=True)
+            if _needed_argument(it) not in ("", name)
+        ]
+        if not further:
+            return None
+        fault, taken = further[0]
+    return None
