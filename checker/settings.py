@@ -21,7 +21,7 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
-from checker.package.classic_sign import classic_sign
+from checker.package.classic_sign import classic_sign, fortress_sign
 from checker.package.detected_target import classic_reason, detect_target
 from checker.package.index import normal_path
 from checker.package.package import Package
@@ -40,6 +40,7 @@ _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.
 """A key of many parts: reading one takes the square of their number."""
 DEFAULT_PROFILE = "subt"
 CLASSIC_ROS_2, CLASSIC_MODEL = "ros2-classic", "gazebo-classic"
+FORTRESS_MODEL = "gazebo-fortress"
 DEVICES_LIMIT = 100
 
 
@@ -121,7 +122,8 @@ class Settings(Record):
 
         Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
         ROS 2 package is made for decides where the user names neither release nor distribution;
-        for models in no such package, Gazebo Classic where the files around them name only that.
+        for models in no such package, Gazebo Classic or Fortress where the files around them name
+        only that.
         """
         usual = usual_profile(package)
         is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
@@ -134,6 +136,9 @@ class Settings(Record):
             settings = settings._with_package(whole)
         elif wanted == MODEL and not self.distro and (sign := classic_sign(package)):
             return replace(settings, profile=CLASSIC_MODEL, target_reason=classic_reason(sign))
+        elif wanted == MODEL and not self.distro and (sign := fortress_sign(package)):
+            reason = f"Gazebo Fortress: {sign}"
+            return replace(settings, profile=FORTRESS_MODEL, target_reason=reason)
         return replace(settings, profile=settings._of_model) if wanted == MODEL else settings
 
     def _with_package(self, package: Package) -> Settings:

@@ -1,4 +1,4 @@
-"""Gazebo Classic in the README and CMakeLists.txt around models that are in no ROS package."""
+"""The Gazebo in the README and CMakeLists.txt around models that are in no ROS package."""
 
 from __future__ import annotations
 
@@ -22,6 +22,14 @@ _LATER = re.compile(
     r"|\bfind_package\(\s{0,8}(?:gz|ignition)-",
     re.IGNORECASE,
 )
+_FORTRESS = re.compile(
+    r"\b(?:gazebo|ignition) fortress\b|\bign gazebo\b|\bignition-gazebo6\b", re.IGNORECASE
+)
+_OTHER = re.compile(
+    r"\bgz[ -]sim|\bGZ_SIM_|\bgazebo (?:sim|citadel|dome|edifice|garden|harmonic|ionic|jetty)\b"
+    r"|\bignition[ -](?:citadel|dome|edifice|gazebo[345]\b)",
+    re.IGNORECASE,
+)
 
 
 def classic_sign(package: Package) -> str:
@@ -29,11 +37,20 @@ def classic_sign(package: Package) -> str:
 
     The files of the nearest folder that names one of both count; empty if that is a later one.
     """
+    return _sign(package, _CLASSIC, _LATER)
+
+
+def fortress_sign(package: Package) -> str:
+    """Return what names Gazebo Fortress, and no other release, in the same way."""
+    return _sign(package, _FORTRESS, _OTHER)
+
+
+def _sign(package: Package, named: re.Pattern[str], other: re.Pattern[str]) -> str:
     for sources in (own_files(package, _NAMES), *files_above(package, _NAMES)):
-        if any(_LATER.search(source.text) for source in sources):
+        if any(other.search(source.text) for source in sources):
             return ""
         for source in sources:
-            if match := _CLASSIC.search(source.text):
+            if match := named.search(source.text):
                 line, _ = source.position(match.start())
                 return f"{source.file}:{line} names {match.group()}"
     return ""

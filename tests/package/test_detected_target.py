@@ -185,7 +185,20 @@ def test_models_without_a_package_are_for_classic_where_the_readme_names_only_th
     assert first.target_reason.endswith("../../README.md:3 names GAZEBO_MODEL_PATH")
 
 
-@pytest.mark.parametrize("readme", ["Open it in Gazebo.", "gzserver, or gz sim", "GZ_SIM_X"])
+@pytest.mark.parametrize(
+    "readme", ["Needs Ignition Fortress.", "`ign gazebo yard.world`", "depends on ignition-gazebo6"]
+)
+def test_models_without_a_package_are_for_fortress_where_the_readme_names_only_that(
+    readme: str, tmp_path: Path
+) -> None:
+    first, second = models_of(tmp_path, f"# Rover\n\n{readme}\n")
+    assert first.profile == second.profile == "gazebo-fortress"
+    assert first.target_reason.startswith("Gazebo Fortress: ../../README.md:3 names ")
+
+
+@pytest.mark.parametrize(
+    "readme", ["Open it in Gazebo.", "gzserver, or gz sim", "GZ_SIM_X", "ign gazebo, or gz sim"]
+)
 def test_models_without_a_package_are_for_the_usual_gazebo(readme: str, tmp_path: Path) -> None:
     assert {each.profile for each in models_of(tmp_path, readme)} == {"gazebo-harmonic"}
 
