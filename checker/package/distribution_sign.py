@@ -1,9 +1,9 @@
-"""ROS 2 distribution in the container files, CI files and README of a package."""
+"""ROS 2 distribution in container files, CI files and README of a package, else in its paths."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -22,6 +22,8 @@ _BEFORE = (
 _NAMED = re.compile(rf"{_BEFORE}\(?({_DISTROS})\b\}}?", re.IGNORECASE)
 _NAMED_OF_ROS_1 = re.compile(rf"{_BEFORE}\(?({_BEFORE_NOETIC}|noetic)\b\}}?", re.IGNORECASE)
 """`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`."""
+_INSTALLED = re.compile(rf"/opt/ros/({_DISTROS})\b")
+_WITH_PATHS = re.compile(r"\.(?:urdf|xacro|sdf|world|launch|py|xml|ya?ml|sh)\Z")
 _CONTAINER = re.compile(
     r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile|devcontainer\.json"
     r"|(?:docker-)?compose[\w.-]{0,40}\.ya?ml)\Z"
@@ -43,14 +45,19 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 
     A container file counts before CI, and both before the README. Files at the top of the folder
     with the package's siblings count like its own; those of the folders around it, as far as the
-    user gave them, only where these name none.
+    user gave them, only where these name none. Where nothing else names one, paths do, as in
+    `file:///opt/ros/humble/share`.
     """
     nearest, *further = files_above(package, NAMES) or [()]
     for sources in ((*own_files(package, NAMES), *nearest), *further):
         signs = _signs(sources, _NAMED)
         if signs:
-            return signs[0] if len({sign.distro for sign in signs}) == 1 else None
-    return None
+            return _only(signs)
+    return _only([*_found(own_files(package, _WITH_PATHS), _INSTALLED)])
+
+
+def _only(signs: Sequence[DistributionSign]) -> DistributionSign | None:
+    return signs[0] if len({sign.distro for sign in signs}) == 1 else None
 
 
 def before_noetic(package: Package) -> str:
@@ -71,13 +78,14 @@ def _signs(sources: Sequence[SourceText], named: re.Pattern[str]) -> list[Distri
     """Return what the files of the kind that counts most name, in their order."""
     for pattern in (_CONTAINER, _CI, _README):
         chosen = (source for source in sources if pattern.search(source.file.lower()))
-        found = [_sign(source, match) for source in chosen for match in named.finditer(source.text)]
-        if found:
+        if found := [*_found(chosen, named)]:
             return found
     return []
 
 
-def _sign(source: SourceText, match: re.Match[str]) -> DistributionSign:
-    line, _ = source.position(match.start())
-    words = " ".join(match.group().split())
-    return DistributionSign(match[1].lower(), f"{source.file}:{line} names {words}")
+def _found(sources: Iterable[SourceText], named: re.Pattern[str]) -> Iterator[DistributionSign]:
+    for source in sources:
+        for match in named.finditer(source.text):
+            line, _ = source.position(match.start())
+            words = " ".join(match.group().split())
+            yield DistributionSign(match[1].lower(), f"{source.file}:{line} names {words}")

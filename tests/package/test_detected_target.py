@@ -22,6 +22,7 @@ CLASSIC_PLUGIN = RAY.format("libgazebo_ros_ray_sensor.so")
 GZ_PLUGIN = RAY.format("gz-sim-diff-drive-system")
 IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
 URDF = "urdf/arm.urdf.xacro"
+MESH = '<mesh filename="file:///opt/ros/{}/share/eye/eye.dae"/>'
 
 
 def opened(folder: Path, files: Mapping[str, object]) -> Package:
@@ -52,6 +53,13 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": True, "compose.yaml": "image: acme:${TAG:-humble}\n"}, ("ros2", "humble")),
         ({"@ros2": True, "compose.yaml": "image: acme:${TAG:-hum}\n"}, ("ros2", "")),
         ({"@ros2": True, "README.md": "For ROS 2 Humble.\n"}, ("ros2", "humble")),
+        ({"@ros2": True, URDF: MESH.format("humble")}, ("ros2", "humble")),
+        ({"@ros2": True, URDF: MESH.format("kinetic")}, ("ros2", "")),
+        ({"@ros2": True, URDF: MESH.format("iron") + MESH.format("humble")}, ("ros2", "")),
+        (
+            {"@ros2": True, URDF: MESH.format("humble"), "README.md": "ROS 2 Jazzy"},
+            ("ros2", "jazzy"),
+        ),
         ({"@ros2": True, "README.md": "ROS 2 Humble or ROS 2 Jazzy\n"}, ("ros2", "")),
         ({"@ros2": True, "README.md": "Keep rolling, an iron rule.\n"}, ("ros2", "")),
     ],
