@@ -13,6 +13,7 @@ from checker.base.files import NotReadable
 from checker.formats.urdf.description import UrdfDescription, read_description
 from checker.formats.urdf.macro_calls import MacroCall, minimal_call
 from checker.formats.xacro.bare_tags import bare_calls, bare_tags
+from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unread, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
@@ -111,6 +112,7 @@ class PackageDescriptions:
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
+                unread += ((candidate, reason) for reason in _left(outcome, candidate))
                 if self._is_fragment(outcome, candidate):
                     fragments.append(candidate.path)
                 elif _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
@@ -355,6 +357,13 @@ def _misfit(outcome: Outcome | None, path: str) -> str:
     if isinstance(outcome, XacroFault) and outcome.kind is XacroFaultKind.ARGUMENT:
         return f"{path} is not expanded: {outcome.message}"
     return outcome.reason if isinstance(outcome, Unread) else ""
+
+
+def _left(document: XmlDocument, candidate: Candidate) -> Iterator[str]:
+    """Yield which packages a file includes that are not available and not needed."""
+    for name in document.source.left if isinstance(document.source, ExpandedText) else ():
+        reason = f"{candidate.path} is read without its include of {name}"
+        yield f"{reason}, which is not available: put it next to the package"
 
 
 def _further(candidate: Candidate) -> range:

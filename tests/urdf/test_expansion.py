@@ -237,3 +237,29 @@ def test_why_a_file_is_not_known_is_kept(
 def test_a_file_that_is_not_there_is_named(describe: Describe) -> None:
     (fault,) = files_of(describe({FILE: robot(loading("kind"))})).faults
     assert f"{NAME}/config/kind/limits.yaml does not exist" in fault.message
+
+
+DRIVER = '<xacro:include filename="$(find elsewhere)/driver.xacro"/>'
+CALLED = '<xacro:if value="@"><xacro:driver/></xacro:if>'
+DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"/></joint>'
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        (CALLED.replace("@", "false"), ["base"]),
+        (CALLED.replace("@", "true"), []),
+        (CALLED.replace("@", "false") + DANGLING, []),
+        (CALLED.replace("@", "false") + '<link name="${length}"/>', []),
+        ("", []),
+    ],
+    ids=["macro is not called", "called", "link is there", "property is there", "may be links"],
+)
+def test_a_package_that_is_not_available_may_be_needless(
+    describe: Describe, body: str, expected: list[str]
+) -> None:
+    subject = describe({FILE: robot(DRIVER + BASE + body)})
+    assert links(subject) == expected
+    (reason,) = files_of(subject).unread
+    assert "elsewhere" in reason
+    assert "is not available" in reason

@@ -57,6 +57,11 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         read = (self.gathered.documents.get(str(path)) for path in self.answer["files"])
         return tuple(document for document in read if document is not None)
 
+    @property
+    def left(self) -> tuple[str, ...]:
+        """Packages that are not available, whose files are included and whose macros not called."""
+        return tuple(dict.fromkeys(map(str, self.answer.get("left", ()))))
+
     def states_path(self, uri: str) -> bool:
         """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
         text, path = str(self.answer["xml"]), uri.removeprefix("package://")

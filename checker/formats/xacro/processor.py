@@ -30,8 +30,9 @@ from checker.formats.xacro.expression.bounds import (
 )
 from checker.formats.xacro.expression.builtins import functions
 from checker.formats.xacro.expression.evaluation import Names, evaluate
-from checker.formats.xacro.files import ROOT
+from checker.formats.xacro.files import ROOT, package_in
 from checker.formats.xacro.macro_names import macro_names
+from checker.formats.xacro.needless_includes import calls_another, is_closed
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read
 
@@ -77,7 +78,8 @@ def expand(
         call: What is added to the file, see `Wanted`.
 
     Returns:
-        `xml` and `origins` (file and element number of each element, in order) with `files`; or
+        `xml` and `origins` (file and element number of each element, in order) with `files`, and
+        `left`, packages that are not available, of whose macros none is called; or
         `kind`, `message`, `at` and `through` of what is wrong; or `missing`, a path to give as
         well; or `unread`, why it cannot be known; or `refused`, what an expression uses that is
         outside of the language, with the `expression` and `at`.
@@ -90,7 +92,13 @@ def expand(
     except RecursionError:
         return expansion.fault("recursion", _TOO_DEEP)
     except Exception as error:  # noqa: BLE001 - xacro raises whatever an expression does
+        if expansion.left:
+            return _unavailable(expansion.left[0])
         return expansion.fault(_kind(error), _message(error))
+
+
+def _unavailable(package: str) -> dict[str, Any]:
+    return {"unread": f"{package} is not available"}
 
 
 def _causes(error: BaseException | None) -> list[BaseException]:
@@ -146,6 +154,7 @@ class _Expansion:
         self._failed_at: tuple[int, int] | None = None
         self._through: list[str] = []
         self._allowance = Allowance()
+        self.left: list[str] = []
 
     def run(
         self, file: str, args: dict[str, str], call: Mapping[str, Any] | None = None
@@ -161,7 +170,10 @@ class _Expansion:
         text = root.toxml()
         if len(text) > SIZE_LIMIT:
             return self.fault("limit", f"it expands to more than {SIZE_LIMIT / 1e6:g} MB")
-        return {"xml": text, "origins": self._origins(root), "files": self._files}
+        if self.left and not is_closed(root):
+            return _unavailable(self.left[0])
+        found = {"xml": text, "origins": self._origins(root), "files": self._files}
+        return found | ({"left": self.left} if self.left else {})
 
     def fault(self, kind: str, message: str) -> dict[str, Any]:
         """Return the outcome of an expansion that failed."""
@@ -208,9 +220,9 @@ class _Expansion:
             raise _Stopped(
                 {"kind": "malformed", "message": self._request["faulty"][path], "at": [path, -1]}
             )
-        package = path.removeprefix(f"{ROOT}/").partition("/")[0]
+        package = package_in(path)
         if package in self._request["beyond"]:
-            raise _Stopped({"unread": f"{package} is not available"})
+            raise _Stopped(_unavailable(package))
         if path in self._request["absent"] or not path.startswith(f"{ROOT}/"):
             raise FileNotFoundError(path)
         raise _Stopped({"missing": path})
@@ -220,6 +232,10 @@ class _Expansion:
         if path is None:
             raise ValueError("only files of the package are read")
         del source
+        package = package_in(path)
+        if package in self._request["beyond"] and calls_another(self._request["texts"].values()):
+            self.left.append(package)  # it may be needed for a macro that nothing calls
+            return minidom.parseString("<robot/>")  # noqa: S318 - our own text
         try:
             # Our own reader has been through the text: no document types, no entities, no depth.
             document = minidom.parseString(self._text(path))  # noqa: S318
