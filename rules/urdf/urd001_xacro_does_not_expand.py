@@ -3,7 +3,8 @@
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
 at launch: one without a default, or with an empty default that makes the expansion fail. Further
-values that the file or a launch file names for an argument are tried too. A tag of xacro in a file
+values that the file or a launch file names for an argument are tried too. Braces without a dollar
+sign in a `<transmission>` are an info in ROS 2, which does not read it. A tag of xacro in a file
 that xacro made, and that nothing expands again, is a warning: readers of URDF ignore it.
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
@@ -14,13 +15,17 @@ Source: xacro, "unknown macro name", "Undefined substitution argument"; ros/xacr
 import re
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.bare_tags import TAGS
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.formats.xacro.names import BRACES
 from checker.robots.urdf_files import UrdfFiles
 from checker.rule import (
     Concern,
+    Context,
     Finding,
     Findings,
     Safety,
@@ -33,7 +38,6 @@ from checker.rule import (
 from checker.source.text import Located
 from checker.source.xml import Element
 
-_BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
 _PRIVATE = re.compile(r"double underscore:\s{0,8}(__\w{1,100})")
 _FOREIGN = ("gazebo",)
@@ -41,7 +45,7 @@ _FOREIGN = ("gazebo",)
 
 
 @rule("URD001", "xacro-does-not-expand", Severity.ERROR, Concern.ROBOT)
-def check(files: UrdfFiles) -> Findings:
+def check(files: UrdfFiles, context: Context) -> Findings:
     """Report files that xacro refuses, and expressions that it leaves."""
     for reason in files.unread:
         yield unchecked(reason)
@@ -53,7 +57,7 @@ def check(files: UrdfFiles) -> Findings:
         else:
             yield _refused(fault)
     for description in files.descriptions:
-        yield from _left_behind(description)
+        yield from _left_behind(description, context)
 
 
 def _refused(fault: XacroFault) -> Finding:
@@ -71,7 +75,7 @@ def _refused(fault: XacroFault) -> Finding:
     return finding(fault, message, severity=severity, key=key)
 
 
-def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
+def _left_behind(description: UrdfDescription, context: Context) -> Iterator[Finding]:
     root = description.document.root
     for child in root.children:
         if child.tag in TAGS:
@@ -80,7 +84,13 @@ def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
                 f"<{child.tag}> is not expanded: write <xacro:{child.tag}>",
                 key=f"<{child.tag}>",
             )
-        elif child.tag not in _FOREIGN:
+        elif child.tag in _FOREIGN:
+            yield from () if description.for_rviz else _leftover_expressions(child)
+        elif child.tag == "transmission" and context.distro:
+            for element in (child, *child.descendants()):
+                found = _leftover_expressions(element)
+                yield from (replace(it, severity=Severity.INFO) for it in found)
+        else:
             for element in (child, *child.descendants()):
                 yield from _leftover_expressions(element)
                 yield from _leftover_tag(element)
@@ -104,7 +114,7 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
                 f"{match.group()} is not expanded: the file is loaded without xacro",
                 key="without xacro",
             )
-        elif match := _BRACES.search(value):
+        elif match := BRACES.search(value):
             yield finding(
                 element.attribute(name) or element,
                 f"{name} is {value[:80]!r}; did you mean ${{{match[1]}}}?",
@@ -172,6 +182,7 @@ GOOD = [
     _example('<link name="a"/><gazebo><plugin name="p" filename="f"><t>{x}</t></plugin></gazebo>'),
 ]
 BAD = [
+    {"@urdf": f'<gazebo reference="{{side}}_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
     _example(f'<xacro:wheel side="left"/>{_MARK}'),
     _example(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),
     _example(f'<link name="${{nmae}}/base_link"/>{_MARK}'),

@@ -19,6 +19,7 @@ from msgspec.structs import replace
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
+from checker.formats.xacro.names import BRACES
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
@@ -51,6 +52,8 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
     for tag in description.gazebo:
         name = tag.reference.value
         known = name in robot.links_by_name or name in robot.joints_by_name
+        if not known and BRACES.search(name):
+            continue  # URD001 reports it
         if tag.reference.stated and not known:
             yield misspelt(
                 tag.reference,

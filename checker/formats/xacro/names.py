@@ -8,6 +8,8 @@ import re
 from checker.base.record import Record
 
 EXPRESSION = re.compile(r"\$\{([^{}]{1,500})\}")
+BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
+"""A name in braces without a dollar sign, which xacro keeps."""
 _TEXT = re.compile(r"'[^']{0,500}'|\"[^\"]{0,500}\"|\$\([^()]{0,200}\)")
 """Quoted text, and `$(arg …)`, which is replaced before anything is evaluated."""
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w{0,100}(?!\w|\s{0,8}=[^=])")

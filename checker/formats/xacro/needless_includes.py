@@ -12,7 +12,6 @@ from typing import Any
 
 from checker.formats.xacro.macro_names import macro_names
 
-
 _CALL = re.compile(r"<xacro:([A-Za-z_][\w.-]{0,200})")
 _OWN = frozenset(
     {
