@@ -6,7 +6,8 @@ import posixpath
 from collections.abc import Iterator, Sequence
 
 from checker.base.words import count, plain, shortened
-from checker.finding import Edit, Place, Severity
+from checker.finding import Place, Severity
+from checker.report.corrected import corrected_lines
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, ReportedFinding
 
@@ -48,28 +49,11 @@ def finding_text(
 
 
 def _corrected_line(finding: ReportedFinding) -> str:
-    """Return the lines as the fix writes them; empty if they are many, or elsewhere."""
-    by_line: dict[tuple[str, int], list[Edit]] = {}
-    for edit in finding.fix.edits if finding.fix else ():
-        if edit.place.line != edit.place.end_line or "\n" in edit.replacement:
-            return ""
-        by_line.setdefault((edit.place.file, edit.place.line), []).append(edit)
-    if {file for file, _ in by_line} != {finding.places[0].file}:
-        return ""
-    lines = [_corrected(edits).strip() for _, edits in sorted(by_line.items())]
-    text = plain(" ".join(lines))
-    return text if all(lines) and len(text) <= SNIPPET_WIDTH else ""
-
-
-def _corrected(edits: Sequence[Edit]) -> str:
-    """Return the line of some edits as they leave it; empty where it is cut off."""
-    line = edits[0].place.snippet
-    for edit in sorted(edits, key=lambda each: each.place.column, reverse=True):
-        start, end = edit.place.column - 1, edit.place.end_column - 1
-        if line[start:end] != edit.original:
-            return ""
-        line = f"{line[:start]}{edit.replacement}{line[end:]}"
-    return line
+    """Return the lines as the fix writes them; empty if they are long, or in another file."""
+    lines = list(corrected_lines(finding.fix)) if finding.fix else []
+    shown = all(it.is_line and it.file == finding.places[0].file and it.after for it in lines)
+    text = plain(" ".join(it.after for it in lines))
+    return text if shown and "\n" not in text and len(text) <= SNIPPET_WIDTH else ""
 
 
 def path_of(place: Place, package: PackageReport) -> str:

@@ -102,7 +102,10 @@ def test_the_line_to_write_is_that_of_the_fix() -> None:
     assert "    fix: write `<resolution>1</resolution>`" in lines(fixed)
     assert lines(fixed)[-1] == "`--fix` corrects 1 finding"
     twice = replace(fixed, fix=Fix(Safety.UNSAFE, (edit, edit)))
-    assert "    fix: write 1." in lines(twice)
+    assert "    fix: write `<resolution>1</resolution>`" in lines(twice)
+    elsewhere = replace(edit, place=replace(PLACE, file="other.sdf"))
+    both = replace(fixed, fix=Fix(Safety.UNSAFE, (edit, elsewhere)))
+    assert "    fix: write 1." in lines(both)
     assert lines(fixed, twice)[-2:] == [
         "`--fix` corrects 1 finding",
         "`--fix --unsafe` corrects 2 findings",

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
+from itertools import islice
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.finding import SNIPPET_LIMIT, Concern, Edit, Fix, Place, Severity
+from checker.finding import Concern, Fix, Place, Severity
+from checker.report.corrected import corrected_lines
 from checker.report.report import ReportedFinding
 
 # A line of source with the fault marked, and what a fix makes of it.
@@ -31,7 +33,7 @@ class Frame(Record):
 
 
 class Change(Record):
-    """Change of one edit, line by line."""
+    """Change of a line, or of a longer stretch, line by line."""
 
     file: str
     line: int
@@ -55,22 +57,9 @@ def frame_of(place: Place) -> Frame | None:
 
 
 def changes_of(fix: Fix) -> Iterator[Change]:
-    """Yield what a fix changes, edit by edit; a long one is cut."""
-    for edit in fix.edits[:_EDITS_SHOWN]:
-        removed, added = _lines_around(edit)
-        yield Change(
-            plain(edit.place.file), edit.place.line, _shown_lines(removed), _shown_lines(added)
-        )
-
-
-def _lines_around(edit: Edit) -> tuple[str, str]:
-    """Return the whole lines before and after an edit, where the place knows them."""
-    place = edit.place
-    known = place.end_column - 1 <= len(place.snippet) < SNIPPET_LIMIT
-    if place.end_line == place.line and place.snippet and known:
-        head, tail = place.snippet[: place.column - 1], place.snippet[place.end_column - 1 :]
-        return place.snippet.strip(), f"{head}{edit.replacement}{tail}".strip()
-    return edit.original, edit.replacement
+    """Yield what a fix changes, line by line; a long one is cut."""
+    for it in islice(corrected_lines(fix), _EDITS_SHOWN):
+        yield Change(plain(it.file), it.line, _shown_lines(it.before), _shown_lines(it.after))
 
 
 def _shown_lines(text: str) -> tuple[str, ...]:
