@@ -41,7 +41,7 @@ def rewrite(numbers: Iterable[tuple[Located[float], float]], times: float = 1.0)
     for number, value in numbers:
         if math.isclose(number.value, value, rel_tol=_SAME):
             continue
-        if not number.stated or not is_literal(number.span):
+        if not number.stated or not math.isfinite(value) or not is_literal(number.span):
             return None
         edits[number.span.replacement(number_text(value * times))] = None
     return Fix(Safety.UNSAFE, tuple(edits)) if edits else None

@@ -59,11 +59,12 @@ def _without_any(robot: Robot, context: Context) -> Finding:
         return finding(robot, f"{what}: {robot.shown_only}", severity=Severity.INFO)
     if robot.drives or (robot.stands_alone and context.is_subt):
         return finding(robot, f"{what}: the robot falls through the ground")
-    alone = not robot.is_prop and (len(robot.links) > 1 or not context.is_gazebo_sim)
+    is_object = robot.is_prop and robot.conventions.read_by_gazebo
+    alone = len(robot.links) == 1 and context.is_gazebo_sim
     return finding(
         robot,
         f"{what}: nothing touches the robot",
-        severity=Severity.WARNING if alone else Severity.INFO,
+        severity=Severity.INFO if alone or is_object else Severity.WARNING,
     )
 
 
