@@ -3,8 +3,9 @@
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
 change a colour, or how a joint is computed, is a warning, and so is one in a file of macros, whose
 user may have the link. It is an info where no launch file of the workspace starts anything, as in
-the examples of a library of dynamics. A sensor under a joint is an error, as Gazebo makes none. A
-`<ros2_control>` inside a `<gazebo>` is not read, so controllers find no joints.
+the examples of a library of dynamics, and for a link below an `xacro:if` that is false. A sensor
+under a joint is an error, as Gazebo makes none. A `<ros2_control>` inside a `<gazebo>` is not read,
+so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
 for joints under a joint; put `<ros2_control>` directly into `<robot>`.
@@ -19,6 +20,7 @@ from msgspec.structs import replace
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
+from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.names import BRACES
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -54,7 +56,10 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
         known = name in robot.links_by_name or name in robot.joints_by_name
         if not known and BRACES.search(name):
             continue  # URD001 reports it
-        if tag.reference.stated and not known:
+        if tag.reference.stated and not known and name in _optional_names(description):
+            message = f"<gazebo> refers to {name!r}, which the xacro makes under a condition"
+            yield finding(tag.reference, message, severity=Severity.INFO, key=name)
+        elif tag.reference.stated and not known:
             yield misspelt(
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint",
@@ -64,6 +69,19 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
             )
         else:
             yield from _useless(tag, robot, in_gazebo=in_gazebo)
+
+
+def _optional_names(description: UrdfDescription) -> set[str | None]:
+    """Return the names of links and joints below a condition of the files that are read."""
+    source = description.document.source
+    return {
+        part.get("name")
+        for document in (source.read if isinstance(source, ExpandedText) else ())
+        for condition in document.elements
+        if condition.tag in ("xacro:if", "xacro:unless")
+        for part in condition.descendants()
+        if part.tag in ("link", "joint")
+    }
 
 
 def _simulates(tag: GazeboTag) -> bool:
@@ -125,6 +143,12 @@ def _macro(reference: str, mark: str = "") -> dict[str, object]:
     }
 
 
+_MAST = f"""<robot name="mast" xmlns:xacro="http://ros.org/wiki/xacro">
+<link name="base"/>
+<xacro:if value="false"><link name="mast"/></xacro:if>
+<gazebo reference="mast"><mu1>1</mu1></gazebo>{_MARK}
+</robot>
+"""
 GOOD = [
     {"@urdf": True},
     _macro("tool"),
@@ -135,6 +159,7 @@ GOOD = [
     {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
 ]
 BAD = [
+    {"@urdf": True, "urdf/mast.urdf.xacro": _MAST},
     _macro("toool", _MARK),
     {"@urdf": f'<gazebo reference="uper_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
     _tag(f"<mu1>1</mu1>{_MARK}"),
