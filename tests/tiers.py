@@ -23,6 +23,7 @@ MARKS: Mapping[str, str] = {
     "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
     "root": "needs to mount a disk or to become another user",
+    "whole": "needs minutes: runs the command, or parts of it, as a whole many times",
 }
 BY_FIXTURE: Mapping[str, str] = {
     "chromium": "browser",
@@ -38,6 +39,10 @@ BY_FIXTURE: Mapping[str, str] = {
 }
 BY_PLACE: Mapping[str, str] = {
     "oracle": "oracle",
+    "editor/test_random_edits.py": "whole",
+    "portable": "whole",
+    "test_places.py": "whole",
+    "test_products.py": "whole",
     "editor/test_vscode_client.py": "install",
     "deployment/test_image.py": "install",
     "deployment/test_postgres.py": "service",

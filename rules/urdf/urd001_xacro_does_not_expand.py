@@ -20,6 +20,7 @@ from msgspec.structs import replace
 from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.bare_tags import TAGS
+from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.formats.xacro.names import BRACES
 from checker.robots.urdf_files import UrdfFiles
@@ -35,7 +36,6 @@ from checker.rule import (
     rule,
     unchecked,
 )
-from checker.source.text import Located
 from checker.source.xml import Element
 
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
@@ -119,13 +119,15 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
                 element.attribute(name) or element,
                 f"{name} is {value[:80]!r}; did you mean ${{{match[1]}}}?",
                 key=match.group(),
-                fix=_as_expression(element.attribute(name), match),
+                fix=_as_expression(element, name, match),
             )
 
 
-def _as_expression(value: Located[str] | None, braces: re.Match[str]) -> Fix | None:
-    """Return the fix that writes `$` in front of braces."""
-    if value is None or value.span.text != value.value:
+def _as_expression(element: Element, name: str, braces: re.Match[str]) -> Fix | None:
+    """Return the fix that writes `$` in front of braces, in a file that xacro reads."""
+    value = element.attribute(name)
+    read_by_xacro = written_element(element) is not element
+    if value is None or value.span.text != value.value or not read_by_xacro:
         return None
     start = braces.start()
     text = f"{value.value[:start]}${value.value[start:]}"
