@@ -4,7 +4,8 @@ The launch file that loads it ends with an error, or loads a robot whose names s
 expressions. Files that contain only macros are not reported, nor files that only need an argument
 at launch: one without a default, or with an empty default that makes the expansion fail. Further
 values that the file or a launch file names for an argument are tried too. Braces without a dollar
-sign in a `<transmission>` are an info in ROS 2, which does not read it. A tag of xacro in a file
+sign in a `<transmission>` are an info in ROS 2, which does not read it; in a `<gazebo>` that only
+changes how a link looks they are a warning. A tag of xacro in a file
 that xacro made, and that nothing expands again, is a warning: readers of URDF ignore it.
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
@@ -19,6 +20,7 @@ from msgspec.structs import replace
 
 from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
+from checker.formats.urdf.extensions import simulates
 from checker.formats.xacro.bare_tags import TAGS
 from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
@@ -85,7 +87,9 @@ def _left_behind(description: UrdfDescription, context: Context) -> Iterator[Fin
                 key=f"<{child.tag}>",
             )
         elif child.tag in _FOREIGN:
-            yield from () if description.for_rviz else _leftover_expressions(child)
+            found = () if description.for_rviz else _leftover_expressions(child)
+            level = None if simulates(child) else Severity.WARNING
+            yield from (replace(it, severity=level) for it in found)
         elif child.tag == "transmission" and context.distro:
             for element in (child, *child.descendants()):
                 found = _leftover_expressions(element)

@@ -19,20 +19,12 @@ from msgspec.structs import replace
 
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
-from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS
+from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS, simulates
 from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.names import BRACES
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
-
-_WITHOUT_EFFECT = frozenset(
-    {
-        *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
-        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
-    }
-)
-"""Elements that change neither how a robot moves nor what it senses."""
 
 
 @rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)
@@ -64,7 +56,7 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint",
                 names,
-                severity=None if is_whole and _simulates(tag) else Severity.WARNING,
+                severity=None if is_whole and simulates(tag.element) else Severity.WARNING,
                 key=name,
             )
         else:
@@ -82,11 +74,6 @@ def _optional_names(description: UrdfDescription) -> set[str | None]:
         for part in condition.descendants()
         if part.tag in ("link", "joint")
     }
-
-
-def _simulates(tag: GazeboTag) -> bool:
-    """Return whether a tag changes what is simulated, not only how a link looks."""
-    return any(child.tag not in _WITHOUT_EFFECT for child in tag.element.children)
 
 
 def _useless(tag: GazeboTag, robot: Robot, *, in_gazebo: bool) -> Iterator[Finding]:

@@ -47,3 +47,17 @@ def extension_flag(tag: Element, name: str) -> bool:
     """Return whether a child of a `<gazebo>` tag is there and states true."""
     child = tag.child(name)
     return child is not None and extension_text(child).value.strip().lower() in _TRUE
+
+
+_WITHOUT_EFFECT = frozenset(
+    {
+        *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
+        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
+    }
+)
+"""Elements that change neither how a robot moves nor what it senses."""
+
+
+def simulates(tag: Element) -> bool:
+    """Return whether a `<gazebo>` changes what is simulated, not only how a link looks."""
+    return any(child.tag not in _WITHOUT_EFFECT for child in tag.children)
