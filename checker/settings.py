@@ -21,8 +21,8 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
-from checker.package.classic_sign import classic_sign, fortress_sign
 from checker.package.detected_target import classic_reason, detect_target
+from checker.package.gazebo_sign import classic_sign, fortress_sign
 from checker.package.index import normal_path
 from checker.package.package import Package
 from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile

@@ -62,8 +62,8 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty if it is not worth remembering."""
     resolved = replace(settings.for_package(package), commanded=())
     options = json.dumps(msgspec.to_builtins(resolved, enc_hook=str))
-    parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
-    parts.append(str(package.workspace.given))
+    parts: list[bytes | str] = [*program_parts(), options]
+    parts += [str(package.root), str(package.workspace.given)]
     parts += _content(package)
     limit = ENTRIES_AROUND_A_FILE if package.only else ENTRIES_LIMIT
     beside = list(islice(_beside(package), limit))

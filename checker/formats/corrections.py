@@ -82,7 +82,7 @@ def reposed(robot: Robot, part: Collision | Visual, new: Transform) -> Fix | Non
 
 def pose_edits(robot: Robot, part: Collision | Visual, new: Transform) -> tuple[Edit, ...]:
     """Return the edits of `reposed`; none where there is no such fix."""
-    urdf = robot.conventions.joint_types == "urdf"
+    urdf = robot.conventions.is_urdf
     written = written_element(part.element)
     element = written.child("origin" if urdf else "pose")
     xyz, rpy = map(_texts, (new.translation, new.rpy))

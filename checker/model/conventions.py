@@ -36,3 +36,8 @@ class Conventions(Record):
     has_named_materials: bool = False
     read_by_gazebo: bool = False
     extension_tag: str = ""
+
+    @property
+    def is_urdf(self) -> bool:
+        """True if it is written as URDF, with numbers in attributes."""
+        return self.joint_types == "urdf"

@@ -47,7 +47,7 @@ def _as_cylinder(robot: Robot, link: Link, shape: Collision, axis: Vector | None
     across, up, length = (high - low for low, high in zip(box.low, box.high, strict=True))
     radius, length_text = number_text(max(across, up) / 2), number_text(length)
     new = f"<cylinder><radius>{radius}</radius><length>{length_text}</length></cylinder>"
-    if robot.conventions.joint_types == "urdf":
+    if robot.conventions.is_urdf:
         new = f'<cylinder radius="{radius}" length="{length_text}"/>'
     posed = pose_edits(robot, shape, Transform(turn.rotation, turn.apply(box.centre)))
     written = written_element(shape.geometry.element).whole_span.replacement(new)

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.formats.xacro.expanded import ExpandedText
 from checker.launch.ros2.graph import Ros2Launch, SharePath, share_path
 from checker.launch.ros2.named_paths import NamedPath, named_paths
-from checker.launch.ros2.package_files import holder_of, local_file
+from checker.launch.ros2.package_files import local_file
 from checker.package.installed import installed_as, left_out
 from checker.package.package import Package
 from checker.robots.urdf_files import UrdfFiles
@@ -29,7 +29,7 @@ def check(launch: Ros2Launch, package: Package, urdf: UrdfFiles | None) -> Findi
     for name, path in (
         (each, path) for each in named for path in _with_parts(package, each, parts)
     ):
-        holder = holder_of(package, path.package)
+        holder = package.named(path.package)
         left = left_out(package, holder, path.path) if holder is not None else None
         if left is not None:
             what = f"{path.path}, a part of {name.path}," if path != name.path else str(path)
@@ -62,7 +62,7 @@ def _parts(package: Package, urdf: UrdfFiles) -> Iterator[tuple[str, list[ShareP
 
 
 def _is_installed(package: Package, path: SharePath) -> bool:
-    holder = holder_of(package, path.package)
+    holder = package.named(path.package)
     return holder is None or bool(installed_as(holder, path.path))
 
 

@@ -25,7 +25,6 @@ from collections.abc import Iterator
 
 from checker.finding import Fix
 from checker.formats.xacro.expanded import ExpandedText
-from checker.launch.ros2.package_files import holder_of
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.ros.resource_path import resource_path
@@ -72,7 +71,7 @@ def check(simulations: Simulations, package: Package) -> Findings:
 
 def _fix(package: Package, name: str) -> Fix | None:
     """Return what adds the line to the checked package's own manifest."""
-    manifest = package.xml("package.xml") if holder_of(package, name) is package else None
+    manifest = package.xml("package.xml") if package.named(name) is package else None
     export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
     if export is None or any(child.tag == "gazebo_ros" for child in export.children):
         return None
@@ -90,7 +89,7 @@ def _mesh_packages(package: Package, robot: Robot) -> Iterator[tuple[str, str]]:
         named = _NAMED.match(uri.value) if uri is not None else None
         if uri is None or named is None:
             continue
-        holder, source = holder_of(package, named[1]), uri.span.source
+        holder, source = package.named(named[1]), uri.span.source
         by_path = isinstance(source, ExpandedText) and source.states_path(uri.value)
         if holder is not None and holder.exists("package.xml") and not by_path:
             yield named[1], uri.value

@@ -29,8 +29,8 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     names = Suggestions(it.declared_name for it in (package, *others))
     for use in uses_of(package):
         name = use.package_name
-        found = name == package.name or package.workspace.package(name) is not None
-        known = found or name in PROVIDED or distributions_with(name) or manifest.depends_on(name)
+        found = package.named(name) is not None or name in PROVIDED
+        known = found or distributions_with(name) or manifest.depends_on(name)
         near = None if known or not use.how.startswith("$(find") else names.closest(name)
         if near and near != name and is_slip_for(name, near):
             yield finding(

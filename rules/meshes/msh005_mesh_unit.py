@@ -76,7 +76,7 @@ def _scaled(robot: Robot, mesh: MisscaledMesh) -> Fix | None:
     if scale[0].stated:
         return rewrite((number, number.value * times) for number in scale)
     text = " ".join([number_text(times)] * 3)
-    if robot.conventions.joint_types == "urdf":
+    if robot.conventions.is_urdf:
         edits = [each.edit for each in with_attributes(written, {"scale": text})]
     else:
         edits = [append_to(written, [f"<scale>{text}</scale>"])]

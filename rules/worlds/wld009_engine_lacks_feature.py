@@ -82,7 +82,7 @@ def _joints(model: Robot, lacking: list[str]) -> Iterator[_Loss]:
         kind = joint.type.value
         if joint.parent.value == "world" and kind == "fixed":
             continue
-        is_urdf = model.conventions.joint_types == "urdf"
+        is_urdf = model.conventions.is_urdf
         of_sdf = "revolute" if kind == "continuous" and is_urdf else kind
         if "*" in lacking or of_sdf in lacking:
             effect = f"has no joint of type {kind!r}, such as {joint.name.value!r}: {_DART}"

@@ -107,8 +107,7 @@ def written_elements(document: XmlDocument) -> Mapping[Element, Element]:
 
 def written_element(element: Element) -> Element:
     """Return the element of a file that xacro made another one of; that one where it did not."""
-    pairs = written_elements(element.document).items()
-    return next((origin for copy, origin in pairs if copy.node is element.node), element)
+    return written_elements(element.document).get(element, element)
 
 
 def _origins(answer: Mapping[str, Any], gathered: Gathered) -> list[Element | None]:

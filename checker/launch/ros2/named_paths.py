@@ -19,7 +19,6 @@ from checker.launch.ros2.graph import (
     Started,
     share_path,
 )
-from checker.launch.ros2.package_files import holder_of
 from checker.package.installed import may_be_made, source_of
 from checker.package.package import Package
 from checker.source.text import Located, Span
@@ -123,7 +122,7 @@ def is_missing(package: Package, path: SharePath) -> bool:
         package: The package being checked.
         path: The file.
     """
-    holder = holder_of(package, path.package)
+    holder = package.named(path.package)
     if holder is None or not path.path or path.path.startswith(".."):
         return False
     there = holder.exists(path.path) or source_of(holder, path.path) is not None
@@ -139,7 +138,7 @@ def unavailable(package: Package, name: str) -> str:
         package: The package being checked.
         name: The name of the other package.
     """
-    if name.startswith(_OF_ROS) or name in _known_packages() or holder_of(package, name):
+    if name.startswith(_OF_ROS) or name in _known_packages() or package.named(name):
         return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
@@ -154,7 +153,7 @@ def _known_packages() -> frozenset[str]:
 
 def may_be_installed(package: Package, path: SharePath) -> bool:
     """Return whether a setup.py that computes its `data_files` may install a file of that name."""
-    holder = holder_of(package, path.package)
+    holder = package.named(path.package)
     if holder is None or holder.setup is None or holder.setup.complete:
         return False
     name = posixpath.basename(path.path)
@@ -163,7 +162,7 @@ def may_be_installed(package: Package, path: SharePath) -> bool:
 
 def lies_elsewhere(package: Package, path: SharePath) -> str:
     """Return where a package has a file of that name, if it has just one; else nothing."""
-    holder = holder_of(package, path.package)
+    holder = package.named(path.package)
     name = posixpath.basename(path.path)
     files = holder.index.files if holder is not None else ()
     found = [file.path for file in files if posixpath.basename(file.path) == name]

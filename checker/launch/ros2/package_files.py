@@ -12,27 +12,12 @@ from checker.package.package import Package
 from checker.source.text import SourceText
 
 
-def holder_of(package: Package, name: str) -> Package | None:
-    """Return the available package of a name, the checked one among them.
-
-    Args:
-        package: The package being checked.
-        name: The name as package.xml declares it, or that of its folder.
-    """
-    return package.named(name)
-
-
-def own_names(package: Package) -> tuple[str, ...]:
-    """Return the names of a package: the declared one first, then that of its folder."""
-    return tuple(dict.fromkeys((package.declared_name, package.root.name)))
-
-
 def local_file(package: Package, path: str) -> str | None:
     """Return a path below a share folder as the package lists it; None if it is not available."""
     target = share_path(path)
     if target is None:
         return None
-    if target.package in own_names(package):
+    if package.named(target.package) is package:
         path = posixpath.normpath(f"{ROOT}/{package.root.name}/{target.path}")
     local = local_path(package, path)
     return local if local is not None and package.exists(local) else None
@@ -45,7 +30,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
         return "which file is read is not known before the launch"
     local = local_file(package, path)
     if local is None:
-        if holder_of(package, target.package) is None:
+        if package.named(target.package) is None:
             return f"package {target.package} is not found"
         return f"{target} does not exist"
     source = package.read(local)
@@ -55,7 +40,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
 def exists(package: Package, path: str) -> bool | None:
     """Return whether there is a file or folder at a path; None if unknown."""
     target = share_path(path)
-    if target is None or not is_known(path) or holder_of(package, target.package) is None:
+    if target is None or not is_known(path) or package.named(target.package) is None:
         return None
     return local_file(package, path) is not None
 

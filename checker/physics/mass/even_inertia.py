@@ -110,7 +110,7 @@ def inertial_fix(robot: Robot, link: Link) -> Fix | None:
 
 def _inertial_edit(robot: Robot, link: Link, written: Element) -> Edit | None:
     body = even_body(robot, link)
-    urdf = robot.conventions.joint_types == "urdf"
+    urdf = robot.conventions.is_urdf
     inertial, moments = written.child("inertial"), even_moments(robot, link)
     if body is not None and inertial is None:
         return append_to(written, _inertial_lines(body, urdf=urdf))

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 from checker.launch.ros2.actions.gathered import Gathered
 from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind, Unread
-from checker.launch.ros2.package_files import holder_of
 from checker.launch.ros2.python.expressions import evaluate
 from checker.launch.ros2.python.interpreter import Interpreter, World
 from checker.launch.ros2.python.scope import LocalFunction, Partial, Scope
@@ -126,7 +125,7 @@ def expression(text: str, span: Span, allowance: Allowance, world: World) -> Val
 def module_of(package: Package, path: str) -> SourceText | None:
     """Return the source of a Python module that a available package contains."""
     parts = path.strip(".").split(".")
-    holder = holder_of(package, parts[0])
+    holder = package.named(parts[0])
     if holder is None or path.startswith("."):
         return None
     for name in (f"{'/'.join(parts)}.py", f"{'/'.join(parts)}/__init__.py"):
