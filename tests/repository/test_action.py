@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -20,25 +21,33 @@ from tests.conftest import SAMPLES
 from tests.repository.conftest import BROKEN, GOOD, ROOT
 
 ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text("utf-8"))
-INSTALL, CHECK = ACTION["runs"]["steps"]
-_INPUT = re.compile(r"\$\{\{ inputs\.([\w-]+) \}\}")
+NAME, CACHE, INSTALL, CHECK = ACTION["runs"]["steps"]
+KEYED = ("checker/cli/__init__.py", "rules/__init__.py", "constraints.txt", "pyproject.toml")
+SCRIPTS = (NAME, INSTALL, CHECK)
+_GIVEN = re.compile(r"\$\{\{ ([\w.-]+) \}\}")
 
 
 @pytest.fixture(scope="module")
 def runner(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """The environment of a runner on which the first step has been done.
+    """The environment of a runner on which all steps but the last have been done.
 
     The project is really installed; the libraries, 900 MB of them, are those of the tests.
     """
     temporary = tmp_path_factory.mktemp("runner")
     given = {"RUNNER_TEMP": str(temporary), "GITHUB_ACTION_PATH": str(ROOT)}
     environment = {**os.environ, **given, "GITHUB_OUTPUT": str(temporary / "output")}
-    own = temporary / "subt-check"
+    named = run(NAME, environment, temporary)
+    assert named.returncode == 0, named.stdout + named.stderr
+    environment |= {
+        f"steps.environment.outputs.{name}": it for name, it in outputs(environment).items()
+    }
+    own = Path(environment["steps.environment.outputs.folder"])
+    assert own.parent == temporary
     pip = [own / "bin/pip", "install", "-q", "-c", ROOT / "constraints.txt", "hatchling"]
     subprocess.run(["python3", "-m", "venv", own], check=True)
     subprocess.run(pip, check=True)
     without = {"PIP_NO_DEPS": "1", "PIP_NO_BUILD_ISOLATION": "0"}
-    done = bash(INSTALL["run"], environment | without, temporary)
+    done = run(INSTALL, environment | without, temporary)
     assert done.returncode == 0, done.stdout + done.stderr
     installed = sysconfig.get_path("purelib")
     deeper = [place for place in sys.path if place.startswith(installed + os.sep)]
@@ -57,15 +66,21 @@ def bash(
     )
 
 
-def check(runner: dict[str, str], folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
-    """Run the second step with inputs, in words with `_` for `-`."""
-    defaults = {name: str(given["default"]) for name, given in ACTION["inputs"].items()}
-    values = defaults | {name.replace("_", "-"): value for name, value in inputs.items()}
+def run(
+    step: dict[str, Any], runner: dict[str, str], folder: Path, **inputs: str
+) -> subprocess.CompletedProcess[str]:
+    """Run a step with inputs, in words with `_` for `-`, and with the outputs of earlier steps."""
+    values = {f"inputs.{name}": str(given["default"]) for name, given in ACTION["inputs"].items()}
+    values |= {f"inputs.{name.replace('_', '-')}": value for name, value in inputs.items()}
     own = {
-        name: _INPUT.sub(lambda found: values[found.group(1)], text)
-        for name, text in CHECK["env"].items()
+        name: _GIVEN.sub(lambda found: (runner | values)[found.group(1)], text)
+        for name, text in step["env"].items()
     }
-    return bash(CHECK["run"], {**runner, **own}, folder)
+    return bash(step["run"], {**runner, **own}, folder)
+
+
+def check(runner: dict[str, str], folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
+    return run(CHECK, runner, folder, **inputs)
 
 
 @pytest.fixture
@@ -84,11 +99,59 @@ def outputs(runner: dict[str, str]) -> dict[str, str]:
 
 
 def test_no_input_stands_in_a_script() -> None:
-    for step in ACTION["runs"]["steps"]:
+    for step in SCRIPTS:
         assert step["shell"] == "bash"
         assert "${{" not in step["run"]
-    taken = {name for text in CHECK["env"].values() for name in _INPUT.findall(text)}
-    assert taken == set(ACTION["inputs"])
+    assert "inputs" not in str(CACHE)
+    texts = [text for step in SCRIPTS for text in step["env"].values()]
+    taken = {name for text in texts for name in _GIVEN.findall(text) if name[:6] == "inputs"}
+    assert taken == {f"inputs.{name}" for name in ACTION["inputs"]}
+
+
+def test_what_is_cached_is_what_is_installed(runner: dict[str, str], tmp_path: Path) -> None:
+    """An environment that is restored is not installed again."""
+    folder, key = (f"${{{{ steps.environment.outputs.{name} }}}}" for name in ("folder", "key"))
+    assert CACHE["with"] == {"path": folder, "key": key}
+    assert INSTALL["env"]["FOLDER"] == CHECK["env"]["FOLDER"] == folder
+    shutil.copy("/bin/false", tmp_path / "python3")
+    environment = runner | {"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
+    assert run(INSTALL, environment, tmp_path).returncode == 0
+    environment["steps.environment.outputs.folder"] = str(tmp_path / "other")
+    assert run(INSTALL, environment, tmp_path).returncode == 1
+
+
+@pytest.mark.parametrize(("physics", "extras"), [("true", "[physics]"), ("false", "")])
+def test_physics_is_an_extra(
+    runner: dict[str, str], tmp_path: Path, physics: str, extras: str
+) -> None:
+    outputs(runner)
+    assert run(NAME, runner, tmp_path, physics=physics).returncode == 0
+    written = outputs(runner)
+    assert written["extras"] == extras
+    is_first = written["folder"] == runner["steps.environment.outputs.folder"]
+    assert is_first == bool(extras)
+
+
+def test_the_key_is_of_sources_libraries_extras_and_python(tmp_path: Path) -> None:
+    copy = tmp_path / "copy"
+    for name in ("scripts/environment_key", "scripts/hatch_build.py", *KEYED):
+        (copy / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, copy / name)
+
+    def key(extras: str) -> str:
+        command = [sys.executable, copy / "scripts/environment_key", extras]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+    first = key("[physics]")
+    assert first == key("[physics]")
+    assert first.startswith(f"subt-check-{sys.platform}-")
+    assert f"-python{platform.python_version()}-" in first
+    keys = {first, key("")}
+    for name in KEYED:
+        with (copy / name).open("a") as file:
+            file.write("\n")
+        keys.add(key("[physics]"))
+    assert len(keys) == 2 + len(KEYED)
 
 
 def test_inputs_name_all_profiles() -> None:
