@@ -360,10 +360,15 @@ def _misfit(outcome: Outcome | None, path: str) -> str:
 
 
 def _left(document: XmlDocument, candidate: Candidate) -> Iterator[str]:
-    """Yield which packages a file includes that are not available and not needed."""
-    for name in document.source.left if isinstance(document.source, ExpandedText) else ():
+    """Yield which packages a file includes that are not available, and what is left out."""
+    source = document.source
+    if not isinstance(source, ExpandedText):
+        return
+    for name in source.left if not source.skipped else ():
         reason = f"{candidate.path} is read without its include of {name}"
         yield f"{reason}, which is not available: put it next to the package"
+    for macro in source.skipped[:1]:
+        yield f"{macro} is included, but not available"
 
 
 def _further(candidate: Candidate) -> range:

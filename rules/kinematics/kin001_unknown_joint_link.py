@@ -19,7 +19,7 @@ from checker.source.text import Located
 def check(robot: Robot) -> Findings:
     """Report joints whose parent or child is missing or does not exist."""
     for uri in robot.unresolved_includes:
-        yield unchecked(f"{uri.value or 'an include without <uri>'} is not available")
+        yield unchecked(f"{uri.value or 'an include without <uri>'} is included, but not available")
     names = robot.attachable_names
     suggestions = Suggestions(names)
     for joint in robot.joints:

@@ -27,7 +27,7 @@ def check(control: RobotControl, context: Context) -> Findings:
         for joint in hardware.joints:
             name, known = joint.name, control.joint(joint)
             message = f"<ros2_control> {hardware.name.value!r} has joint {name.value!r}, which"
-            if known is None and name.stated:
+            if known is None and name.stated and not control.may_be_included(name):
                 message += " the URDF does not have"
                 yield misspelt(name, message, suggestions, severity=severity)
             elif known is not None and known.type.value == "fixed" and name.stated:

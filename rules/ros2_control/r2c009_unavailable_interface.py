@@ -54,7 +54,7 @@ def _faults(
         joint = control.joints.get(name)
         if joint is not None:
             yield from _missing(controller, claim, joint)
-        elif name not in control.components:
+        elif name not in control.components and not control.may_be_included(claim.joint):
             message = f"{controller.label} names joint {name!r}, which"
             key = f"{name} {controller.name}"
             if name in control.robot.joints_by_name:

@@ -241,6 +241,10 @@ def test_a_file_that_is_not_there_is_named(describe: Describe) -> None:
 
 DRIVER = '<xacro:include filename="$(find elsewhere)/driver.xacro"/>'
 CALLED = '<xacro:if value="@"><xacro:driver/></xacro:if>'
+ELBOW = (
+    '<link name="arm"/><joint name="elbow" type="revolute"><parent link="base"/>'
+    '<child link="arm"/></joint>'
+)
 DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"/></joint>'
 
 
@@ -252,8 +256,14 @@ DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"
         (CALLED.replace("@", "false") + DANGLING, []),
         (CALLED.replace("@", "false") + '<link name="${length}"/>', []),
         ("", []),
+        (CALLED.replace("@", "true") + ELBOW, ["base", "arm"]),
+        ('<link name="lid"><xacro:driver/></link>' + ELBOW, []),
+        (CALLED.replace("@", "true") + ELBOW + DANGLING, []),
     ],
-    ids=["macro is not called", "called", "link is there", "property is there", "may be links"],
+    ids=[
+        *("macro is not called", "called", "link is there", "property is there", "may be links"),
+        *("called beside a robot", "called in a link", "called for a link of a joint"),
+    ],
 )
 def test_a_package_that_is_not_available_may_be_needless(
     describe: Describe, body: str, expected: list[str]
@@ -262,4 +272,4 @@ def test_a_package_that_is_not_available_may_be_needless(
     assert links(subject) == expected
     (reason,) = files_of(subject).unread
     assert "elsewhere" in reason
-    assert "is not available" in reason
+    assert "not available" in reason

@@ -11,6 +11,7 @@ from checker.formats.sdf.links import read_plugin, read_sensor
 from checker.formats.sdf.scope import Scope
 from checker.formats.urdf.conventions import CONVENTIONS
 from checker.formats.urdf.specification import has_version
+from checker.formats.xacro.expanded import ExpandedText
 from checker.model.components import (
     Axis,
     Collision,
@@ -181,7 +182,17 @@ def read_urdf(document: XmlDocument) -> Robot:
         tuple(_plugins(root)),
         graph,
         (*values.faults, *graph.faults),
+        unresolved_includes=tuple(_skipped(document)),
+        merges_unknown=True,
     )
+
+
+def _skipped(document: XmlDocument) -> Iterator[Located[str]]:
+    """Yield the calls of macros that only packages that are not available may define."""
+    source = document.source
+    if isinstance(source, ExpandedText):
+        for name in source.skipped:
+            yield Located(name, source.written.whole())
 
 
 def _starts(root: Element) -> dict[str, Located[float]]:

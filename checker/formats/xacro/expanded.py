@@ -59,8 +59,15 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
 
     @property
     def left(self) -> tuple[str, ...]:
-        """Packages that are not available, whose files are included and whose macros not called."""
+        """Packages that are not available, whose files are included."""
         return tuple(dict.fromkeys(map(str, self.answer.get("left", ()))))
+
+    @property
+    def skipped(self) -> tuple[str, ...]:
+        """Macros that are called, and that only these packages may define, in words."""
+        names = dict.fromkeys(map(str, self.answer.get("skipped", ())))
+        packages = f"{' or '.join(self.left)} (put it next to the package)"
+        return tuple(f"macro {name} of {packages}" for name in names)
 
     def states_path(self, uri: str) -> bool:
         """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""

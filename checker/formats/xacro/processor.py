@@ -32,7 +32,13 @@ from checker.formats.xacro.expression.builtins import functions
 from checker.formats.xacro.expression.evaluation import Names, evaluate
 from checker.formats.xacro.files import ROOT, package_in
 from checker.formats.xacro.macro_names import macro_names
-from checker.formats.xacro.needless_includes import calls_another, is_closed
+from checker.formats.xacro.needless_includes import (
+    SKIPPED,
+    calls_another,
+    is_closed,
+    is_robot_without,
+    skip,
+)
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read
 
@@ -79,7 +85,7 @@ def expand(
 
     Returns:
         `xml` and `origins` (file and element number of each element, in order) with `files`, and
-        `left`, packages that are not available, of whose macros none is called; or
+        `left`, packages that are not available, and `skipped`, their macros that are called; or
         `kind`, `message`, `at` and `through` of what is wrong; or `missing`, a path to give as
         well; or `unread`, why it cannot be known; or `refused`, what an expression uses that is
         outside of the language, with the `expression` and `at`.
@@ -155,6 +161,7 @@ class _Expansion:
         self._through: list[str] = []
         self._allowance = Allowance()
         self.left: list[str] = []
+        self._skipped: list[str] = []
 
     def run(
         self, file: str, args: dict[str, str], call: Mapping[str, Any] | None = None
@@ -167,13 +174,20 @@ class _Expansion:
             self._add(document, file, call)
         xacro.process_doc(document, mappings=args, verbosity=0)
         root = document.documentElement
+        skipped = root.getElementsByTagName(SKIPPED) if self._skipped else []
+        if skipped and not is_robot_without(root, skipped):
+            return _unavailable(self.left[0])
+        for one in skipped:
+            root.removeChild(one)
         text = root.toxml()
         if len(text) > SIZE_LIMIT:
             return self.fault("limit", f"it expands to more than {SIZE_LIMIT / 1e6:g} MB")
         if self.left and not is_closed(root):
             return _unavailable(self.left[0])
         found = {"xml": text, "origins": self._origins(root), "files": self._files}
-        return found | ({"left": self.left} if self.left else {})
+        if self.left:
+            found |= {"left": self.left, "skipped": self._skipped if skipped else []}
+        return found
 
     def fault(self, kind: str, message: str) -> dict[str, Any]:
         """Return the outcome of an expansion that failed."""
@@ -196,6 +210,7 @@ class _Expansion:
         if self._as_melodic:
             xacro._global_symbols = {**melodic.FUNCTIONS, **xacro._global_symbols, **melodic.LISTS}
             xacro.eval_all = melodic.with_global_macros(xacro.eval_all)
+        xacro.handle_macro_call = self._skipping(xacro.handle_macro_call)
         for name in ("eval_all", "handle_macro_call"):
             setattr(xacro, name, self._watched(getattr(xacro, name)))
         xacro.check_attrs = self._noting(xacro.check_attrs)
@@ -317,6 +332,18 @@ class _Expansion:
 
     def _origins(self, root: Any) -> list[tuple[int, int]]:
         return [element.getUserData(_ORIGIN) or (-1, -1) for element in _elements(root)]
+
+    def _skipping(self, work: Callable[..., Any]) -> Callable[..., Any]:
+        """Skip calls of macros that only a package that is not available may define."""
+
+        @wraps(work)
+        def skipping(node: Any, *rest: Any) -> Any:
+            name = skip(node, self._macros) if self.left else ""
+            if name:
+                self._skipped.append(name)
+            return bool(name) or work(node, *rest)
+
+        return skipping
 
     def _watched(self, work: Callable[..., Any]) -> Callable[..., Any]:
         """Remember at which element a function of xacro works, and at which it fails."""

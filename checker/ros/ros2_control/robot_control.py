@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
+from checker.base.words import Suggestions
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.files import ROOT, local_path, package_in
 from checker.launch.ros2.package_files import local_file
@@ -125,6 +126,12 @@ class RobotControl(Record, eq=False, dict=True):
     def joint(self, joint: HardwareJoint) -> Joint | None:
         """Return the joint of the robot that one of the hardware represents."""
         return self.robot.joints_by_name.get(joint.name.value)
+
+    def may_be_included(self, joint: Located[str]) -> bool:
+        """Return whether what is not available may have a joint, which is not misspelt."""
+        if not self.robot.may_be_included(joint.value):
+            return False
+        return Suggestions(self.robot.joints_by_name).correction(joint.value) is None
 
     @cached_property
     def components(self) -> frozenset[str]:
