@@ -1,0 +1,48 @@
+"""A command interface of a joint that two tags of ros2_control offer.
+
+The controller manager has one command interface `elbow/position`. Up to Humble, it logs "command
+interface already in available list" for the second one, whose hardware never gets a command; later
+releases refuse to load that hardware. Controllers start in the first case, and one of the two does
+not move.
+
+Fix: remove the joint's `<command_interface>` from one of the tags, or put each tag below an
+`xacro:if`, so that one of them is left.
+Source: ros2_control, hardware_interface/src/resource_manager.cpp, where it imports command
+interfaces.
+"""
+
+from checker.base.words import and_list
+from checker.ros.ros2_control.hardware import Hardware, HardwareJoint
+from checker.ros.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import MOCK, SHOULDER, ros2_control
+
+
+@rule("R2C016", "interface-offered-twice", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl) -> Findings:
+    """Report joints with the same command interface in two `<ros2_control>` tags."""
+    first: dict[str, tuple[Hardware, HardwareJoint]] = {}
+    for hardware in control.hardware:
+        for joint in hardware.joints:
+            before, its_joint = first.setdefault(joint.name.value, (hardware, joint))
+            offered = {command.name.value for command in its_joint.commands}
+            twice = [it.name.value for it in joint.commands if it.name.value in offered]
+            if before is not hardware and twice:
+                keys = and_list([f"{joint.name.value}/{name}" for name in dict.fromkeys(twice)])
+                yield finding(
+                    joint,
+                    f"{keys} is offered by <ros2_control> {before.name.value!r} and "
+                    f"{hardware.name.value!r}: a controller gets one of them, and the other "
+                    "hardware does not move; remove the <command_interface> from one",
+                    key=f"{before.name.value} {hardware.name.value}",
+                    related=[(its_joint, "the first one")],
+                )
+
+
+def _second(inside: str) -> object:
+    other = f'<ros2_control name="simulator" type="system"><hardware>{MOCK}</hardware>'
+    return {"@urdf": ros2_control() + f"{other}\n{inside}\n</ros2_control>"}
+
+
+GOOD = [_second('<joint name="shoulder"><state_interface name="position"/></joint>')]
+BAD = [_second(f"{SHOULDER}  <!-- ^ R2C016 -->")]
