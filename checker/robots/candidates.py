@@ -16,6 +16,7 @@ from checker.formats.xacro.files import local_path
 from checker.launch.ros1.launch_file import Load
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.robots.leftovers import is_of_page
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
@@ -122,7 +123,7 @@ def _files(package: Package) -> list[str]:
     if package.is_loose:
         return [path for path in paths if not package.lies_in_unit(path)]
     if package.kind is PackageKind.URDF_DESCRIPTION:
-        return [*paths]
+        return [path for path in paths if not is_of_page(package, path)]
     return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
 
 

@@ -30,6 +30,7 @@ from checker.robots.candidates import (
 )
 from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
+from checker.robots.leftovers import leftovers
 from checker.robots.other_robots import Made, other_robots
 from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
@@ -161,12 +162,16 @@ class PackageDescriptions:
     def _marked(self, descriptions: Sequence[UrdfDescription]) -> list[UrdfDescription]:
         """Return descriptions; those that nothing loads, beside one that is loaded, say so."""
         loaded = {candidate.path for candidate in self._candidates if candidate.loaded}
-        if (
-            self._for_rviz
-            or self._package.only
-            or not any(it.file in loaded for it in descriptions)
-        ):
+        if self._for_rviz or self._package.only:
             return [*descriptions]
+        if not any(it.file in loaded for it in descriptions):
+            left = leftovers(self._package, {it.file: it.document for it in descriptions})
+            return [
+                replace(it, unloaded=f"only in {it.file}, which nothing loads")
+                if it.file in left
+                else it
+                for it in descriptions
+            ]
         texts = self._package.workspace.launch_texts
         return [
             it

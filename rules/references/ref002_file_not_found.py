@@ -78,7 +78,7 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
             uri,
             f"{uri.value} does not exist{where}" + (f"; did you mean {alike[0]}?" if alike else ""),
             severity=None if uri in meshes else Severity.WARNING,
-            key=path,
+            key=robot.unloaded or path,
             covered_by=("REF004",),
             fix=_other_file(uri, path, alike),
         )

@@ -69,6 +69,29 @@ def test_what_another_value_makes_has_warnings(tmp_path: Path) -> None:
     assert found.message.endswith("(only with tool:=true, which no launch file gives by default)")
 
 
+_MESH = '<visual><geometry><mesh filename="package://{name}/{file}"/></geometry></visual>'
+
+
+def test_a_leftover_without_its_meshes_has_one_warning(tmp_path: Path) -> None:
+    folder = tmp_path / NAME
+    (folder / "web/public").mkdir(parents=True)
+    (folder / "package.xml").write_text(PACKAGE_XML)
+    (folder / "objects.yaml").write_text(f"lid: package://{NAME}/lid.urdf")
+    (folder / "web/page.ts").write_text("load('hull.urdf')")
+    for name, files in (
+        ("lid", ["lid.stl"]),
+        ("trial_2", ["a.stl", "b.stl"]),
+        ("web/public/hull", ["c.stl"]),
+    ):
+        shapes = "".join(_MESH.format(name=NAME, file=file) for file in files)
+        (folder / f"{name}.urdf").write_text(f"{_HEAD}{_link(shapes)}</robot>")
+    report = check_package(folder, Settings(select=("REF002",), trial=False)).packages[0]
+    lid, leftover = (found for found in report.findings if found.rule == "REF002")
+    assert (lid.severity, lid.places[0].file) == (Severity.ERROR, "lid.urdf")
+    assert (leftover.severity, leftover.places[0].file) == (Severity.WARNING, "trial_2.urdf")
+    assert leftover.message.endswith("(only in trial_2.urdf, which nothing loads)")
+
+
 @pytest.mark.parametrize(
     ("text", "loaded"),
     [
