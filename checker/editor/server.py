@@ -24,6 +24,7 @@ from checker.editor.documents import Document, path_of
 from checker.editor.full_check import FullCheck
 from checker.editor.positions import Columns
 from checker.editor.session import Key, Session, State
+from checker.editor.verdict import VERDICT, Verdict, verdict_of
 
 T = TypeVar("T")
 _PAUSE_SECONDS = 0.02
@@ -41,6 +42,7 @@ class Server(LanguageServer):
         session: The state of the packages.
         columns: The client's unit of columns.
         measures_on_save: Whether weights are taken and the trial is run when a file is saved.
+        sends_verdicts: Whether the client shows verdicts on packages.
         measuring: Running checks with weights and trial, by what they check.
     """
 
@@ -51,6 +53,7 @@ class Server(LanguageServer):
         self.session = Session()
         self.columns = Columns()
         self.measures_on_save = False
+        self.sends_verdicts = False
         self.measuring: dict[Key, FullCheck] = {}
         self._pause = _PAUSE_SECONDS
         self._reader = ThreadPoolExecutor(1, "reader")
@@ -66,7 +69,9 @@ class Server(LanguageServer):
         self.columns = Columns(
             lsp.PositionEncodingKind(self.workspace.position_encoding or "utf-16")
         )
-        self.configure(params.initialization_options)
+        options = params.initialization_options
+        self.sends_verdicts = isinstance(options, dict) and options.get("verdict") is True
+        self.configure(options)
 
     def configure(self, options: Any) -> None:
         """Read the user's settings of the editor; values of another form are ignored."""
@@ -152,6 +157,16 @@ class Server(LanguageServer):
             if diagnostics is not None and self.session.documents.get(document.uri) is document:
                 params = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
                 self.text_document_publish_diagnostics(params)
+        if self.sends_verdicts:
+            for uri, verdict in (await self.read(self._verdicts)).items():
+                self.protocol.notify(VERDICT, {"uri": uri, **verdict})
+
+    def _verdicts(self) -> dict[str, Verdict]:
+        """Return the verdict on the package of each open file."""
+        documents = list(self.session.documents.values())
+        states = {each.uri: self.session.state_of(each.path) for each in documents}
+        verdicts = {state: verdict_of(state) for state in set(states.values())}
+        return {uri: verdicts[state] for uri, state in states.items()}
 
     def _diagnostics(self, document: Document) -> list[lsp.Diagnostic] | None:
         """Return what is found in a file; None if another text of it was checked."""

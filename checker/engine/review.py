@@ -189,8 +189,7 @@ def _report(
             if settings.display:
                 begin_display(subject)
         outcome = run_and_set_aside(known, known, subject, judge)
-    blind = (NotChecked(FILES, reason, Cause.NOT_AT_HAND) for reason in _unread(package))
-    unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
+    unread = what_is_unread(subject)
     robots, trouble = _piece(subject, "facts", lambda: facts_of(subject))
     trials = trials_of(subject, outcome, known)
     launched, unwired = _piece(subject, "launched", lambda: launched_files_of(subject))
@@ -200,7 +199,7 @@ def _report(
         shown,
         str(package.kind),
         tuple(with_real_paths(package, outcome.findings)),
-        (*outcome.not_checked, *blind, *unread, *undone, *trouble, *unwired, *undrawn),
+        (*outcome.not_checked, *unread, *trouble, *unwired, *undrawn),
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
@@ -218,6 +217,13 @@ def _report(
         target_reason=settings.target_reason,
         launched=launched,
     )
+
+
+def what_is_unread(subject: Subject) -> tuple[NotChecked, ...]:
+    """Return which files, folders and robots of a package could not be read, and why."""
+    blind = (NotChecked(FILES, why, Cause.NOT_AT_HAND) for why in _unread(subject.package))
+    unread, undone = _piece(subject, ROBOT, lambda: tuple(unread_robots(subject)))
+    return (*blind, *unread, *undone)
 
 
 def _unread(package: Package) -> Iterator[str]:

@@ -11,6 +11,8 @@ from typing import Any
 import pytest_lsp
 from lsprotocol import types as lsp
 
+from checker.editor.verdict import VERDICT
+
 
 class Client(pytest_lsp.LanguageClient):
     """A client that keeps all that it is told of files, in its order."""
@@ -18,6 +20,7 @@ class Client(pytest_lsp.LanguageClient):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.published: list[lsp.PublishDiagnosticsParams] = []
+        self.verdicts: list[Any] = []
         self.news = asyncio.Event()
         self.versions: dict[str, int] = {}
 
@@ -34,6 +37,11 @@ def client() -> Client:
     @made.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
     def _(params: lsp.PublishDiagnosticsParams) -> None:
         made.take(params)
+
+    @made.feature(VERDICT)
+    def _(params: Any) -> None:
+        made.verdicts.append(params)
+        made.news.set()
 
     @made.feature(lsp.WINDOW_SHOW_MESSAGE)
     def _(params: lsp.ShowMessageParams) -> None:
@@ -137,6 +145,7 @@ class Editor:
         self.client.text_document_did_close(lsp.DidCloseTextDocumentParams(identifier))
         await self.told(lambda params: params.uri == path.as_uri() and params.version is None)
         self.client.published[:] = [p for p in self.client.published if p.uri != path.as_uri()]
+        self.client.verdicts[:] = [it for it in self.client.verdicts if it.uri != path.as_uri()]
 
     async def found(self, path: Path) -> list[lsp.Diagnostic]:
         """Wait for what is found in the present version of a file."""
@@ -155,6 +164,16 @@ class Editor:
                 self.client.news.clear()
                 await self.client.news.wait()
         return found[-1]
+
+    async def verdict(self, path: Path, fits: Callable[[Any], bool] = lambda _: True) -> Any:
+        """Wait until the newest verdict on the package of a file fits, and return it."""
+        async with asyncio.timeout(SECONDS):
+            while True:
+                found = [it for it in self.client.verdicts if it.uri == path.as_uri()]
+                if found and fits(found[-1]):
+                    return found[-1]
+                self.client.news.clear()
+                await self.client.news.wait()
 
     async def actions(
         self, path: Path, diagnostics: Sequence[lsp.Diagnostic], only: list[str] | None = None

@@ -64,7 +64,11 @@ def test_the_package_has_what_it_needs_and_no_more() -> None:
         bundle = archive.read("extension/dist/extension.js")
         licences = archive.read("extension/dist/licences.txt").decode()
     about = {"extension.vsixmanifest", "[Content_Types].xml", "package.json", "readme.md"}
-    assert names == about | {"LICENSE.txt", "dist/extension.js", "dist/licences.txt"}
+    about |= {"changelog.md", "icon.png", "LICENSE.txt"}
+    steps = {
+        step["media"]["markdown"] for step in manifest["contributes"]["walkthroughs"][0]["steps"]
+    }
+    assert names == about | steps | {"dist/extension.js", "dist/licences.txt"}
     assert f"./{manifest['main'].removeprefix('./')}" == "./dist/extension.js"
     assert str(ROOT).encode() not in bundle
     assert "vscode-languageclient" in licences

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,36 @@ def documents() -> list[str]:
 def test_it_is_of_the_same_version_and_licence() -> None:
     assert MANIFEST["version"] == tool_version()
     assert MANIFEST["license"] == "Apache-2.0"
+
+
+def test_its_publisher_keeps_the_repository() -> None:
+    assert MANIFEST["repository"]["url"].split("/")[-2] == MANIFEST["publisher"]
+
+
+def test_the_marketplace_takes_the_icon() -> None:
+    """It wants a PNG of 128 pixels or more."""
+    head = (FOLDER / MANIFEST["icon"]).read_bytes()
+    assert len(head) < 20_000
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    assert struct.unpack(">II", head[16:24]) == (128, 128)
+
+
+def test_the_changelog_has_the_version() -> None:
+    assert f"## {MANIFEST['version']} " in (FOLDER / "CHANGELOG.md").read_text("utf-8")
+
+
+def test_the_walkthrough_calls_what_is_there() -> None:
+    (walkthrough,) = MANIFEST["contributes"]["walkthroughs"]
+    commands = {command["command"] for command in MANIFEST["contributes"]["commands"]}
+    sources = "".join(file.read_text("utf-8") for file in (FOLDER / "src").glob("*.ts"))
+    for step in walkthrough["steps"]:
+        assert (FOLDER / step["media"]["markdown"]).is_file()
+        told = json.dumps([step["description"], step["completionEvents"]])
+        called = re.findall(r"[cC]ommand:(subt-check\.\w+)", told)
+        assert set(called) <= commands
+        assert set(re.findall(r"onSettingChanged:([\w.-]+)", told)) <= SETTINGS.keys()
+        for context in re.findall(r"onContext:([\w.-]+)", told):
+            assert f'"setContext", "{context}"' in sources
 
 
 def test_versions_are_pinned_without_a_lock_file() -> None:

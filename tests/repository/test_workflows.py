@@ -117,8 +117,9 @@ def test_one_command_writes_who_keeps_the_repository(tmp_path: Path) -> None:
     command = [sys.executable, copy / "scripts/owner", "acme-robots"]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     assert {"README.md", "pyproject.toml", "checker/report/sarif.py"} <= {*done.stdout.split()}
+    assert '"publisher": "acme-robots"' in (copy / "editors/vscode/package.json").read_text()
     left = subprocess.run(
-        ["git", "grep", "--extended-regexp", rf"{owner}(/|\.github\.io/)subt-check"],
+        ["git", "grep", "--extended-regexp", rf'{owner}(/|\.github\.io/)subt-check|: "{owner}"'],
         check=False,
         capture_output=True,
         text=True,

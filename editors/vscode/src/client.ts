@@ -93,6 +93,7 @@ function optionsOf(
     initializationOptions: () => ({
       trial: settings().get("trial"),
       debounce: settings().get("debounce"),
+      verdict: true,
     }),
     initializationFailedHandler: () => false,
     middleware: {

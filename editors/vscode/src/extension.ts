@@ -4,15 +4,17 @@ import * as vscode from "vscode";
 import { hasRobotFiles, isRobotFile } from "./client";
 import { LONG_COMMANDS, serverCommand } from "./commands";
 import { Server } from "./server";
+import { VerdictItem } from "./verdict";
 
 /** The editor asks the module, not an object, to end. */
 let active: Server | undefined;
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   const output = vscode.window.createOutputChannel("subt-check", { log: true });
-  const server = new Server(output, String(context.extension.packageJSON.homepage));
+  const verdict = new VerdictItem();
+  const server = new Server(output, String(context.extension.packageJSON.homepage), verdict);
   active = server;
-  context.subscriptions.push(output, ...commands(server), ...restarts(server));
+  context.subscriptions.push(output, verdict, ...commands(server), ...restarts(server));
   if (vscode.workspace.textDocuments.some(isRobotFile) || (await hasRobotFiles())) {
     await server.restart();
   } else {

@@ -3,6 +3,7 @@ import * as vscode from "vscode";
 
 import { Client } from "./client";
 import { findProgram, NoServer } from "./programs";
+import { VERDICT, type VerdictItem } from "./verdict";
 
 const REMEDY = "pip install 'subt-check[editor]'";
 
@@ -13,10 +14,12 @@ export class Server {
   /**
    * @param output Where the log goes.
    * @param page The address of the page that tells how to install it.
+   * @param verdict Shows what the server says of the package of a file.
    */
   constructor(
     readonly output: vscode.LogOutputChannel,
     readonly page: string,
+    readonly verdict: VerdictItem,
   ) {}
 
   get isRunning(): boolean {
@@ -54,9 +57,11 @@ export class Server {
 
   async #serve(program: string): Promise<void> {
     const client = new Client(program, this.output);
+    client.onNotification(VERDICT, (verdict) => this.verdict.take(verdict));
     try {
       await client.begin();
       this.#client = client;
+      this.#tellWhetherItRuns();
     } catch (error) {
       this.output.error(String(error));
       throw new NoServer(`${program} started no server; the output says why.`);
@@ -66,11 +71,18 @@ export class Server {
   async #end(): Promise<void> {
     const client = this.#client;
     this.#client = undefined;
+    this.#tellWhetherItRuns();
     try {
       await client?.end();
     } catch (error) {
       this.output.warn(`The server did not stop in order: ${String(error)}`);
     }
+    this.verdict.clear();
+  }
+
+  /** Steps of the walkthrough depend on it. */
+  #tellWhetherItRuns(): void {
+    void vscode.commands.executeCommand("setContext", "subt-check.isRunning", this.isRunning);
   }
 
   /** Say what is wrong and what to do. Nobody waits for the answer. */

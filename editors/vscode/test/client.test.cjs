@@ -174,7 +174,7 @@ test("trust starts the program of the workspace", async () => {
 test("the server is told the settings, at the start and when they change", async () => {
   program(outside);
   const editor = await start({ settings: { "subt-check.trial": "save" } });
-  assert.deepEqual(received("initialize")[0].params.initializationOptions, { trial: "save", debounce: 20 });
+  assert.deepEqual(received("initialize")[0].params.initializationOptions, { trial: "save", debounce: 20, verdict: true });
   editor.set("subt-check.debounce", 250);
   const sent = () => received("workspace/didChangeConfiguration").at(-1)?.params.settings["subt-check"];
   await until("the change", () => sent()?.debounce === 250);
@@ -201,6 +201,77 @@ test("the server sees the files of robot packages, and no others", async () => {
   const uris = () => received("textDocument/didOpen").map(({ params }) => path.basename(params.textDocument.uri));
   await until("the last file", () => uris().includes("b.yaml"));
   assert.deepEqual(uris(), [...names, "b.yaml"]);
+});
+
+/** Open a file on which the server gives a verdict. */
+function judged(editor, name, verdict) {
+  const file = path.join(workspace, name);
+  return editor.open(file, "xml", `${SDF}<!-- ${JSON.stringify(verdict)} -->`);
+}
+
+const BAD = { verdict: "not_ready", package: "[rover](x)", text: "Not ready: 3 errors", sentence: "Not ready: why", errors: 3, warnings: 1 };
+const GOOD = { verdict: "ready", package: "scout", text: "Ready", sentence: "Ready: nothing to fix", errors: 0, warnings: 0 };
+
+test("the status bar has the verdict on the package of the file that is shown", async () => {
+  program(outside);
+  const editor = await start();
+  const [item] = editor.items;
+  const bad = judged(editor, "model.sdf", BAD);
+  await until("the verdict", () => item.isVisible);
+  assert.equal(item.text, "$(error) Not ready: 3 errors");
+  assert.equal(item.backgroundColor.id, "statusBarItem.errorBackground");
+  assert.equal(item.command, "workbench.actions.view.problems");
+  assert.ok(editor.context["subt-check.hasVerdict"]);
+  const good = judged(editor, "good.sdf", GOOD);
+  assert.ok(!item.isVisible);
+  await until("the other verdict", () => item.isVisible);
+  assert.deepEqual([item.text, item.backgroundColor], ["$(pass) Ready", undefined]);
+  judged(editor, "package.xml", { ...GOOD, text: "Ready: 2 warnings", warnings: 2 });
+  await until("the third verdict", () => item.isVisible && item.text === "$(warning) Ready: 2 warnings");
+  assert.equal(item.backgroundColor.id, "statusBarItem.warningBackground");
+  editor.show(bad);
+  assert.equal(item.text, "$(error) Not ready: 3 errors");
+  editor.show(undefined);
+  assert.ok(!item.isVisible);
+  editor.show(good);
+  assert.equal(item.text, "$(pass) Ready");
+});
+
+test("a robot that is not decided about is a warning", async () => {
+  program(outside);
+  const editor = await start();
+  const [item] = editor.items;
+  judged(editor, "model.sdf", { verdict: "incomplete", text: "Incomplete", sentence: "no robot was read", errors: 0, warnings: 0 });
+  await until("the verdict", () => item.isVisible);
+  assert.equal(item.text, "$(warning) Incomplete");
+});
+
+test("its tooltip has the sentence and leads to the report, and names are no links", async () => {
+  program(outside);
+  const editor = await start();
+  const [item] = editor.items;
+  judged(editor, "model.sdf", BAD);
+  await until("the verdict", () => item.isVisible);
+  assert.match(item.tooltip.value, /Not ready: why[^]*\[Open the report\]\(command:subt-check\.show3d\)/);
+  assert.ok(!item.tooltip.value.includes("[rover]"));
+  assert.deepEqual(item.tooltip.isTrusted.enabledCommands, ["subt-check.show3d", "subt-check.check"]);
+});
+
+test("outside of packages, and when the server has ended, there is no verdict", async () => {
+  program(outside);
+  const editor = await start();
+  const [item] = editor.items;
+  judged(editor, "model.sdf", BAD);
+  await until("the verdict", () => item.isVisible);
+  assert.ok(editor.context["subt-check.isRunning"]);
+  judged(editor, "pom.xml", { verdict: "none" });
+  assert.ok(!item.isVisible);
+  editor.show(editor.documents[0]);
+  assert.ok(item.isVisible);
+  fs.rmSync(path.join(outside, "subt-check"));
+  await editor.module.commands.executeCommand("subt-check.restart");
+  assert.ok(!item.isVisible);
+  assert.ok(!editor.context["subt-check.isRunning"]);
 });
 
 test("typing is sent as what changed", async () => {

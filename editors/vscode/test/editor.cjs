@@ -44,6 +44,8 @@ class Editor {
   opened = [];
   log = [];
   progress = [];
+  context = {};
+  items = [];
   commands = new Map();
   providers = new Map();
   collections = [];
@@ -78,7 +80,14 @@ class Editor {
     this.module.window.activeTextEditor = { document };
     this.module.window.visibleTextEditors = [{ document }];
     this.fire("onDidOpenTextDocument", document);
+    this.fire("onDidChangeActiveTextEditor", { document });
     return document;
+  }
+
+  /** Show a file that is open, or none. */
+  show(document) {
+    this.module.window.activeTextEditor = document && { document };
+    this.fire("onDidChangeActiveTextEditor", this.module.window.activeTextEditor);
   }
 
   /** Replace a stretch of a document, as typing does. */
@@ -149,6 +158,9 @@ class Editor {
         if (name.startsWith("workbench.")) {
           return void this.opened.push([name, ...given].join(" "));
         }
+        if (name === "setContext") {
+          return void (this.context[given[0]] = given[1]);
+        }
         if (!this.commands.has(name)) {
           throw new Error(`command '${name}' not found`);
         }
@@ -185,6 +197,7 @@ class Editor {
       visibleTextEditors: [],
       tabGroups: this.#withEvents({ all: [] }),
       createOutputChannel: () => this.#output(),
+      createStatusBarItem: () => this.#item(),
       showErrorMessage: show("error"),
       showWarningMessage: show("warning"),
       showInformationMessage: show("information"),
@@ -195,6 +208,13 @@ class Editor {
         return task({ report: (value) => shown.reports.push(value.message) }, source.token);
       },
     };
+  }
+
+  #item() {
+    const visible = (isVisible) => () => (item.isVisible = isVisible);
+    const item = { isVisible: false, show: visible(true), hide: visible(false), dispose: visible(false) };
+    this.items.push(item);
+    return item;
   }
 
   #output() {

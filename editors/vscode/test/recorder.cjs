@@ -45,6 +45,11 @@ connection.onRequest((method, params, token) => {
 });
 connection.onNotification((method, params) => {
   note(method, params);
+  if (method === "textDocument/didOpen") {
+    const { uri, text } = params.textDocument;
+    const told = text.match(/<!-- (\{.*\}) -->/);
+    void (told && connection.sendNotification("subt-check/verdict", { uri, ...JSON.parse(told[1]) }));
+  }
   if (method === "exit") {
     process.exit(0);
   }

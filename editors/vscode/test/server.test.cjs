@@ -90,6 +90,14 @@ test("a fix is one key away, and corrects the fault", async () => {
   await silence(document, "R2C010");
 });
 
+test("the status bar counts the errors of the package", async () => {
+  open("config/controllers.yaml", "yaml");
+  const [item] = editor.items;
+  await until("the verdict", () => item.isVisible);
+  assert.match(item.text, /^\$\(error\) Not ready: \d+ errors$/);
+  assert.match(item.tooltip.value, /trial not run/);
+});
+
 test("a word explains itself", async () => {
   const document = open("urdf/scout.urdf.xacro", "xml");
   await finding(document, "URD006");

@@ -91,6 +91,19 @@ class UriMap {
   }
 }
 
+class MarkdownString {
+  constructor(value = "") {
+    this.value = value;
+  }
+  appendMarkdown(text) {
+    this.value += text;
+    return this;
+  }
+  appendText(text) {
+    return this.appendMarkdown(text.replace(/[\\`*_{}[\]()#+\-!~]/g, "\\$&"));
+  }
+}
+
 class CodeActionKind {
   constructor(value) {
     this.value = value;
@@ -142,11 +155,12 @@ const types = {
   InlineCompletionTriggerKind: enumeration(0, "Invoke", "Automatic"),
   Location: record("uri", "range"),
   LogLevel: enumeration(0, "Off", "Trace", "Debug", "Info", "Warning", "Error"),
-  MarkdownString: record("value"),
+  MarkdownString,
   NotebookCellKind: enumeration(1, "Markup", "Code"),
   Position: record("line", "character"),
   ProgressLocation: { SourceControl: 1, Window: 10, Notification: 15 },
   Range,
+  StatusBarAlignment: enumeration(1, "Left", "Right"),
   RelativePattern: record("baseUri", "pattern"),
   SignatureHelpTriggerKind: enumeration(1, "Invoke", "TriggerCharacter", "ContentChange"),
   SnippetString: record("value"),
@@ -155,6 +169,7 @@ const types = {
   SymbolTag: { Deprecated: 1 },
   TextDocumentSaveReason: enumeration(1, "Manual", "AfterDelay", "FocusOut"),
   TextEdit: record("range", "newText"),
+  ThemeColor: record("id"),
   TypeHierarchyItem: record("kind", "name", "detail", "uri", "range", "selectionRange"),
   UriMap,
   WorkspaceEdit,
