@@ -41,10 +41,9 @@ def leftovers(package: Package, documents: Mapping[str, XmlDocument]) -> frozens
 
 
 def is_of_page(package: Package, path: str) -> bool:
-    """Return whether a web page loads a file: from the folder `public` beside its source."""
-    name = posixpath.basename(path)
+    """Return whether a web page that reads URDF gets a file: from the folder `public`."""
     return "public" in path.split("/")[:-1] and any(
-        name in text for text in islice(_texts(package, _PAGES), _TEXTS_LIMIT)
+        ".urdf" in text for text in islice(_texts(package, _PAGES), _TEXTS_LIMIT)
     )
 
 

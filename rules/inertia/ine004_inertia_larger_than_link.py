@@ -12,12 +12,18 @@ Source: definition of the moment of inertia.
 """
 
 import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from msgspec.structs import replace
 
 from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.link_geometry import displacement, known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
+_ONE_FORMULA = 3
+"""Links with equal moments and one radius of gyration, at least, that no one computed."""
 _ROUND = 1e-6
 """Distance of a logarithm from a whole number, at most, for a power of ten."""
 
@@ -35,7 +41,9 @@ def check(
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
 
-    For an object that is not a robot, such as a barrel, it is reported as info.
+    For an object that is not a robot, such as a barrel, it is reported as info. Links with equal
+    moments of one radius of gyration have a formula in common: they are one finding, the largest
+    ratio first, as severe as the worst.
 
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the
@@ -53,6 +61,7 @@ def check(
     is_prop = masses.robot.is_prop and not context.is_subt
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
+    found: list[tuple[float, str, Finding]] = []
     for name, inertia in masses.weighed.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
             continue
@@ -68,10 +77,11 @@ def check(
         elif reach and (ratio > warning_above or masses.share(name) > share):
             fixed = is_prop or name in masses.robot.tree.links_fixed_to_world
             heavy = masses.share(name) > share and not fixed
-            grave = ratio > error_above and not masses.robot.is_mounted(name)
+            mounted = masses.robot.is_mounted(name)
+            grave = ratio > error_above and not mounted
             grave = grave and not (inertia.mass <= placeholder and _is_made_up(inertia))
             severity = Severity.ERROR if grave else Severity.WARNING
-            yield finding(
+            fault = finding(
                 inertia.moments_span,
                 _message(inertia, reach, "large" if ratio > warning_above else "small"),
                 severity=severity if heavy else Severity.INFO,
@@ -79,6 +89,29 @@ def check(
                 fix=moments_fix(masses.robot, inertia.link),
                 covered_by=("INE013",),
             )
+            made = ratio > warning_above and not fixed and not mounted
+            found.append((ratio, _formula(inertia) if made else "", fault))
+    yield from _of_one_formula(sorted(found, key=lambda each: -each[0]))
+
+
+def _of_one_formula(found: Sequence[tuple[float, str, Finding]]) -> Iterator[Finding]:
+    """Yield findings; those of several links with one formula for the moments are one fault."""
+    alike: dict[str, set[Severity | None]] = {}
+    for _, formula, fault in found:
+        alike.setdefault(formula, set()).add(fault.severity)
+    counts = Counter(formula for _, formula, _ in found)
+    for _, formula, fault in found:
+        severities = alike[formula]
+        if not formula or counts[formula] < _ONE_FORMULA or severities == {Severity.INFO}:
+            yield fault
+        else:
+            grave = Severity.ERROR if Severity.ERROR in severities else Severity.WARNING
+            yield replace(fault, severity=grave, key=formula)
+
+
+def _formula(inertia: LinkInertia) -> str:
+    """Return what links whose moments have one formula have in common; empty if not equal."""
+    return f"{inertia.gyration_radius:.3g} m" if _has_equal_moments(inertia) else ""
 
 
 def _message(inertia: LinkInertia, reach: float, how: str) -> str:
@@ -92,10 +125,15 @@ def _message(inertia: LinkInertia, reach: float, how: str) -> str:
 
 def _is_made_up(inertia: LinkInertia) -> bool:
     """Return whether mass and moments are powers of ten, and the moments equal."""
+    powers = (math.log10(value) for value in (inertia.mass, inertia.principal[2]))
+    return _has_equal_moments(inertia) and all(
+        abs(power - round(power)) < _ROUND for power in powers
+    )
+
+
+def _has_equal_moments(inertia: LinkInertia) -> bool:
     least, *_, most = inertia.principal
-    powers = (math.log10(value) for value in (inertia.mass, most))
-    equal = math.isclose(least, most, rel_tol=1e-6)
-    return equal and all(abs(power - round(power)) < _ROUND for power in powers)
+    return math.isclose(least, most, rel_tol=1e-6)
 
 
 def _possible(inertia: LinkInertia) -> bool:

@@ -38,3 +38,30 @@ def test_severity(tmp_path: Path, mass: float, ixx: float, severity: Severity) -
     (report,) = check_package(tmp_path / "rope.sdf", settings).packages
     found = [it for it in report.findings if "'a'" in it.message]
     assert [finding.severity for finding in found] == [severity]
+
+
+LINK = """<link name="{name}">
+  <inertial><mass>{mass}</mass>
+    <inertia><ixx>{moment}</ixx><iyy>{moment}</iyy><izz>{moment}</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>{size}</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_joint" type="revolute"><parent>{parent}</parent><child>{name}</child>
+  <axis><xyz>0 0 1</xyz></axis></joint>
+"""
+
+
+def test_moments_of_one_formula_are_one_finding(tmp_path: Path) -> None:
+    links = [("b", "base", 1, 0.05), ("c", "b", 0.5, 0.04), ("d", "c", 0.01, 0.03)]
+    parts = [
+        LINK.format(name=name, parent=parent, mass=mass, moment=mass * 0.01, size=size)
+        for name, parent, mass, size in links
+    ]
+    base = '<link name="base"><inertial><mass>3</mass></inertial></link>'
+    path = tmp_path / "arm.sdf"
+    path.write_text(f'<sdf version="1.9"><model name="arm">{base}{"".join(parts)}</model></sdf>')
+    settings = Settings(trial=False, select=("INE004",), profile="gazebo-harmonic")
+    (report,) = check_package(path, settings).packages
+    (found,) = report.findings
+    assert found.severity is Severity.ERROR
+    said = [place.message or found.message for place in found.places]
+    assert [text.split()[1] for text in said] == ["'d'", "'c'", "'b'"]
