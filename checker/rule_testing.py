@@ -16,6 +16,7 @@ with `@` mean:
 - `@bridge`: a ROS 2 package instead: a rover with a lidar, the launch file that starts Gazebo,
   spawns it and bridges its topics, and `config/bridge.yaml`, whose place the text takes.
 - `@launch`: a mapping of texts in the launch file of that package to what takes their place.
+- `@mjcf`: a folder with a model of MuJoCo instead: `arm.xml`, whose `<mujoco>` contains the text.
 - `@with`: ids of rules that run along.
 - `@profile`: the profile that judges it instead of the first one that has the rule.
 - `@reported`: what must be reported where no marker is possible.

@@ -23,6 +23,8 @@ MODERN = "SUBT_CHECK_MODERN"
 """Packages of today's Gazebo and ROS."""
 REPORTS = "SUBT_CHECK_REPORTS"
 """Faults that people reported in public, rebuilt: `bad` and `good` packages of each."""
+MJCF = "SUBT_CHECK_MJCF"
+"""Models of MuJoCo: robots, `bugs` with corrected faults, `repro` with small ones."""
 URDFS = "SUBT_CHECK_URDFS"
 """The folder `robots` of example-robot-data, where that package is not installed."""
 _OWN_TESTS = {"bugs", "repro"}

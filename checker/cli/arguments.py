@@ -9,7 +9,7 @@ from typing import Any
 
 PROFILES = (
     *("subt", "sdf", "urdf", "gazebo-harmonic", "gazebo-fortress", "gazebo-ionic", "gazebo-jetty"),
-    *("ros2", "ros2-classic", "gazebo-classic"),
+    *("ros2", "ros2-classic", "gazebo-classic", "mujoco"),
 )
 DISTROS = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 FORMAT_NAMES = ("text", "concise", "json", "sarif", "github", "junit", "markdown", "html")

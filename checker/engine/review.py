@@ -33,7 +33,6 @@ from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.package.unchecked_models import unchecked_models
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
     FILES,
@@ -52,7 +51,6 @@ from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
-from checker.source.text import SourceText
 
 T = TypeVar("T")
 
@@ -233,14 +231,6 @@ def _unread(package: Package) -> Iterator[str]:
     yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
     if len(large) > _SHOWN:
         yield f"{len(large) - _SHOWN} more XML files are too large to be checked"
-    if not package.only:
-        files = [file.path for file in package.index.files]
-        yield from unchecked_models(files, partial(_text, package))
-
-
-def _text(package: Package, path: str) -> str:
-    source = package.read(path)
-    return source.text if isinstance(source, SourceText) else ""
 
 
 def _piece(

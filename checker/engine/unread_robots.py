@@ -7,29 +7,41 @@ from collections.abc import Iterator
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
+from checker.formats.mjcf.model import MjcfModel
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
 from checker.package.formats import robot_suffixes
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.report.report import ROBOT, Cause, NotChecked
+from checker.package.unchecked_models import unchecked_models
+from checker.report.report import FILES, ROBOT, Cause, NotChecked
 from checker.ros.simulation import Simulations
 
-_NO_ROBOT = "no URDF, xacro or SDF file of it is a robot, and no launch file starts one"
+_NO_ROBOT = "no URDF, xacro, SDF or MJCF file of it is a robot, and no launch file starts one"
 _TEMPLATE = re.compile(r"\.(?:sdf|urdf|xacro)\.(?:jinja2?|j2|em|erb)$")
 _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.WORLD)
 
 
 def unread_robots(subject: Subject) -> Iterator[NotChecked]:
-    """Yield why no robot of a package was read; nothing if one was, or none is expected."""
+    """Yield why robots of a package were not read; nothing if all were, or none is expected."""
     package = subject.package
-    if package.only or package.kind in _WITHOUT_ROBOT or _was_read(subject):
+    if package.only:
         return
+    was_read = _was_read(subject)
+    cause = Cause.NOT_SUPPORTED if was_read else Cause.NOT_AT_HAND
+    for reason in unchecked_models(file.path for file in package.index.files):
+        yield NotChecked(FILES, reason, cause)
+    if not was_read and package.kind not in _WITHOUT_ROBOT:
+        yield from _without_robot(subject)
+
+
+def _without_robot(subject: Subject) -> Iterator[NotChecked]:
+    package = subject.package
     reasons = list(dict.fromkeys((*_of_launch_files(subject), *_of_templates(package))))
     for reason in reasons:
         yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
-    if not reasons and package.kind is PackageKind.UNKNOWN:
+    if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
         # Beside packages with robots, one without may hold messages, maps or code.
         beside = any(other.kind is not PackageKind.UNKNOWN for other in package.other_packages)
         cause = Cause.NOT_APPLICABLE if beside else Cause.NOT_AT_HAND
@@ -37,7 +49,7 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
 
 
 def _was_read(subject: Subject) -> bool:
-    if not isinstance(subject.one(Robot), NotAvailable):
+    if not all(isinstance(subject.one(kind), NotAvailable) for kind in (Robot, MjcfModel)):
         return True
     simulations = subject.one(Simulations)
     launched = () if isinstance(simulations, NotAvailable) else simulations.launched

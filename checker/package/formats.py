@@ -73,7 +73,7 @@ def xml_suffixes() -> tuple[str, ...]:
 @cache
 def single_file_suffixes() -> tuple[str, ...]:
     """Return the ends of the names of files that can be checked alone."""
-    return (*model_suffixes(), ".xml")
+    return (*model_suffixes(), ".xml", ".mjcf")
 
 
 def is_checked_by_itself(name: str) -> bool:

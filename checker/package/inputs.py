@@ -22,13 +22,11 @@ from checker.package.no_package import (
     CHECKED_FORMATS,
     WHAT_TO_GIVE,
     content_of,
-    head_of,
     models_of,
     reason_not_checked,
 )
 from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
-from checker.package.unchecked_models import is_mjcf
 from checker.package.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -241,10 +239,6 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
 def _open_single(path: Path, file: Path) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
-    if is_mjcf(head_of(file)):
-        raise UnreadableInput(
-            path, "is a MuJoCo model (MJCF), which this version does not check", CHECKED_FORMATS
-        )
     beside = _siblings(file, None)
     workspace = Workspace(homes_of(beside, file.parent))
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from checker.base.errors import UnreadableInput
 from checker.package.formats import model_suffixes
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
+from checker.package.mjcf_files import mjcf_files
 from checker.package.model_file import own_model
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -34,10 +35,11 @@ IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 def looks_like_package(folder: Path) -> bool:
     """Return whether a folder contains one of the files that only a package has."""
-    return any(_is_file(folder / marker) for marker in MARKERS)
+    return any(is_file(folder / marker) for marker in MARKERS)
 
 
-def _is_file(path: Path) -> bool:
+def is_file(path: Path) -> bool:
+    """Return whether a file is there; False if its folder may not be read."""
     try:
         return path.is_file()
     except OSError:
@@ -76,7 +78,7 @@ class PackageKind(StrEnum):
     `ROBOT`: a submission with its own model (or that should have one). `CONFIGURATION`: a
     submission whose model is a sibling's. `PLUGIN`: libraries only. `BASE_MODEL`: a model that
     others build on, without a spawner. `URDF_DESCRIPTION`: URDF or xacro without an SDF model.
-    `WORLD`: a single file with a world.
+    `WORLD`: a single file with a world. `MUJOCO_MODEL`: MJCF without any other model.
     """
 
     ROBOT = "robot"
@@ -86,6 +88,7 @@ class PackageKind(StrEnum):
     URDF_DESCRIPTION = "urdf_description"
     SINGLE_FILE = "single_file"
     WORLD = "world"
+    MUJOCO_MODEL = "mujoco_model"
     UNKNOWN = "unknown"
 
 
@@ -96,7 +99,7 @@ def kind_of(package: Package) -> PackageKind:
     was forgotten; otherwise the missing file would excuse itself.
     """
     if package.only:
-        return PackageKind.WORLD if _holds_world(package) else PackageKind.SINGLE_FILE
+        return _kind_of_file(package)
     if package.base is not None:
         return PackageKind.CONFIGURATION
     submission = SUBMISSION_NAME.search(package.name) is not None
@@ -107,12 +110,21 @@ def kind_of(package: Package) -> PackageKind:
         return PackageKind.BASE_MODEL
     if package.index.with_suffix(".urdf", ".xacro"):
         return PackageKind.URDF_DESCRIPTION
+    return _kind_without_robot(package)
+
+
+def _kind_without_robot(package: Package) -> PackageKind:
+    if mjcf_files(package):
+        return PackageKind.MUJOCO_MODEL
     return PackageKind.PLUGIN if _carries_library(package) else PackageKind.UNKNOWN
 
 
-def _holds_world(package: Package) -> bool:
+def _kind_of_file(package: Package) -> PackageKind:
+    if mjcf_files(package):
+        return PackageKind.MUJOCO_MODEL
     document = package.xml(package.only)
-    return isinstance(document, XmlDocument) and document.root.child("world") is not None
+    holds_world = isinstance(document, XmlDocument) and document.root.child("world") is not None
+    return PackageKind.WORLD if holds_world else PackageKind.SINGLE_FILE
 
 
 def _carries_library(package: Package) -> bool:

@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 
 from checker.base.record import Record
-from checker.package.unchecked_models import HEAD, unchecked_models
+from checker.package.unchecked_models import unchecked_models
 
 _FILES_LIMIT = 5_000
 """Files that are read, by their names."""
@@ -17,7 +17,7 @@ _OTHER_ARCHIVES = (".zip", ".tar.gz", ".tgz", ".tar", ".tar.xz", ".tar.bz2", ".7
 _MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")
 _CAD = (".step", ".stp", ".iges", ".sldasm", ".sldprt", ".f3d", ".blend", ".fcstd", ".ipt", ".iam")
 _OTHER_MODELS = (".wbt", ".proto")
-CHECKED_FORMATS = "give the robot as URDF, xacro or SDF"
+CHECKED_FORMATS = "give the robot as URDF, xacro, SDF or MJCF"
 _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
     _OTHER_ARCHIVES: (
         "an archive that is not read",
@@ -53,7 +53,7 @@ class Instead(Record):
 
 def reason_not_checked(name: str) -> tuple[str, str]:
     """Return why a file that is neither archive nor model is not checked, and what to give."""
-    if found_models := unchecked_models([name], lambda _: ""):
+    if found_models := unchecked_models([name]):
         return found_models[0].removeprefix(f"{name} "), CHECKED_FORMATS
     found = _instead([name])
     if found is None:
@@ -70,18 +70,7 @@ def models_of(folder: Path, without: Collection[Path] = ()) -> str:
     """
     files = islice(_files(folder, without), _FILES_LIMIT)
     paths = (path.relative_to(folder).as_posix() for path in files)
-    return "; ".join(unchecked_models(paths, lambda path: head_of(folder / path)))
-
-
-def head_of(file: Path) -> str:
-    """Return the first characters of a file; empty if it is none or cannot be read."""
-    try:
-        if not file.is_file():
-            return ""
-        with file.open(encoding="utf-8", errors="replace") as opened:
-            return opened.read(HEAD)
-    except OSError:
-        return ""
+    return "; ".join(unchecked_models(paths))
 
 
 def content_of(folder: Path) -> Instead | None:

@@ -10,7 +10,14 @@ from pathlib import Path
 from checker.base.record import Record
 from checker.package.formats import is_checked_by_itself, model_suffixes
 from checker.package.inheritance import SPAWNER
-from checker.package.kind import IGNORED, MODEL_CONFIG, MODEL_MARKERS, looks_like_package
+from checker.package.kind import (
+    IGNORED,
+    MODEL_CONFIG,
+    MODEL_MARKERS,
+    is_file,
+    looks_like_package,
+)
+from checker.package.mjcf_files import holds_mjcf
 
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
@@ -88,7 +95,7 @@ class _Search:
         self.ignored: list[Path] = []
 
     def at(
-        self, folder: Path, *, inside: bool, depth: int, below_urdf: bool = False
+        self, folder: Path, *, inside: bool, depth: int, below_loose: bool = False
     ) -> Iterator[Unit]:
         """Yield a folder if it is a unit, and what it contains.
 
@@ -96,7 +103,8 @@ class _Search:
             folder: The folder to look into.
             inside: Whether it is in a ROS package.
             depth: Folders above it that were searched.
-            below_urdf: Whether it is in a loose folder of URDF files, to which its own then belong.
+            below_loose: Whether it is in a loose folder of URDF or MuJoCo files, to which its own
+                then belong.
         """
         self.folders += 1
         if self.folders > MAX_FOLDERS or depth > MAX_DEPTH:
@@ -109,16 +117,17 @@ class _Search:
         is_package = looks_like_package(folder)
         if is_package:
             yield Unit(folder)
-            if (folder / SPAWNER).is_file():
+            if is_file(folder / SPAWNER):
                 return
             if not MODEL_MARKERS.isdisjoint(files):
                 yield from self._below_config(folder, files, folders, depth)
                 return
         inside = inside or is_package
-        # Loose model files of URDF belong to the package around.
-        loose = [] if below_urdf else files
+        # Loose model files of URDF and MuJoCo belong to the package around.
+        loose = [] if below_loose else files
         holds_urdf = not inside and _holds_urdf(folder, loose, folders)
-        if holds_urdf:
+        is_loose = holds_urdf or (not inside and holds_mjcf(folder, loose))
+        if is_loose:
             yield Unit(folder)
         yield from (Unit(folder, name) for name in files if is_checked_by_itself(name))
         for name in folders:
@@ -127,7 +136,7 @@ class _Search:
                 folder / name,
                 inside=inside or is_part,
                 depth=depth + 1,
-                below_urdf=below_urdf or holds_urdf,
+                below_loose=below_loose or is_loose,
             )
 
     def _below_config(

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 SUBMISSION, ROS_1, ROS_2, MODEL, ANY_SDF = "subt", "urdf", "ros2", "gazebo-harmonic", "sdf"
+MUJOCO = "mujoco"
 _OF_ROS_2 = ("ament_", "rclcpp", "rclpy", "ros_gz", "rosidl_", "launch_ros", "ros2")
 """Beginnings of names of packages that only ROS 2 has."""
 _OF_SUBT = re.compile(r"(?<![a-z])subt(?![a-z]|-check)", re.IGNORECASE)
@@ -29,7 +30,8 @@ def usual_profile(package: Package) -> str:
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
     type or its dependencies. Another one that names SubT nowhere is of ROS 1, or a model for any
-    Gazebo. A model, a world or a single file is judged as the package around it is; without one,
+    Gazebo. A model of MuJoCo without a package is for MuJoCo, wherever it lies. Another model, a
+    world or a single file is judged as the package around it is; without one,
     it is Gazebo's, even where model.config names a URDF file, and other URDF is of ROS 2 or ROS 1
     by its content.
     """
@@ -38,6 +40,8 @@ def usual_profile(package: Package) -> str:
     manifest = None if package.only else package.xml("package.xml")
     if isinstance(manifest, XmlDocument):
         return _of_manifest(package, manifest)
+    if package.kind is PackageKind.MUJOCO_MODEL:
+        return MUJOCO
     around = _usual_around(package)
     if package.is_urdf and not package.exists("model.config"):
         by_content = around != SUBMISSION and is_described_for_ros_2(package)

@@ -55,12 +55,13 @@ _LEADS = {
 class Cause(enum.StrEnum):
     """Cause why a rule is not checked.
 
-    `NOT_AT_HAND` and `CRASHED` keep a package from being ready; what was switched off or is not
-    applicable does not.
+    `NOT_AT_HAND` and `CRASHED` keep a package from being ready; what was switched off, is not
+    applicable, or is in a format that is not supported beside a robot that was read, does not.
     """
 
     NOT_AT_HAND = "not_at_hand"
     NOT_APPLICABLE = "not_applicable"
+    NOT_SUPPORTED = "not_supported"
     SWITCHED_OFF = "switched_off"
     CRASHED = "crashed"
 

@@ -276,6 +276,9 @@ ROS2_MINIMAL: Mapping[str, str] = {
 }
 
 
+MJCF_NAME = "acme_arm"
+
+
 def model_with(fragment: str) -> str:
     """Return a model.sdf that contains a fragment where its first element belongs."""
     first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
@@ -325,6 +328,8 @@ def minimal_package(example: Example) -> ExamplePackage:
 
 def _base(changes: Mapping[str, Any]) -> tuple[str, dict[str, str | bytes | None]]:
     """Return the name and the files of the package that an example changes."""
+    if (mjcf := changes.get("@mjcf")) is not None:
+        return MJCF_NAME, {"arm.xml": f'<mujoco model="arm">\n{mjcf}\n</mujoco>\n'}
     if (bridge := changes.get("@bridge")) is not None:
         own = {} if bridge is True else {"config/bridge.yaml": bridge}
         launched = _changed(BRIDGE_MINIMAL[_LAUNCHED], changes.get("@launch", {}))

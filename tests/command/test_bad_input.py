@@ -69,46 +69,38 @@ def test_a_file_that_is_no_package(run: Run, tmp_path: Path, name: str) -> None:
     assert refused(run(name), f"{name} is not a package, archive or model file")
 
 
-MJCF = "<?xml version='1.0'?>\n<!-- an <sdf> no more -->\n<mujoco model='arm'><worldbody/></mujoco>"
-
-
-def test_models_of_mujoco_and_isaac_are_named(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "arm/scenes").mkdir(parents=True)
+def test_models_of_isaac_are_named(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "arm").mkdir()
     (tmp_path / "arm/part.stl").write_bytes(b"solid")
-    (tmp_path / "arm/scenes/arm.xml").write_text(MJCF)
-    unchecked = "which this version does not check; give the robot as URDF"
-    assert refused(run("arm"), f"no package; scenes/arm.xml is a MuJoCo model (MJCF), {unchecked}")
-    assert refused(run("arm/scenes/arm.xml"), f"arm.xml is a MuJoCo model (MJCF), {unchecked}")
     (tmp_path / "arm/arm.usda").write_text("#usda 1.0")
-    assert refused(run("arm"), "(MJCF), which this version does not check; arm.usda is a USD file")
+    unchecked = "which this version does not check; give the robot as URDF"
+    assert refused(run("arm"), f"no package; arm.usda is a USD file, {unchecked}")
     assert refused(run("arm/arm.usda"), f"arm.usda is a USD file, {unchecked}")
 
 
-def test_a_package_with_unchecked_models_is_incomplete(run: Run, rover: Path) -> None:
-    (rover / "arm.xml").write_text(MJCF)
+def test_models_of_other_formats_beside_a_robot_are_named(run: Run, rover: Path) -> None:
     for name in ("arm.usd", "lift.sdf.jinja", "model.sdf.erb"):
         (rover / name).write_text("")
-    shown = run(rover, "--output-format", "json").stdout
-    reasons = {each["reason"] for each in json.loads(shown)["packages"][0]["not_checked"]}
+    (package,) = json.loads(run(rover, "--output-format", "json").stdout)["packages"]
+    unsupported = [it for it in package["not_checked"] if it["cause"] == "not_supported"]
     unchecked = "which this version does not check"
-    assert {reason for reason in reasons if reason.endswith(unchecked)} == {
-        f"arm.xml is a MuJoCo model (MJCF), {unchecked}",
+    assert [each["reason"] for each in unsupported] == [
         f"arm.usd is a USD file, {unchecked}",
         f"lift.sdf.jinja is a template of a model, {unchecked}",
-    }
+    ]
 
 
-def test_models_beside_packages_are_named_and_nothing_is_incomplete(run: Run, rover: Path) -> None:
+def test_models_beside_packages_are_named(run: Run, rover: Path) -> None:
     (rover.parent / "demo/models").mkdir(parents=True)
     rover.rename(rover.parent / "demo/models/rover")
-    for name in ("arm.xml", "hand.xml"):
-        (rover.parent / f"demo/models/{name}").write_text(MJCF)
+    for name in ("arm.usd", "hand.usd"):
+        (rover.parent / f"demo/models/{name}").write_text("")
     report = json.loads(run(rover.parent, "--output-format", "json").stdout)
     (beside,) = report["not_opened"]
     assert beside["reason"].startswith(
-        "contains models outside its packages: demo/models/arm.xml and 1 more are MuJoCo models"
+        "contains models outside its packages: demo/models/arm.usd and 1 more are USD files"
     )
-    assert "MJCF" not in json.dumps(report["packages"][0]["not_checked"])
+    assert "USD" not in json.dumps(report["packages"][0]["not_checked"])
 
 
 def test_devices_and_pipes_are_not_read(run: Run, tmp_path: Path, rover: Path) -> None:

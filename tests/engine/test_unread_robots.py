@@ -46,7 +46,7 @@ def test_a_robot_that_was_read_is_missed_by_nobody(tmp_path: Path) -> None:
 def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
     report = checked(WITHOUT_ROBOT, tmp_path)
     assert report.verdict is VerdictKind.INCOMPLETE
-    assert "no robot was read: no URDF, xacro or SDF file" in str(sentence(report))
+    assert "no robot was read: no URDF, xacro, SDF or MJCF file" in str(sentence(report))
 
 
 def test_beside_a_package_with_a_robot_it_is(tmp_path: Path) -> None:

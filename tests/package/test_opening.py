@@ -186,7 +186,11 @@ def test_file_of_another_kind(write: Write, name: str) -> None:
         ("inner.zip", "an archive", "the package in it"),
         ("arm.STL", "a mesh", ".urdf, .xacro or .sdf"),
         ("arm.step", "a CAD file", "export the robot"),
-        ("arm.usda", "is a USD file, which this version does not check", "as URDF, xacro or SDF"),
+        (
+            "arm.usda",
+            "is a USD file, which this version does not check",
+            "as URDF, xacro, SDF or MJCF",
+        ),
     ],
 )
 def test_what_is_given_in_place_of_a_package(

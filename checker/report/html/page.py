@@ -39,6 +39,7 @@ SHOWN = 300
 _CAUSES = {
     Cause.CRASHED: "internal error",
     Cause.NOT_AT_HAND: "not available",
+    Cause.NOT_SUPPORTED: "not supported",
     Cause.SWITCHED_OFF: "switched off",
     Cause.NOT_APPLICABLE: "not applicable",
 }

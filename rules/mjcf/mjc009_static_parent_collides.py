@@ -1,0 +1,52 @@
+"""A body that touches its own fixed base.
+
+MuJoCo leaves out contacts between a body and its parent, but **not if the parent is welded to the
+world**: the base of an arm on the floor collides with its first link. The contact pushes from the
+first step on, or stops the joint on its way.
+
+Fix: add `<contact><exclude body1="BASE" body2="LINK"/></contact>`.
+Source: MuJoCo 4.0.0, tried; documentation, Computation, "Collision detection".
+"""
+
+from checker.physics.compiled.model import CompiledModel
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_DEPTH = 0.001
+
+
+@rule("MJC009", "static-parent-collides", Severity.WARNING, Concern.ROBOT)
+def check(model: CompiledModel, *, depth: float = _DEPTH) -> Findings:
+    """Report bodies that overlap their parent at the start, where the parent cannot move.
+
+    Options:
+        depth: Metres by which they overlap.
+    """
+    compiled = model.compiled
+    found: dict[tuple[int, int], float] = {}
+    for contact in () if model.lacks_files else compiled.contacts:
+        first, second = (compiled.geoms[geom].body for geom in contact.geoms)
+        for parent, child in ((first, second), (second, first)):
+            of_child = compiled.bodies[compiled.bodies[child].welded].parent
+            is_base = compiled.bodies[parent].welded == 0 and parent != 0
+            if is_base and of_child == parent and contact.distance < -depth:
+                found[parent, child] = min(contact.distance, found.get((parent, child), 0.0))
+    for (parent, child), distance in found.items():
+        base, link = compiled.bodies[parent], compiled.bodies[child]
+        yield finding(
+            model.span(link.line),
+            f"body {link.name!r} overlaps its base {base.name!r} by {-distance * 1000:.3g} mm at "
+            f"the start, and MuJoCo makes contacts with a parent that is welded to the world: "
+            f'write <exclude body1="{base.name}" body2="{link.name}"/>',
+        )
+
+
+def _arm(exclude: str = "", mark: str = "") -> dict[str, str]:
+    return {
+        "@mjcf": f"""<worldbody><body name="base"><geom size="0.1"/>
+<body name="link" pos="0 0 0.15">{mark}
+<joint axis="0 1 0"/><geom size="0.1"/></body></body></worldbody>{exclude}"""
+    }
+
+
+GOOD = [_arm('<contact><exclude body1="base" body2="link"/></contact>')]
+BAD = [_arm(mark="<!-- ^ MJC009 -->")]

@@ -1,0 +1,107 @@
+"""A left part that is not the mirror image of the right one.
+
+In a model whose left and right bodies lie at mirrored places, the ranges and masses of twins are
+compared. A mirrored hinge keeps its range if its axis is mirrored as an axis of rotation is, and
+else has it negated and exchanged; a slide keeps it if its axis is mirrored. What differs is often a
+sign or a class that was copied to one side only: the robot reaches further on one side, or leans.
+
+Fix: correct the side that is wrong.
+Source: six public models whose authors mended such faults.
+"""
+
+import math
+
+from checker.physics.compiled.model import Compiled, CompiledModel, Joint
+from checker.physics.compiled.twins import Twins, joint_pairs, twins_of
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_RANGE = 0.1
+_MASS = 0.02
+_ALONG = 0.99
+
+
+@rule("MJC012", "sides-differ", Severity.WARNING, Concern.ROBOT)
+def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
+    """Report twin joints whose ranges, and twin bodies whose masses, do not mirror.
+
+    Options:
+        angle: Radians, or metres, by which the bounds of twins may differ.
+    """
+    twins = twins_of(model.compiled)
+    if twins is None:
+        return
+    for left, right in joint_pairs(model.compiled, twins):
+        if _may_differ(model.compiled, left, right):
+            continue
+        expected = _mirrored_range(left, right, twins.axis)
+        if expected is None or left.limited is not right.limited:
+            continue
+        off = max(abs(one - other) for one, other in zip(expected, right.range, strict=True))
+        if left.limited and off > angle:
+            yield _ranges(model, left, right, expected)
+    if not model.lacks_files:
+        yield from _masses(model, twins, {it.body for it in model.compiled.joints})
+
+
+def _may_differ(compiled: Compiled, left: Joint, right: Joint) -> bool:
+    """Return whether two joints are fingers of one gripper: slides of one parent."""
+    parents = [compiled.bodies[joint.body].parent for joint in (left, right)]
+    return left.type != right.type or (left.type == "slide" and parents[0] == parents[1])
+
+
+def _mirrored_range(left: Joint, right: Joint, axis: int) -> tuple[float, float] | None:
+    """Return the range of the right joint that mirrors the left one; None if axes differ."""
+    sign = -1 if left.type == "hinge" else 1
+    image = [sign * (-it if at == axis else it) for at, it in enumerate(left.axis)]
+    along = sum(one * other for one, other in zip(image, right.axis, strict=True))
+    if left.type not in ("hinge", "slide") or abs(along) < _ALONG:
+        return None
+    low, high = left.range
+    return (low, high) if along > 0 else (0.0 - high, 0.0 - low)
+
+
+def _ranges(
+    model: CompiledModel, left: Joint, right: Joint, expected: tuple[float, float]
+) -> Finding:
+    return finding(
+        model.span(right.line),
+        f"range of joint {right.name!r} is {_shown(right, right.range)}, but its twin "
+        f"{left.name!r} mirrored would give {_shown(right, expected)}",
+        related=[(model.span(left.line), "its twin")],
+    )
+
+
+def _shown(joint: Joint, bounds: tuple[float, float]) -> str:
+    if joint.type == "slide":
+        return f"{bounds[0]:.3g} to {bounds[1]:.3g} m"
+    return f"{math.degrees(bounds[0]):.4g}° to {math.degrees(bounds[1]):.4g}°"
+
+
+def _masses(model: CompiledModel, twins: Twins, jointed: set[int]) -> Findings:
+    for left, right in twins.bodies:
+        one, other = model.compiled.bodies[left], model.compiled.bodies[right]
+        if not {left, right} <= jointed or abs(one.mass - other.mass) <= _MASS * one.mass:
+            continue
+        yield finding(
+            model.span(other.line),
+            f"body {other.name!r} has {other.mass:.4g} kg, its twin {one.name!r} {one.mass:.4g} kg",
+            related=[(model.span(one.line), "its twin")],
+        )
+
+
+def _walker(bounds: str, mark: str = "") -> dict[str, str]:
+    def leg(side: str, y: float, bounds: str, mark: str) -> str:
+        return (
+            f'<body name="{side}_leg" pos="0 {y} 0"><joint name="{side}_hip" axis="1 0 0" '
+            f'range="{bounds}"/>{mark}\n<geom size="0.1"/><body name="{side}_foot" pos="0 0 -1">'
+            f'<joint name="{side}_ankle" axis="0 1 0" range="-20 20"/><geom size="0.1"/></body>'
+            "</body>\n"
+        )
+
+    legs = leg("left", 0.2, "-10 40", "") + leg("right", -0.2, bounds, mark)
+    torso = f'<body name="torso"><freejoint/><geom size="0.2"/>{legs}</body>'
+    return {"@mjcf": f"<worldbody>{torso}</worldbody>"}
+
+
+GOOD = [_walker("-40 10")]
+BAD = [_walker("-10 40", "<!-- ^ MJC012 -->")]

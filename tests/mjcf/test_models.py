@@ -1,0 +1,94 @@
+"""Models of MuJoCo: which files are one, what is read of them, and where findings stand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from checker.pipeline import check_package
+from checker.report.report import Report, VerdictKind
+from checker.settings import Settings
+
+ARM = "<worldbody><body name='arm'><joint name='tilt'{}/><geom size='0.1'/></body></worldbody>"
+TWISTED = ARM.format(" range='90 -90'")
+
+
+def checked(folder: Path, files: Mapping[str, str], given: str = "") -> Report:
+    for path, text in files.items():
+        place = folder / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text, encoding="utf-8")
+    return check_package(folder / given, Settings(display=False))
+
+
+def places(report: Report) -> list[str]:
+    return [
+        f"{finding.rule} {package.name} {place.file}:{place.line}"
+        for package in report.packages
+        for finding in package.findings
+        for place in finding.places
+    ]
+
+
+def test_a_folder_of_models_is_a_unit_and_so_is_each_folder_beside(tmp_path: Path) -> None:
+    model = f"<mujoco>{ARM.format('')}</mujoco>"
+    files = dict.fromkeys(("a/arm.xml", "a/parts/hand.xml", "b/arm.xml"), model)
+    report = checked(tmp_path, {**files, "b/note.xml": "<n/>"})
+    assert [package.name for package in report.packages] == ["a", "b"]
+    assert {package.kind for package in report.packages} == {"mujoco_model"}
+    assert {package.verdict for package in report.packages} == {VerdictKind.READY}
+
+
+def test_a_robot_in_two_scenes_is_reported_once_at_its_own_line(tmp_path: Path) -> None:
+    scene = "<mujoco>\n<worldbody><geom type='plane' size='1 1 1'/></worldbody>\n{}</mujoco>"
+    include = "<include file='arm.xml'/>\n"
+    files = {
+        "arm.xml": f"<mujoco>\n{TWISTED}</mujoco>",
+        "one.xml": scene.format(include),
+        "two.xml": scene.format(include),
+    }
+    report = checked(tmp_path / "arm", files)
+    assert places(report) == ["MJC004 arm arm.xml:2"]
+
+
+def test_one_run_shows_all_that_mujoco_refuses(tmp_path: Path) -> None:
+    motor = "<actuator>\n<motor joint='tilted'/>\n</actuator>"
+    text = f"<mujoco>\n<option apirate='1'/>\n{TWISTED}\n{motor}</mujoco>"
+    report = checked(tmp_path / "arm", {"arm.xml": text})
+    found = ["MJC001 arm arm.xml:2", "MJC001 arm arm.xml:5", "MJC004 arm arm.xml:3"]
+    assert sorted(places(report)) == found
+
+
+def test_an_attached_model_brings_its_own_places(tmp_path: Path) -> None:
+    files = {
+        "scene.xml": "<mujoco><asset><model name='m' file='hand/hand.xml'/></asset><worldbody>\n"
+        "<frame><attach model='m' body='hand' prefix='h_'/></frame></worldbody></mujoco>",
+        "hand/hand.xml": "<mujoco>\n<worldbody><body name='hand'>\n<joint armature='1' "
+        "range='-200 200'/><geom size='0.1'/></body></worldbody></mujoco>",
+    }
+    report = checked(tmp_path / "hands", files)
+    assert report.packages[0].verdict is VerdictKind.READY
+    assert not places(report)
+
+
+def test_a_missing_mesh_leaves_the_rest_judged(tmp_path: Path) -> None:
+    text = (
+        "<mujoco>\n<asset><mesh name='m' file='gone.stl'/></asset>\n<worldbody><body>\n"
+        "<joint range='1 -1'/><geom type='mesh' mesh='m'/></body></worldbody></mujoco>"
+    )
+    report = checked(tmp_path / "arm", {"arm.xml": text})
+    assert sorted(places(report)) == ["MJC002 arm arm.xml:2", "MJC004 arm arm.xml:4"]
+    (unseen,) = [it for it in report.packages[0].blind_spots if it.rule == "MJC007"]
+    assert "gone.stl is missing" in unseen.reason
+
+
+def test_includes_in_a_circle_and_out_of_the_folder_are_findings(tmp_path: Path) -> None:
+    outside = tmp_path / "secret.xml"
+    outside.write_text("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
+    files = {
+        "a.xml": f"<mujoco><include file='b.xml'/><include file='{outside}'/></mujoco>",
+        "b.xml": "<mujoco><include file='a.xml'/><worldbody><geom size='1'/></worldbody></mujoco>",
+    }
+    report = checked(tmp_path / "arm", files, "a.xml")
+    assert sorted({place.split()[0] for place in places(report)}) == ["MJC002"]
+    assert not any("secret.xml:" in place for place in places(report))
