@@ -9,25 +9,31 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
 from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import checker
-from checker import *  # noqa: F403 - for type checkers, to which the line at the end says nothing
+
+if TYPE_CHECKING:  # to type checkers, the line at the end says nothing
+    from checker import *  # noqa: F403
 
 
-class _Alias(MetaPathFinder, Loader):
-    """Finds the modules of `checker` and `rules` by their other names."""
+class _Alias:
+    """Finds and loads the modules of `checker` and `rules` by their other names."""
 
     def find_spec(
         self, name: str, _path: Sequence[str] | None = None, _target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Return a spec of what is there by its own name."""
         if name.startswith(f"{__name__}.") and find_spec(_own_name(name)) is not None:
-            return ModuleSpec(name, self)
+            loader: Any = self  # not of the abstract class, which takes 20 ms to load
+            return ModuleSpec(name, loader)
         return None
+
+    def create_module(self, _spec: ModuleSpec) -> None:
+        """Let an empty one be made."""
 
     def exec_module(self, module: ModuleType) -> None:
         """Put the module that is meant in the place of an empty one."""

@@ -13,7 +13,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -23,8 +24,11 @@ from checker.package.inputs import open_input
 from checker.settings import Settings
 
 ROOT = Path(__file__).parent.parent
+SAMPLE = ROOT / "samples/acme_scout"
 STILL = Settings(trial=False)
 COMMAND = [sys.executable, "-m", "checker.cli"]
+_VERSION = "import subt_check.cli as cli; cli.main(['--version'])"
+_TURNS = 11
 LIMITS = {
     "a package, within a process": 0.15,
     "a package, cold process": 0.5,
@@ -101,6 +105,34 @@ def findings(path: Path) -> object:
         return findings_of(opened.packages[0], STILL, Cache(cache_folder()))
 
 
+def cold_starts() -> None:
+    """Measure processes in turn, and print each as a multiple of `python -c pass`."""
+    check = [*COMMAND, str(SAMPLE), "--no-trial"]
+    with tempfile.TemporaryDirectory() as kept:
+        actions = {
+            "python -c pass": ([sys.executable, "-c", "pass"], ""),
+            "--version": ([*COMMAND, "--version"], ""),
+            "--version, by subt_check": ([sys.executable, "-c", _VERSION], ""),
+            "first check, empty cache": (check, ""),
+            "the same, no cache": ([*check, "--no-cache"], ""),
+            "the same again": (check, kept),
+        }
+        times: dict[str, list[float]] = {name: [] for name in actions}
+        for _ in range(1 + _TURNS):
+            for name, (command, cache) in actions.items():
+                times[name].append(seconds_of(command, cache))
+    medians = {name: statistics.median(each[1:]) for name, each in times.items()}
+    for name, value in medians.items():
+        print(f"{name:<32} {value:8.3f} s {value / medians['python -c pass']:7.1f} ×")
+
+
+def seconds_of(command: Sequence[str], cache: str) -> float:
+    """Return the seconds that a command takes with a cache, a new one if none is named."""
+    with tempfile.TemporaryDirectory() as new:
+        run = partial(subprocess.run, cwd=ROOT, capture_output=True, check=False)
+        return seconds(lambda: run(command, env=os.environ | {"SUBT_CHECK_CACHE": cache or new}), 1)
+
+
 def measure(packages: list[Path]) -> None:
     """Measure and print everything, with its own cache."""
     for path in packages:
@@ -111,6 +143,7 @@ def measure(packages: list[Path]) -> None:
     alone_times = [seconds(cold(str(path), "--no-trial"), 1) for path in packages]
     show("a package, cold process", statistics.median(alone_times))
     show("--help", seconds(cold("--help")))
+    cold_starts()
     with tempfile.TemporaryDirectory() as folder:
         times = {}
         for links in (500, 1000, 2000, 4000):

@@ -63,3 +63,14 @@ def test_type_checkers_see_the_same_names(tmp_path: Path) -> None:
 def test_another_name_is_no_part_of_the_api() -> None:
     with pytest.raises(AttributeError, match="no attribute 'chekc'"):
         checker.chekc  # noqa: B018 - the look-up is what is tested
+
+
+def test_the_command_loads_no_reader_before_it_needs_one() -> None:
+    """`--version` and `--help` of an installed checkout take no longer than Python itself."""
+    code = (
+        "import sys, subt_check.cli; print(*{'lxml', 'msgspec', 'importlib.abc'} & {*sys.modules})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "\n", "")
