@@ -9,8 +9,10 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator
+from itertools import chain
 
 from checker.base.record import Record
+from checker.package.files_above import files_above
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 from checker.source.xml import XmlDocument
@@ -28,6 +30,12 @@ _TEXTS = (
     *(".launch", ".yaml", ".yml", ".json", ".toml", ".cmake", "file"),
 )
 """Ends of the names of documents, scripts, and files such as `Dockerfile` and `Makefile`."""
+_ENVIRONMENT = re.compile(
+    r"\A(?:\.\./)+(?:\.devcontainer/)?"
+    r"(?:pixi\.toml|pyproject\.toml|\.envrc|[\w.-]*\.(?:env|sh|bash)"
+    r"|[\w.-]*dockerfile[\w.-]*|(?:docker-)?compose[\w.-]*\.ya?ml|devcontainer\.json)\Z"
+)
+"""Paths in lower case of files around a package that set variables of the environment."""
 _ADDS = ("prepend-non-duplicate", "append-non-duplicate", "prepend-non-duplicate-if-exists", "set")
 _IN_SHELL = re.compile(
     r"(?:\$\{?(?:AMENT|COLCON)_CURRENT_PREFIX\}?|@CMAKE_INSTALL_PREFIX@)/([^\s:;\"']{1,300})"
@@ -135,13 +143,15 @@ def _share_folders(attribute: Located[str], name: str) -> Iterator[SearchedFolde
 def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
     """Yield where the texts of a package name the path, except its hooks.
 
-    Launch files set it; documents, scripts and container files tell users to do so.
+    Launch files set it; documents, scripts and container files tell users to do so. So do files
+    around the package that set the environment of a workspace.
     """
     known = frozenset(hooks(package))
-    for file in package.index.with_suffix(*_TEXTS):
-        if file.path not in known and isinstance(source := package.read(file.path), SourceText):
-            for match in _variables(classic).finditer(source.text):
-                yield Span(source, *match.span())
+    files = (it.path for it in package.index.with_suffix(*_TEXTS) if it.path not in known)
+    own = (source for source in map(package.read, files) if isinstance(source, SourceText))
+    for source in chain(own, *files_above(package, _ENVIRONMENT)):
+        for match in _variables(classic).finditer(source.text):
+            yield Span(source, *match.span())
 
 
 def plugin_folders(package: Package) -> frozenset[str] | None:

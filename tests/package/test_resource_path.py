@@ -73,3 +73,15 @@ def test_exports(write: Write, path: str, expected: list[tuple[str | None, bool]
     with open_input(folder) as opened:
         found = [*searched_folders(opened.packages[0])]
     assert [(each.folder, each.known) for each in found] == expected
+
+
+def test_files_around_a_package_that_set_the_environment_are_mentions(write: Write) -> None:
+    texts = {
+        "pixi.toml": 'GZ_SIM_RESOURCE_PATH = "install/crane/share"',
+        "notes.md": "GZ_SIM_RESOURCE_PATH",
+    }
+    top = write({"src/crane/package.xml": PLAIN["package.xml"], **texts})
+    with open_input(top) as opened:
+        (package,) = opened.packages
+        files = [span.source.file for span in mentions(package)]
+    assert files == ["../../pixi.toml"]
