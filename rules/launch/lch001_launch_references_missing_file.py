@@ -14,10 +14,12 @@ Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist rais
 ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 """
 
+import posixpath
 from collections.abc import Iterator
 
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import (
+    NamedPath,
     is_missing,
     lies_elsewhere,
     may_be_installed,
@@ -33,9 +35,14 @@ _DATA = (".yaml", ".yml", ".world", ".sdf")
 
 @rule("LCH001", "launch-references-missing-file", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
-    """Report files in share folders of available packages that are not there."""
-    for graph in launch.entries:
-        for named in named_paths(graph):
+    """Report files in share folders of available packages that are not there.
+
+    What one node needs is as severe where another names it that does not start by default.
+    """
+    graphs = [(graph, [*named_paths(graph)]) for graph in launch.entries]
+    needed = {str(named.path) for _, paths in graphs for named in paths if named.needed}
+    for graph, paths in graphs:
+        for named in paths:
             is_data = named.needed and named.path.path.endswith(_DATA)
             if is_data and (why := unavailable(package, named.path.package)):
                 yield unchecked(f"{named.path} is not read: {why}")
@@ -48,15 +55,26 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
             else:
                 what = "the included file" if named.include else "the file"
                 found = lies_elsewhere(package, named.path)
-                hint = f": {found} is not installed there" if found else ""
+                hint = f": {found} is not installed there" if found else _others(package, named)
                 ignored = ignored_by(package, named.path.path)
                 kept_out = f": {ignored} keeps it out of the repository" if ignored else ""
                 yield finding(
                     named,
                     f"{what} {named.path} does not exist{hint or kept_out}",
-                    severity=None if named.needed and not ignored else Severity.WARNING,
+                    severity=None
+                    if str(named.path) in needed and not ignored
+                    else Severity.WARNING,
                 )
         yield from _empty_paths(graph)
+
+
+def _others(package: Package, named: NamedPath) -> str:
+    """Return the end of a message with the file of that kind that the folder has alone."""
+    folder, suffix = posixpath.dirname(named.path.path), posixpath.splitext(named.path.path)[1]
+    holder = package.named(named.path.package)
+    files = holder.index.with_suffix(suffix) if holder is not None else ()
+    there = [it.path for it in files if posixpath.dirname(it.path) == folder]
+    return f"; {folder} has {posixpath.basename(there[0])}" if len(there) == 1 else ""
 
 
 def _empty_paths(graph: LaunchGraph) -> Iterator[Finding]:
@@ -79,6 +97,9 @@ _WORLD = """        IncludeLaunchDescription(PathJoinSubstitution([
             FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
                 'gz_args': ['-r ', in_package('worlds', 'hall.sdf')]}.items()),"""
 
+_WHEN = """
+        Node(package='p', executable='f', condition=IfCondition('false'), parameters=[
+            in_package('config', 'arms.yaml')]),  # ^ LCH001"""
 _MOVEIT = """from launch import LaunchDescription
 from launch_ros.actions import Node
 from moveit_configs_utils import MoveItConfigsBuilder
@@ -132,6 +153,7 @@ BAD = [
     },
     {"@ros2": f"{_WORLD}  # ^ LCH001"},
     {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001")},
+    {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001") + _WHEN},
     {
         "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
             in_package('launch', 'view.launch.py'))),  # ^ LCH001"""
