@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from checker.base.words import count
 from checker.editor.session import State
+from checker.engine.real_paths import with_real_paths
 from checker.engine.review import what_is_unread
 from checker.finding import Severity
 from checker.report.report import NO_TRIAL, Cause, NotChecked, PackageReport
@@ -56,7 +57,7 @@ def _report_of(state: State) -> PackageReport | None:
         package.name,
         str(package.root),
         str(package.kind),
-        state.findings,
+        tuple(with_real_paths(package, state.findings)),
         tuple(not_checked),
         suppressed=checked.outcome.suppressed,
     )
