@@ -1,7 +1,8 @@
 """A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine. Thumbnails are not needed there: they are infos.
+only on the author's machine. Thumbnails are not needed there: they are infos. A setup.py
+that computes its `data_files` is not checked; if it names each folder, that is only an info.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
 for each folder with the files in it: `glob("launch/*")` does not include files in subfolders.
@@ -13,6 +14,8 @@ import re
 from collections.abc import Iterator, Sequence
 from fnmatch import fnmatch
 from itertools import islice
+
+from msgspec.structs import replace
 
 from checker.finding import Fix
 from checker.package.installed import USUAL_FOLDERS
@@ -91,7 +94,10 @@ def _by_setup(package: Package) -> Findings:
     if setup is None:
         return
     if not setup.complete:
-        yield unchecked("data_files of setup.py is computed, so what is installed is not known")
+        text = setup.span.source.text
+        named = all(folder in text for folder in _filled_folders(package))
+        reason = "data_files of setup.py is computed, so what is installed is not known"
+        yield replace(unchecked(reason), severity=Severity.INFO if named else None)
         return
     origins = {origin for _, origin in package.installed}
     for folder in _filled_folders(package):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.settings import find_settings
 
@@ -41,3 +42,20 @@ def test_a_file_of_that_name_is_not_missing(tmp_path: Path, name: str, *, found:
     (report,) = check_package(package, settings).packages
     assert any(each.rule == "LCH001" for each in report.findings) is found
     assert any(each.rule == "LCH001" for each in report.not_checked) is not found
+
+
+@pytest.mark.parametrize(
+    ("named", "severity"), [("launch", Severity.INFO), ("lib", Severity.ERROR)]
+)
+def test_a_setup_that_names_each_folder_leaves_only_an_info_unchecked(
+    tmp_path: Path, named: str, severity: Severity
+) -> None:
+    package = tmp_path / "yard"
+    (package / "launch").mkdir(parents=True)
+    (package / "launch/yard.launch.py").write_text(LAUNCH)
+    (package / "package.xml").write_text(MANIFEST)
+    (package / "setup.py").write_text(SETUP.replace("src", named))
+    settings = find_settings([package]).with_overrides(trial=False, cache=False)
+    (report,) = check_package(package, settings).packages
+    (left,) = (each for each in report.not_checked if each.rule == "PKG008")
+    assert left.severity is severity
