@@ -245,7 +245,7 @@ class Package(Record, eq=False, dict=True):
     def _resolve_in_sibling(self, normal: str) -> FileEntry | None:
         name, _, rest = normal.removeprefix("../").partition("/")
         if name == "..":
-            return None
+            return self._resolve_beside(normal)
         if name == self.root.name and not self.only:
             return self.resolve(rest)
         sibling = self.workspace.package(name)

@@ -16,7 +16,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from checker.base.resources import table
+from checker.base.resources import table, version_of
 from checker.base.words import Suggestions
 from checker.physics.compiled.model import CompiledModel, CompiledModels, Refusal
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -36,8 +36,13 @@ def check(compiled: CompiledModels) -> Findings:
     for model in compiled.models:
         for refusal in model.compiled.refusals:
             element = _element(model, refusal)
-            message = f"MuJoCo refuses the model: {_message(refusal, element)}"
-            yield finding(_place(refusal, element, model), message, covered_by=("MJC002",))
+            fault = _message(refusal, element)
+            yield finding(
+                _place(refusal, element, model),
+                f"MuJoCo {version_of('mujoco')} refuses {model.model.file}: {fault}",
+                key=fault,
+                covered_by=("MJC002",),
+            )
     for reason in compiled.missing:
         yield unchecked(reason)
 

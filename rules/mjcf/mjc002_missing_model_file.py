@@ -29,13 +29,13 @@ def check(package: Package, model: MjcfModel) -> Findings:
         if not file.path:
             yield finding(
                 file.uri,
-                f"MuJoCo cannot load the model: {_message(package, model, file)}",
+                f"MuJoCo cannot load {model.file}: {_message(package, model, file)}",
                 key=f"{file.element.tag} {posixpath.dirname(file.tried[0])}",
                 fix=_fix(package, file),
             )
     for element in model.repeated:
         uri = element.get("file")
-        yield finding(element, f"MuJoCo cannot load the model: {uri} is included twice")
+        yield finding(element, f"MuJoCo cannot load {model.file}: {uri} is included twice")
 
 
 def _message(package: Package, model: MjcfModel, file: NamedFile) -> str:
@@ -73,7 +73,7 @@ def _near(package: Package, file: NamedFile) -> str:
     }
     wanted = posixpath.basename(file.tried[0])
     found = names.get(wanted) or names.get(Suggestions(names).correction(wanted) or "")
-    return posixpath.relpath(found, folder or ".") if found else ""
+    return posixpath.relpath(f"/{found}", f"/{folder}") if found and ".." not in folder else ""
 
 
 def _fix(package: Package, file: NamedFile) -> Fix | None:

@@ -8,6 +8,7 @@ Source: faults that authors of public models mended.
 """
 
 import re
+from collections import Counter
 
 from checker.physics.compiled.model import CompiledModel
 from checker.rule import Concern, Findings, Severity, finding, rename, rule
@@ -16,16 +17,19 @@ _AFFIX = re.compile(
     r"^(?:motor|act(?:uator)?|servo|m)_|_(?:motor|act(?:uator)?|servo|joint|ctrl|m)$"
 )
 
+_COPIES = 2
+"""Actuators of the joint; with one, its name may be that of what it drives over a gear."""
+
 
 @rule("MJC010", "actuator-on-other-joint", Severity.ERROR, Concern.ROBOT)
 def check(model: CompiledModel) -> Findings:
     """Report actuators named after a joint that has none."""
     compiled = model.compiled
     joints = {_bare(it.name): number for number, it in enumerate(compiled.joints) if it.name}
-    driven = {actuator.joint for actuator in compiled.actuators}
+    driven = Counter(actuator.joint for actuator in compiled.actuators)
     for actuator in compiled.actuators:
         meant = joints.get(_bare(actuator.name), -1)
-        if actuator.joint < 0 or meant in driven | {-1}:
+        if actuator.joint < 0 or meant < 0 or driven[meant] or driven[actuator.joint] < _COPIES:
             continue
         moved, named = compiled.joints[actuator.joint], compiled.joints[meant]
         element = model.element(actuator.line)

@@ -190,6 +190,8 @@ def compiled_models(models: tuple[MjcfModel, ...], cache: Cache, stages: Stages)
     missing: list[str] = []
     with stages.stage("mujoco", "compiling models in MuJoCo"):
         for model in models:
+            if not model.is_whole:
+                continue  # what is missing is a finding
             compiled = _compiled(model, cache)
             if isinstance(compiled, str):
                 missing.append(f"{model.file}: {compiled}")
@@ -204,13 +206,12 @@ def each_compiled(models: CompiledModels) -> tuple[CompiledModel, ...] | NotAvai
     accepted = tuple(each for each in models.models if each.compiled.bodies)
     if accepted:
         return accepted
-    refused = next(iter(models.models), None)
-    return NotAvailable(f"MuJoCo refuses {refused.model.file}" if refused else models.missing[0])
+    refused = next((f"MuJoCo refuses {it.model.file}" for it in models.models), "")
+    absent = "a file that the model includes cannot be read"
+    return NotAvailable(next(filter(None, (refused, *models.missing)), absent))
 
 
 def _compiled(model: MjcfModel, cache: Cache) -> CompiledModel | str:
-    if not model.is_whole:
-        return "a file that it includes cannot be read"
     text = mujoco_text(model)
     if text.obstacle:
         return text.obstacle

@@ -54,7 +54,7 @@ def _compiled(item: Mapping[str, Any], files: Files) -> dict[str, Any]:
     text, refusals = item["text"], list[dict[str, Any]]()
     while len(refusals) < _REFUSALS_LIMIT:
         try:
-            spec = mujoco.MjSpec.from_string(text, include=attached, assets=assets)
+            spec = mujoco.MjSpec.from_string(text, include=attached | assets, assets=assets)
             model = spec.compile()
         except (ValueError, mujoco.FatalError) as refusal:
             refused = str(refusal)
@@ -120,7 +120,9 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
         ],
         "joints": [_joint(model, data, i, lines) for i in range(model.njnt)],
         "geoms": [_geom(model, i, lines["geoms"]) for i in range(model.ngeom)],
-        "actuators": [_actuator(model, i, lines["actuators"]) for i in range(model.nu)],
+        "actuators": [
+            _actuator(model, i, lines["actuators"]) for i in range(len(model.actuator_trntype))
+        ],
     }
 
 
