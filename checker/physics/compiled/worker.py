@@ -110,6 +110,8 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
         "actuators": spec.actuators,
     }
     lines = {kind: {it.id: _line(it) for it in elements} for kind, elements in parts.items()}
+    # Some actuators have several controls: `nu` is not their number.
+    actuators = range(len(model.actuator_trntype))
     return {
         "sizes": {"nq": model.nq, "nv": model.nv, "nu": model.nu, "na": model.na},
         "timestep": float(model.opt.timestep),
