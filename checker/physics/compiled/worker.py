@@ -122,9 +122,7 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
         ],
         "joints": [_joint(model, data, i, lines) for i in range(model.njnt)],
         "geoms": [_geom(model, i, lines["geoms"]) for i in range(model.ngeom)],
-        "actuators": [
-            _actuator(model, i, lines["actuators"]) for i in range(len(model.actuator_trntype))
-        ],
+        "actuators": [_actuator(model, i, lines["actuators"]) for i in actuators],
     }
 
 
