@@ -15,6 +15,7 @@ from checker.finding import Place, Severity
 from checker.model.components import Collision, Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
+from checker.physics.compiled.model import CompiledModel
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
@@ -202,7 +203,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     """
     robots = subject.all(Robot)
     if isinstance(robots, NotAvailable):
-        return ()
+        return tuple(map(_mujoco_facts, subject.cached_parts(CompiledModel)[:ROBOTS_LIMIT]))
     weighed, driven = subject.cached_parts(MassProperties), subject.cached_parts(RobotTrial)
     facts = [
         dict(
@@ -225,6 +226,22 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     for known, robot in zip(facts, robots, strict=False):
         known.update(_arguments(subject, robot))
     return tuple(facts)
+
+
+def _mujoco_facts(model: CompiledModel) -> dict[str, Any]:
+    """Return the figures of a model of MuJoCo; the world is no body of it."""
+    compiled = model.compiled
+    known: dict[str, Any] = {
+        "robot": (model.model.document.root.get("model") or model.model.file)[:200],
+        "file": model.model.file,
+        "links": len(compiled.bodies) - 1,
+        "joints": len(compiled.joints),
+        "actuators": len(compiled.actuators),
+    }
+    if not model.lacks_files:
+        known["mass_kg"] = sum(body.mass for body in compiled.bodies)
+        known["simulated_s"] = compiled.time
+    return dict(_finite(known))
 
 
 def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:

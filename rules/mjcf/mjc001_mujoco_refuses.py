@@ -6,7 +6,8 @@ is judged without that attribute.
 
 Attributes that MuJoCo has removed are the most common cause in older models: `collision` of
 `<option>` (3.0.0), `apirate` (3.3.7), `convexhull` of `<compiler>` (3.2.5), and
-`coordinate="global"` (2.3.4).
+`coordinate="global"` (2.3.4). Where requirements or a README state an earlier version, which may
+read what this one refuses, it is a warning.
 
 Fix: correct what the message names.
 Source: MuJoCo 4.0.0, which compiles the model; its change log.
@@ -18,6 +19,8 @@ from typing import Any
 
 from checker.base.resources import table, version_of
 from checker.base.words import Suggestions
+from checker.package.mujoco_sign import mujoco_sign, numbers_of
+from checker.package.package import Package
 from checker.physics.compiled.model import CompiledModel, CompiledModels, Refusal
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
@@ -28,18 +31,32 @@ _KEY = re.compile(r"^Error: (?:keyframe|invalid q)")
 _TAIL = re.compile(r"\n?Element (?:name )?'.*", re.DOTALL)
 _HEAD = re.compile(r"^(?:XML )?Error: (?:Schema \w+: )?")
 _ID = re.compile(r"\bid = ?(\d+)|\bid (\d+)")
+_BY_VERSION = re.compile(
+    r"unrecognized|invalid keyword|engine error|no longer|plugin \S+ not found|Lengthrange"
+)
+"""Messages about what another version may know."""
+_OTHER_PLUGIN = re.compile(r"plugin (?!mujoco\.)\S+ not found")
 
 
 @rule("MJC001", "mujoco-refuses", Severity.ERROR, Concern.ROBOT)
-def check(compiled: CompiledModels) -> Findings:
+def check(package: Package, compiled: CompiledModels) -> Findings:
     """Report each fault for which MuJoCo refuses a model."""
+    stated = mujoco_sign(package)
+    ours = version_of("mujoco")
+    is_earlier = stated is not None and numbers_of(stated.version) < numbers_of(ours)
     for model in compiled.models:
         for refusal in model.compiled.refusals:
+            if _OTHER_PLUGIN.search(refusal.text):
+                yield unchecked(f"{model.model.file} needs a plugin that is not here")
+                continue
             element = _element(model, refusal)
             fault = _message(refusal, element)
+            by_version = stated is not None and is_earlier and _BY_VERSION.search(refusal.text)
             yield finding(
                 _place(refusal, element, model),
-                f"MuJoCo {version_of('mujoco')} refuses {model.model.file}: {fault}",
+                f"MuJoCo {ours} refuses {model.model.file}: {fault}"
+                + (f" ({stated.words}, an earlier version)" if stated and by_version else ""),
+                severity=Severity.WARNING if by_version else None,
                 key=fault,
                 covered_by=("MJC002",),
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import Report, VerdictKind
 from checker.settings import Settings
@@ -92,3 +93,11 @@ def test_includes_in_a_circle_and_out_of_the_folder_are_findings(tmp_path: Path)
     report = checked(tmp_path / "arm", files, "a.xml")
     assert sorted({place.split()[0] for place in places(report)}) == ["MJC002"]
     assert not any("secret.xml:" in place for place in places(report))
+
+
+def test_what_an_earlier_version_reads_is_a_warning_where_it_is_stated(tmp_path: Path) -> None:
+    text = f"<mujoco>\n<option apirate='1'/>\n{ARM.format('')}</mujoco>"
+    files = {"arm.xml": text, "requirements.txt": "numpy\nmujoco==2.3.5\n"}
+    (found,) = checked(tmp_path / "arm", files).packages[0].findings
+    assert found.severity is Severity.WARNING
+    assert "requirements.txt:2 has mujoco==2.3.5" in found.message

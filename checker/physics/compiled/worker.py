@@ -10,6 +10,11 @@ from typing import Any
 from checker.base.sandbox.files import NO_FILES, Files
 
 _LINE = re.compile(r"line (\d+)")
+_LEAVES_OUT = re.compile(
+    r"unrecognized attribute|bad format in attribute|invalid keyword|unknown default class"
+    r"|not found in geom|does not have enough data|has too much data|unknown transmission"
+)
+"""Messages about an attribute, or about what only an actuator needs."""
 _QUOTED = re.compile(r"'([^']*)'")
 _ATTRIBUTE = re.compile(r""" ([\w:.-]+)=("[^"]*"|'[^']*')""")
 _LEAF = re.compile(r"<(\w+)[^>]*></\1>")
@@ -76,7 +81,7 @@ def _without(text: str, refused: str, number: int) -> str:
     element if nothing else refers to it. The same text is returned if that is not possible.
     """
     lines = text.split("\n")
-    if not 0 < number <= len(lines):
+    if not (0 < number <= len(lines) and _LEAVES_OUT.search(refused)):
         return text
     line, named = lines[number - 1], _QUOTED.findall(refused)
     stated = _ATTRIBUTE.findall(line)
