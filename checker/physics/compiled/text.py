@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Mapping
-from xml.sax.saxutils import quoteattr
+from html import escape
 
 from checker.base.record import Record
 from checker.formats.mjcf.model import MjcfModel, NamedFile, read_model
@@ -75,7 +75,7 @@ class _Writer:
             while open_tags and open_tags[-1][0] != model.parents[number]:
                 written.append(f"</{open_tags.pop()[1]}>")
             attributes = self._attributes(element, files.get(id(element), []))
-            stated = "".join(f" {name}={quoteattr(it)}" for name, it in attributes.items())
+            stated = "".join(f' {name}="{_escaped(it)}"' for name, it in attributes.items())
             written.append(f"{chr(10) if number else ''}<{element.tag}{stated}>")
             self.lines.append(element)
             open_tags.append((number, element.tag))
@@ -139,6 +139,11 @@ class _Writer:
         else:
             self.obstacle = self.obstacle or f"{file.path} cannot be attached"
         return name
+
+
+def _escaped(value: str) -> str:
+    """Return a value for between quotes, on one line."""
+    return escape(" ".join(value.split("\n")))
 
 
 def _default_name(file: NamedFile) -> Mapping[str, str]:

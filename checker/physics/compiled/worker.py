@@ -16,7 +16,7 @@ _LEAVES_OUT = re.compile(
 )
 """Messages about an attribute, or about what only an actuator needs."""
 _QUOTED = re.compile(r"'([^']*)'")
-_ATTRIBUTE = re.compile(r""" ([\w:.-]+)=("[^"]*"|'[^']*')""")
+_ATTRIBUTE = re.compile(r' ([\w:.-]+)="([^"]*)"')
 _LEAF = re.compile(r"<(\w+)[^>]*></\1>")
 _MAY_GO = ("class", "childclass", "material", "texture")
 """Attributes that name something and that a model can do without."""
@@ -86,8 +86,8 @@ def _without(text: str, refused: str, number: int) -> str:
     line, named = lines[number - 1], _QUOTED.findall(refused)
     stated = _ATTRIBUTE.findall(line)
     for name, value in stated:
-        if name in named or (name in _MAY_GO and value[1:-1] in named):
-            lines[number - 1] = line.replace(f" {name}={value}", "", 1)
+        if name in named or (name in _MAY_GO and value in named):
+            lines[number - 1] = line.replace(f' {name}="{value}"', "", 1)
             return "\n".join(lines)
     leaf = _LEAF.match(line)
     if leaf is not None and leaf[1] in _LEAVES:
