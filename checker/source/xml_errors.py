@@ -17,15 +17,15 @@ from checker.source.xml_positions import XmlFault
 
 GAZEBO_FILES = (".sdf", ".world", ".config")
 """Endings of files that only Gazebo reads."""
-_OF_PLUGINLIB = ("<library", "<class_libraries")
+_LENIENT_ROOTS = ("<library", "<class_libraries", "<mujoco", "<mujocoinclude")
 _FIRST_TAG = re.compile(r"<[A-Za-z_]+")
 
 
 def is_lenient(source: SourceText) -> bool:
-    """Return whether only tinyxml2 reads a file: Gazebo's, and descriptions of pluginlib."""
+    """Return whether only tinyxml2 reads a file: Gazebo's, MuJoCo's, and those of pluginlib."""
     first = _FIRST_TAG.search(source.text)
-    of_pluginlib = first is not None and first.group() in _OF_PLUGINLIB
-    return of_pluginlib or source.file.endswith(GAZEBO_FILES)
+    has_root = first is not None and first.group() in _LENIENT_ROOTS
+    return has_root or source.file.endswith(GAZEBO_FILES)
 
 
 _LATE_DECLARATION = re.compile(r"\s+(<\?xml\s[^>]*?\?>)")

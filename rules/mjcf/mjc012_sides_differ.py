@@ -1,9 +1,10 @@
 """A left part that is not the mirror image of the right one.
 
-In a model whose left and right bodies lie at mirrored places, the ranges and masses of twins are
-compared. A mirrored hinge keeps its range if its axis is mirrored as an axis of rotation is, and
-else has it negated and exchanged; a slide keeps it if its axis is mirrored. What differs is often a
-sign or a class that was copied to one side only: the robot reaches further on one side, or leans.
+In a model whose left and right bodies lie at mirrored places, the ranges, damping, armature and
+masses of twins are compared. A mirrored hinge keeps its range if its axis is mirrored as an axis of
+rotation is, and else has it negated and exchanged; a slide keeps it if its axis is mirrored. What
+differs is often a sign or a class that was copied to one side only: the robot reaches further on
+one side, or leans.
 
 Fix: correct the side that is wrong.
 Source: six public models whose authors mended such faults.
@@ -16,13 +17,13 @@ from checker.physics.compiled.twins import Twins, joint_pairs, twins_of
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _RANGE = 0.1
-_MASS = 0.02
+_SHARE = 0.02
 _ALONG = 0.99
 
 
 @rule("MJC012", "sides-differ", Severity.WARNING, Concern.ROBOT)
 def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
-    """Report twin joints whose ranges, and twin bodies whose masses, do not mirror.
+    """Report twin joints and bodies whose ranges, dynamics or masses do not mirror.
 
     Options:
         angle: Radians, or metres, by which the bounds of twins may differ.
@@ -34,11 +35,12 @@ def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
         if _may_differ(model.compiled, left, right):
             continue
         expected = _mirrored_range(left, right, twins.axis)
-        if expected is None or left.limited is not right.limited:
+        if expected is None:
             continue
         off = max(abs(one - other) for one, other in zip(expected, right.range, strict=True))
-        if left.limited and off > angle:
+        if left.limited and right.limited and off > angle:
             yield _ranges(model, left, right, expected)
+        yield from _dynamics(model, left, right)
     if not model.lacks_files:
         yield from _masses(model, twins, {it.body for it in model.compiled.joints})
 
@@ -71,6 +73,28 @@ def _ranges(
     )
 
 
+def _dynamics(model: CompiledModel, left: Joint, right: Joint) -> Findings:
+    for what, one, other in (
+        ("damping", left.damping, right.damping),
+        ("armature", left.armature, right.armature),
+        ("stiffness", left.stiffness, right.stiffness),
+    ):
+        if abs(one - other) > _SHARE * max(one, other):
+            yield finding(
+                model.span(right.line),
+                f"{what} of joint {right.name!r} is {other:.4g}, that of its twin {left.name!r} "
+                f"{one:.4g}",
+                related=[(model.span(left.line), "its twin")],
+            )
+    if left.limited is not right.limited:
+        free, bound = (right, left) if left.limited else (left, right)
+        yield finding(
+            model.span(free.line),
+            f"joint {free.name!r} has no limits, but its twin {bound.name!r} has",
+            related=[(model.span(bound.line), "its twin")],
+        )
+
+
 def _shown(joint: Joint, bounds: tuple[float, float]) -> str:
     if joint.type == "slide":
         return f"{bounds[0]:.3g} to {bounds[1]:.3g} m"
@@ -80,7 +104,7 @@ def _shown(joint: Joint, bounds: tuple[float, float]) -> str:
 def _masses(model: CompiledModel, twins: Twins, jointed: set[int]) -> Findings:
     for left, right in twins.bodies:
         one, other = model.compiled.bodies[left], model.compiled.bodies[right]
-        if not {left, right} <= jointed or abs(one.mass - other.mass) <= _MASS * one.mass:
+        if not {left, right} <= jointed or abs(one.mass - other.mass) <= _SHARE * one.mass:
             continue
         yield finding(
             model.span(other.line),

@@ -33,7 +33,9 @@ class Compiled(Record):
         sizes: Numbers of coordinates, velocities, commands and states: `nq`, `nv`, `nu`, `na`.
         timestep: Seconds.
         bodies: The bodies; the first one is the world.
-        contacts: Pairs of shapes that touch at the first keyframe, else at the reference pose.
+        coupled: Numbers of the joints that an equality or a tendon couples with others.
+        at_key: Whether there is a keyframe, so that the start is the first one.
+        contacts: Pairs of shapes that touch at the start.
         trouble: What became too large or NaN within the first second: `position`, `velocity` or
             `acceleration`; else empty.
         time: Seconds that were simulated.
@@ -48,6 +50,8 @@ class Compiled(Record):
     joints: tuple[Joint, ...] = ()
     geoms: tuple[Geom, ...] = ()
     actuators: tuple[Actuator, ...] = ()
+    coupled: tuple[int, ...] = ()
+    at_key: bool = False
     contacts: tuple[Contact, ...] = ()
     trouble: str = ""
     time: float = 0.0
@@ -70,6 +74,9 @@ class Body(Record):
         inertia: Principal moments, kg·m².
         position: Its frame in the world, metres, in the reference pose.
         centre: Its centre of mass in the world, metres, in the reference pose.
+        reach: Metres from its centre of mass to the farthest point of its shapes, at most; 0 for a
+            body without shapes.
+        stated: Whether its mass and inertia are stated, not computed from its shapes.
         visual_mass: Kilograms of it that come from meshes that collide with nothing.
     """
 
@@ -81,6 +88,8 @@ class Body(Record):
     inertia: tuple[float, float, float]
     position: tuple[float, float, float]
     centre: tuple[float, float, float]
+    reach: float
+    stated: bool
     visual_mass: float
 
 
@@ -164,6 +173,12 @@ class CompiledModel(Record, eq=False, dict=True):
     def element(self, line: int) -> Element | None:
         """Return the element of a part by its line; None if it is not known."""
         return self.text.element(line)
+
+    def root(self, body: int) -> int:
+        """Return the number of the body of a tree that the world holds."""
+        while parent := self.compiled.bodies[body].parent:
+            body = parent
+        return body
 
     def span(self, line: int) -> Span:
         """Return the place of a part by its line; the model's root if it is not known."""

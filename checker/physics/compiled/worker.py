@@ -108,6 +108,7 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     visual = _visual_masses(spec, model)
+    stated = {body.id for body in spec.bodies if body.explicitinertial}
     parts = {
         "bodies": spec.bodies,
         "joints": spec.joints,
@@ -122,12 +123,17 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
         "timestep": float(model.opt.timestep),
         "integrator": int(model.opt.integrator),
         "bodies": [
-            {**_body(model, data, i, lines["bodies"]), "visual_mass": visual.get(i, 0.0)}
+            {
+                **_body(model, data, i, lines["bodies"]),
+                "stated": i in stated,
+                "visual_mass": visual.get(i, 0.0),
+            }
             for i in range(model.nbody)
         ],
         "joints": [_joint(model, data, i, lines) for i in range(model.njnt)],
         "geoms": [_geom(model, i, lines["geoms"]) for i in range(model.ngeom)],
         "actuators": [_actuator(model, i, lines["actuators"]) for i in actuators],
+        "coupled": sorted(_coupled(model)),
     }
 
 
@@ -145,7 +151,19 @@ def _body(model: Any, data: Any, i: int, lines: Mapping[int, int]) -> dict[str, 
         "inertia": model.body_inertia[i].tolist(),
         "position": data.xpos[i].tolist(),
         "centre": data.xipos[i].tolist(),
+        "reach": _reach(model, i),
     }
+
+
+def _reach(model: Any, body: int) -> float:
+    """Return how far the shapes of a body are from its centre of mass at most; 0 without any."""
+    import numpy as np
+
+    first, number = model.body_geomadr[body], model.body_geomnum[body]
+    geoms = range(first, first + number) if number else range(0)
+    centre = model.body_ipos[body]
+    far = (np.linalg.norm(model.geom_pos[it] - centre) + model.geom_rbound[it] for it in geoms)
+    return float(max(far, default=0.0))
 
 
 def _visual_masses(spec: Any, model: Any) -> dict[int, float]:
@@ -201,6 +219,20 @@ def _geom(model: Any, i: int, lines: Mapping[int, int]) -> dict[str, Any]:
     }
 
 
+def _coupled(model: Any) -> set[int]:
+    """Return the joints of equalities and of fixed tendons."""
+    import mujoco
+
+    found = set[int]()
+    for number, kind in enumerate(model.eq_type):
+        if kind == mujoco.mjtEq.mjEQ_JOINT:
+            found |= {int(model.eq_obj1id[number]), int(model.eq_obj2id[number])}
+    for number, kind in enumerate(model.wrap_type):
+        if kind == mujoco.mjtWrap.mjWRAP_JOINT:
+            found.add(int(model.wrap_objid[number]))
+    return found
+
+
 def _actuator(model: Any, i: int, lines: Mapping[int, int]) -> dict[str, Any]:
     import mujoco
 
@@ -244,7 +276,13 @@ def _first_second(model: Any) -> dict[str, Any]:
         time = float(data.time)
         if trouble := _trouble(data):
             break
-    return {"contacts": contacts, "trouble": trouble, "time": time, "fastest": fastest}
+    return {
+        "at_key": bool(model.nkey),
+        "contacts": contacts,
+        "trouble": trouble,
+        "time": time,
+        "fastest": fastest,
+    }
 
 
 def _trouble(data: Any) -> str:
