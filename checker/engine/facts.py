@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from msgspec.structs import replace
 
 from checker.base.parts import NotAvailable
+from checker.engine.mujoco_facts import model_overview
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
 from checker.finding import Place, Severity
@@ -203,7 +204,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     """
     robots = subject.all(Robot)
     if isinstance(robots, NotAvailable):
-        return tuple(map(_mujoco_facts, subject.cached_parts(CompiledModel)[:ROBOTS_LIMIT]))
+        return tuple(map(model_overview, subject.cached_parts(CompiledModel)[:ROBOTS_LIMIT]))
     weighed, driven = subject.cached_parts(MassProperties), subject.cached_parts(RobotTrial)
     facts = [
         dict(
@@ -226,22 +227,6 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     for known, robot in zip(facts, robots, strict=False):
         known.update(_arguments(subject, robot))
     return tuple(facts)
-
-
-def _mujoco_facts(model: CompiledModel) -> dict[str, Any]:
-    """Return the figures of a model of MuJoCo; the world is no body of it."""
-    compiled = model.compiled
-    known: dict[str, Any] = {
-        "robot": (model.model.document.root.get("model") or model.model.file)[:200],
-        "file": model.model.file,
-        "links": len(compiled.bodies) - 1,
-        "joints": len(compiled.joints),
-        "actuators": len(compiled.actuators),
-    }
-    if not model.lacks_files:
-        known["mass_kg"] = sum(body.mass for body in compiled.bodies)
-        known["simulated_s"] = compiled.time
-    return dict(_finite(known))
 
 
 def _arguments(subject: Subject, robot: Robot) -> Iterator[tuple[str, str]]:

@@ -11,6 +11,7 @@ from checker.base.parts import NotAvailable
 from checker.base.words import count
 from checker.engine.facts import ROBOTS_LIMIT, facts_of
 from checker.engine.launched import launched_files_of
+from checker.engine.mujoco_facts import model_facts
 from checker.engine.part_facts import (
     drive_facts,
     joint_facts,
@@ -22,6 +23,7 @@ from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
 from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
+from checker.physics.compiled.model import CompiledModel
 from checker.report.report import NO_PHYSICS
 from checker.report.robot_facts import (
     ControllerFacts,
@@ -70,6 +72,9 @@ def _robots(
     robots = subject.all(Robot)
     not_read = [*_unread_files(subject)]
     if isinstance(robots, NotAvailable):
+        models = subject.all(CompiledModel) if PHYSICS.is_installed else robots
+        if not isinstance(models, NotAvailable):
+            return tuple(map(model_facts, models[:ROBOTS_LIMIT])), ()
         reasons = [unread.reason for unread in unread_robots(subject)] or [robots.reason]
         return (), (*(NotRead("robots", reason) for reason in reasons), *not_read)
     if len(robots) > ROBOTS_LIMIT:

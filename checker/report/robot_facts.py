@@ -147,7 +147,7 @@ class RobotFacts(Record):
 
     Attributes:
         file: The file that describes it, relative to the package.
-        format: `sdf` or `urdf`.
+        format: `sdf`, `urdf` or `mjcf`.
         overview: Its figures in the report: mass, size, counts of parts, drive.
         not_read: What is missing here, and why.
     """

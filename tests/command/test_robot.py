@@ -113,7 +113,7 @@ def test_a_package_without_a_robot(run: Run, tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>empty</name></package>")
     (package,) = facts(run, tmp_path)
     assert package["robots"] == []
-    assert "no URDF, xacro or SDF file of it is a robot" in not_read(package)["robots"]
+    assert "no URDF, xacro, SDF or MJCF file of it is a robot" in not_read(package)["robots"]
 
 
 def test_an_argument_of_xacro_counts(run: Run, tmp_path: Path) -> None:
@@ -213,3 +213,17 @@ def _members() -> Iterator[str]:
 
 def test_the_page_has_each_member_of_the_json() -> None:
     assert [name for name in _members() if f"`{name}`" not in PAGE] == []
+
+
+def test_the_parts_of_a_model_of_mujoco_are_shown(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "arm.xml").write_text(
+        "<mujoco model='lift'><worldbody><body name='arm'><joint name='tilt' range='-90 90'/>"
+        "<geom size='0.1'/></body></worldbody><actuator>"
+        "<motor name='m' joint='tilt' forcerange='-2 2'/></actuator></mujoco>"
+    )
+    shown = run("robot", "arm.xml", "--format", "json").stdout
+    (robot,) = json.loads(shown)["packages"][0]["robots"]
+    (joint,) = robot["joints"]
+    assert (robot["name"], robot["format"], joint["moved_by"]) == ("lift", "mjcf", "m")
+    assert joint["axes"][0]["upper"] == pytest.approx(1.5708, abs=1e-5)
+    assert joint["axes"][0]["effort"] == 2
