@@ -33,6 +33,7 @@ from checker.source.xml_positions import XmlFault
 _WITHOUT_ROBOT = {
     PackageKind.PLUGIN: "the package contains only a plugin",
     PackageKind.UNKNOWN: "the package contains no robot",
+    PackageKind.MUJOCO_MODEL: "the robot is a model of MuJoCo (MJCF)",
 }
 
 
