@@ -13,6 +13,7 @@ Source: MuJoCo 4.0.0, tried; XMLreference, compiler/meshdir and include.
 """
 
 import posixpath
+from itertools import takewhile
 
 from checker.base.words import Suggestions
 from checker.finding import Fix
@@ -20,6 +21,9 @@ from checker.formats.mjcf.model import MjcfModel, NamedFile
 from checker.package.git_ignored import ignored_by
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rename, rule
+
+_ABOVE = "/1/2/3/4/5/6/7/8/"
+"""So many folders above the package may be named."""
 
 
 @rule("MJC002", "missing-model-file", Severity.ERROR, Concern.ROBOT)
@@ -39,47 +43,52 @@ def check(package: Package, model: MjcfModel) -> Findings:
 
 
 def _message(package: Package, model: MjcfModel, file: NamedFile) -> str:
-    value, tried = file.uri.value, " and ".join(file.tried)
+    value, own = file.uri.value, posixpath.dirname(model.file)
+    paths = [posixpath.relpath(_ABOVE + path, _ABOVE + own) for path in file.tried]
+    looked = f"{value!r} does not exist: it is looked for at {' and '.join(paths)}"
     if beside := _beside_robot(package, model, file):
         return (
-            f"{value!r} is looked for at {tried}, but it is at {beside}: meshdir counts from the "
-            f"folder of {model.file}; put that file into the folder of the robot"
+            f"{looked}, but it is at {beside}: meshdir counts from the folder of {model.file}; put "
+            "that file into the folder of the robot"
         )
     if ignored := ignored_by(package, file.tried[0]):
-        return f"{value!r} is not at {tried}; {ignored} excludes it: git add -f adds it"
+        return f"{looked}; {ignored} excludes it: git add -f adds it"
     near = _near(package, file)
-    hint = f", did you mean {near!r}?" if near else ""
-    return f"{value!r} is not at {tried}{hint}"
+    return f"{looked}, did you mean {near!r}?" if near else looked
 
 
 def _beside_robot(package: Package, model: MjcfModel, file: NamedFile) -> str:
     """Return where the file would be if the robot were loaded alone; empty if it is not there."""
-    folder = model.compiler.get("meshdir") or model.compiler.get("assetdir")
+    folder = model.folder_of(file.element)
     own = posixpath.dirname(file.element.source.file)
-    if folder is None or file.element.tag == "include":
-        return ""
-    path = posixpath.normpath(posixpath.join(own, folder.value, file.uri.value))
-    return path if path not in file.tried and package.exists(path) else ""
+    path = posixpath.normpath(posixpath.join(own, folder, file.uri.value))
+    return path if folder and path not in file.tried and package.exists(path) else ""
 
 
 def _near(package: Package, file: NamedFile) -> str:
     """Return what to write for the one file of that name, or of one that is almost it."""
-    folder = posixpath.dirname(file.tried[0])
-    ending = posixpath.splitext(file.uri.value)[1].lower()
-    names = {
-        posixpath.basename(entry.path): entry.path
-        for entry in package.index.files
-        if entry.path.lower().endswith(ending or "\0")
-    }
-    wanted = posixpath.basename(file.tried[0])
-    found = names.get(wanted) or names.get(Suggestions(names).correction(wanted) or "")
-    return posixpath.relpath(f"/{found}", f"/{folder}") if found and ".." not in folder else ""
+    wanted = file.tried[0].split("/")
+    ending = posixpath.splitext(file.uri.value)[1].lower() or "\0"
+    paths = [entry.path for entry in package.index.files if entry.path.lower().endswith(ending)]
+    names = {posixpath.basename(path) for path in paths}
+    name = wanted[-1] if wanted[-1] in names else Suggestions(names).correction(wanted[-1])
+    alike = [(_common(path, wanted), path) for path in paths if posixpath.basename(path) == name]
+    best = sorted(alike, reverse=True)[:2]
+    if not best or (len(best) == 2 and best[0][0] == best[1][0]):
+        return ""
+    return posixpath.relpath(_ABOVE + best[0][1], _ABOVE + file.base)
+
+
+def _common(path: str, wanted: list[str]) -> int:
+    """Return how many names, the last one left out, end both paths."""
+    own = path.split("/")[-2::-1]
+    pairs = zip(own, wanted[-2::-1], strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
 
 
 def _fix(package: Package, file: NamedFile) -> Fix | None:
     near = _near(package, file)
-    folder = posixpath.dirname(file.uri.value)
-    return rename(file.uri, posixpath.normpath(posixpath.join(folder, near))) if near else None
+    return rename(file.uri, near) if near else None
 
 
 _ARM = """<compiler meshdir="meshes"/>

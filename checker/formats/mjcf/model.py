@@ -38,12 +38,14 @@ class NamedFile(Record, eq=False):
     Attributes:
         element: The element.
         uri: What it states.
-        tried: The paths that MuJoCo tries, in order, relative to the package.
+        base: The folder from which MuJoCo takes the path first, relative to the package.
+        tried: The paths that it tries, in order.
         path: The first of these that is there; empty if none is.
     """
 
     element: Element
     uri: Located[str]
+    base: str
     tried: tuple[str, ...]
     path: str
 
@@ -133,11 +135,14 @@ class MjcfModel(Record, eq=False, dict=True):
         name = uri.value.replace("\\", "/")
         if self._compiled("strippath") == "true":
             name = posixpath.basename(name)
-        kind = _FOLDER.get(element.tag, "assetdir")
-        folder = self._compiled(kind) or self._compiled("assetdir")
         own, including = map(posixpath.dirname, (self.file, element.source.file))
-        tried = (posixpath.join(own, folder, name), posixpath.join(including, name))
-        return named_file(self.package, element, uri, tried)
+        bases = posixpath.join(own, self.folder_of(element)), including
+        return named_file(self.package, element, uri, bases, name)
+
+    def folder_of(self, element: Element) -> str:
+        """Return the folder that `<compiler>` states for the files of an element."""
+        kind = _FOLDER.get(element.tag, "assetdir")
+        return self._compiled(kind) or self._compiled("assetdir")
 
     def _compiled(self, name: str) -> str:
         value = self.compiler.get(name)
@@ -145,12 +150,21 @@ class MjcfModel(Record, eq=False, dict=True):
 
 
 def named_file(
-    package: Package, element: Element, uri: Located[str], tried: tuple[str, ...]
+    package: Package, element: Element, uri: Located[str], bases: tuple[str, ...], name: str
 ) -> NamedFile:
-    """Return a file that an element names, with the first path at which it is."""
+    """Return a file that an element names, with the first path at which it is.
+
+    Args:
+        package: The package that contains the model.
+        element: The element that names it.
+        uri: What it states.
+        bases: The folders from which the path is taken, in order.
+        name: The path that counts.
+    """
+    tried = (posixpath.join(base, name) for base in bases)
     paths = tuple(dict.fromkeys(map(posixpath.normpath, tried)))
     found = (path for path in paths if (at := package.resolve(path)) is not None and at.is_file)
-    return NamedFile(element, uri, paths, next(found, ""))
+    return NamedFile(element, uri, posixpath.normpath(bases[0]), paths, next(found, ""))
 
 
 class _Reader:
@@ -181,8 +195,7 @@ class _Reader:
         if uri is None:
             return
         folders = (self.folder, posixpath.dirname(element.source.file))
-        tried = tuple(posixpath.join(folder, uri.value) for folder in folders)
-        named = named_file(self.package, element, uri, tried)
+        named = named_file(self.package, element, uri, folders, uri.value)
         if named.path in self.seen:
             self.repeated.append(element)
             return
