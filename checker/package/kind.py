@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from checker.base.errors import UnreadableInput
 from checker.package.formats import model_suffixes
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
-from checker.package.mjcf_files import mjcf_files
+from checker.package.mjcf_files import holds_mjcf, mjcf_files
 from checker.package.model_file import own_model
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -141,8 +141,9 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
     """Return the packages of changed files, each once, in the order of the files.
 
     A file belongs to the outermost package around it within its repository: the nested model
-    `parts/guard/model.sdf` is a part of the robot, not a package. Files outside packages are passed
-    over; those that are gone count for the package that they were in.
+    `parts/guard/model.sdf` is a part of the robot, not a package. Without a package around, it
+    belongs to the outermost folder of loose model files; other files are passed over. Those that
+    are gone count for the package that they were in.
 
     Args:
         files: Relative to `here`, or absolute.
@@ -177,8 +178,12 @@ def _refuse_folder(file: Path, here: Path) -> None:
 
 
 def _outermost(folder: Path) -> Path | None:
-    packages = [place for place in _within_repository(folder) if looks_like_package(place)]
-    return packages[-1] if packages else None
+    around = [*_within_repository(folder)]
+    packages = [place for place in around if looks_like_package(place)]
+    if packages or not _holds_repository(around[-1]):
+        return packages[-1] if packages else None
+    loose = [it for it in around if holds_loose_models(it) or holds_mjcf(it, _names(it))]
+    return loose[-1] if loose else None
 
 
 def _within_repository(folder: Path) -> Iterator[Path]:

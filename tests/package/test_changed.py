@@ -83,6 +83,13 @@ def test_a_repository_that_is_one_package(write: Write) -> None:
     assert changed(space / "rover", "launch/spawner.rb") == ["."]
 
 
+def test_without_a_package_the_folder_of_loose_models_is_checked(write: Write) -> None:
+    model = "<mujoco><include file='parts/arm.xml'/></mujoco>"
+    files = {"r/.git/HEAD": "ref", "r/sim/scene.xml": model, "r/sim/parts/arm.xml": "<mujoco/>"}
+    space = write({**files, "r/sim/meshes/arm.stl": "", "r/code.py": ""})
+    assert changed(space / "r", "sim/parts/arm.xml", "sim/meshes/arm.stl", "code.py") == ["sim"]
+
+
 @given(st.lists(st.text(st.characters(exclude_characters="\0"), max_size=300), max_size=20))
 def test_any_name_is_answered(names: list[str]) -> None:
     relative = [Path(name.lstrip("/")) for name in names]
