@@ -1,4 +1,4 @@
-"""`subt-check export`: writes a package's robot as URDF for RViz, or as MJCF."""
+"""`subt-check export`: writes a package's robot as URDF for RViz, or as MJCF for MuJoCo."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from checker.cli.arguments import add_search_options, search_wishes
 from checker.cli.robot import named_robots
 from checker.cli.subjects import subject_of
 from checker.convert.mjcf_files import controls_of, meshes_apart, mjcf_of, scene_of_trial
+from checker.convert.mjcf_robot import robot_mjcf, scene_text
 from checker.convert.sdf_to_urdf import converted_to_urdf
 from checker.convert.xml_writer import document_text
 from checker.engine.subject import Subject
@@ -34,9 +35,12 @@ from checker.physics.trial.run import TIMESTEP
 from checker.pipeline import Task
 from checker.report.scene.builder import scene_of
 from checker.report.scene.mesh_files import MeshFiles, NoSurfaces
+from checker.report.scene.scene import DisplayScene
 
 _MODEL = re.compile(r"(?:model|package)://")
-_SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml"}
+_SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml", "mjcf-replay": ".xml"}
+SCENE = "scene.xml"
+"""The file with a ground and the robot on it."""
 
 
 class Exported(Record):
@@ -60,10 +64,10 @@ def export(task: Task, form: str, output: str = "", robot: str = "") -> int:
 
     Args:
         task: Package, archive or model file, with the settings of the command line.
-        form: `urdf` or `mjcf`.
+        form: `urdf`, `mjcf`, or `mjcf-replay` for the scene of the trial.
         output: A file; or, if it exists or ends with `/`, a folder, which then also gets the meshes
-            of an MJCF and the commands of its trial. It is created if needed. The standard output
-            when empty.
+            of an MJCF, and a scene or the commands of the trial. It is created if needed. The
+            standard output when empty.
         robot: Its name or file, where there are several.
 
     Raises:
@@ -90,7 +94,7 @@ def exported(task: Task, form: str, robot: str = "", *, apart: bool = False) -> 
 
     Args:
         task: Package, archive or model file, with the settings of the command line.
-        form: `urdf` or `mjcf`.
+        form: As in `export`.
         robot: Its name or file, where there are several.
         apart: Whether the meshes of an MJCF are separate files.
 
@@ -102,7 +106,9 @@ def exported(task: Task, form: str, robot: str = "", *, apart: bool = False) -> 
         subject, chosen = _chosen(task.path, subjects, robot)
         package = subject.package
         if form == "mjcf":
-            return _as_mjcf(task.path, package, chosen, subject.cache, apart=apart)
+            return _as_mjcf(package, chosen, subject.cache, apart=apart)
+        if form == "mjcf-replay":
+            return _as_replay(task.path, package, chosen, subject.cache, apart=apart)
         done = converted_to_urdf(chosen, mesh_uri=package_uris(package, chosen))
         return Exported(_name(package), document_text(done.tree), notes=done.notes)
 
@@ -139,7 +145,24 @@ def _file(path: Path, subject: Subject, robot: Robot) -> str:
     return posixpath.normpath(posixpath.join(near, file))
 
 
-def _as_mjcf(path: Path, package: Package, robot: Robot, cache: Cache, *, apart: bool) -> Exported:
+def _as_mjcf(package: Package, robot: Robot, cache: Cache, *, apart: bool) -> Exported:
+    shown = _shown(robot)
+    done, name = robot_mjcf(robot, shown, cache), _name(package)
+    files = list(meshes_apart(done.tree)) if apart else []
+    if apart:
+        files.append((SCENE, scene_text(f"{name}.xml")))
+    return Exported(name, document_text(done.tree), files, (*done.notes, *shown.notes))
+
+
+def _shown(robot: Robot) -> DisplayScene:
+    meshes = robot.meshes
+    surfaces = MeshFiles(meshes) if isinstance(meshes, PackageMeshes) else NoSurfaces()
+    return scene_of(robot, None, surfaces, marked=False)
+
+
+def _as_replay(
+    path: Path, package: Package, robot: Robot, cache: Cache, *, apart: bool
+) -> Exported:
     scene, plan = scene_of_trial(robot)
     if scene.unusable:
         raise CheckerError(f"{path} cannot be written as MJCF: {scene.unusable}")
@@ -156,9 +179,7 @@ def _as_mjcf(path: Path, package: Package, robot: Robot, cache: Cache, *, apart:
             "MJCF has no actuator for belts: set geom_surfacevel to the speed in the .controls.csv "
             "times 1e9 times what the .xml states"
         )
-    meshes = robot.meshes
-    surfaces = MeshFiles(meshes) if isinstance(meshes, PackageMeshes) else NoSurfaces()
-    shown = scene_of(robot, None, surfaces, marked=False)
+    shown = _shown(robot)
     tree = mjcf_of(robot, scene, plan, recording, shown)
     name = _name(package)
     files = list(meshes_apart(tree)) if apart else []
@@ -204,15 +225,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", metavar="PATH", help="a package, an archive or a model file")
     parser.add_argument(
         "--format",
-        choices=("urdf", "mjcf"),
+        choices=tuple(_SUFFIXES),
         required=True,
-        help="urdf: for RViz, with package:// meshes; mjcf: the trial's scene for MuJoCo",
+        help="urdf: for RViz, with package:// meshes; mjcf: for MuJoCo, with actuators; "
+        "mjcf-replay: the scene of the trial, with its commands",
     )
     parser.add_argument("--robot", metavar="NAME", help="the robot of this name or file")
     parser.add_argument(
         "--output",
         metavar="FILE",
-        help="output file; or DIR/, a folder for the scene and its meshes, created if needed",
+        help="output file; or DIR/, a folder for the robot and its meshes, created if needed",
     )
     add_search_options(parser)
     parser.add_argument("--no-cache", action="store_true", help="do not use the cache")

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 FOLDER = "meshes"
 _ROOM = 1e-9
-_COLLISIONS, _VISUALS = "3", "2"
+COLLISIONS, VISUALS = "3", "2"
 """Groups of geoms; MuJoCo's viewer shows 0 to 2 at first."""
 
 
@@ -52,29 +52,44 @@ def mjcf_of(
         recording: The gains and states of the trial; an empty one leaves them out.
         shown: What the robot looks like.
     """
+    root = document_of(robot, scene)
+    parts = BodyParts(root, scene)
+    seen = parts.add_visuals(shown, VISUALS)
+    parts.add_sensors(robot)
+    parts.add_encoders()
+    parts.add_rotors(plan)
+    for geom in root.iter("geom") if seen else ():
+        if geom.get("group") is None and geom.get("name") != GROUND:
+            geom.set("group", COLLISIONS)
+    _tune(root, scene, plan, recording)
+    _point_belts(root, recording)
+    _add_states(root, scene, plan, recording)
+    add_studio(root)
+    give_own_names(root, scene)
+    return root
+
+
+def document_of(robot: Robot, scene: Scene) -> etree._Element:
+    """Return the document of a scene, with the robot's name."""
     parser = etree.XMLParser(
         resolve_entities=False, no_network=True, huge_tree=True, remove_blank_text=True
     )
     root = etree.fromstring(scene.mjcf.encode(), parser)
     root.set("model", robot.name.value)
-    parts = BodyParts(root, scene)
-    seen = parts.add_visuals(shown, _VISUALS)
-    parts.add_sensors(robot)
-    parts.add_rotors(plan)
-    for geom in root.iter("geom") if seen else ():
-        if geom.get("group") is None and geom.get("name") != GROUND:
-            geom.set("group", _COLLISIONS)
-    _tune(root, scene, plan, recording)
-    _point_belts(root, recording)
-    _add_states(root, scene, plan, recording)
-    _add_studio(root)
+    return root
+
+
+def give_own_names(root: etree._Element, scene: Scene) -> dict[str, str]:
+    """Give bodies, joints and what uses these the robot's names; return those of the joints.
+
+    They are by the names in the scene.
+    """
     bodies, joints = _own_names(scene.bodies), _own_names({**scene.free_joints, **scene.joints})
     taken = {"world": 0}
     for body in root.iter("body"):
         name = body.get("name") or ""
         body.set("name", unique(bodies.get(name) or name, taken))
-    _rename_joints(root, joints)
-    return root
+    return _rename_joints(root, joints)
 
 
 def _own_names(names: Mapping[str, str]) -> dict[str, str]:
@@ -82,7 +97,7 @@ def _own_names(names: Mapping[str, str]) -> dict[str, str]:
     return {name: part for part, name in names.items()}
 
 
-def _rename_joints(root: etree._Element, joints: Mapping[str, str]) -> None:
+def _rename_joints(root: etree._Element, joints: Mapping[str, str]) -> dict[str, str]:
     """Rename joints, and servos and sensors with them."""
     taken: dict[str, int] = {}
     renamed: dict[str, str] = {}
@@ -98,6 +113,7 @@ def _rename_joints(root: etree._Element, joints: Mapping[str, str]) -> None:
         user.set("name", joint_name if user.tag in ("velocity", "position") else "")
         if not user.get("name"):
             user.set("name", f"{joint_name}/{user.tag.removeprefix('joint')}")
+    return renamed
 
 
 def _tune(root: etree._Element, scene: Scene, plan: Plan, recording: Recording) -> None:
@@ -164,7 +180,7 @@ def _values_at(changes: Changes, step: int, count: int) -> tuple[float, ...]:
     return held
 
 
-def _add_studio(root: etree._Element) -> None:
+def add_studio(root: etree._Element) -> None:
     """Add a sky, a ground with squares of a metre, and a light."""
     assets = section(root, "asset")
     etree.SubElement(

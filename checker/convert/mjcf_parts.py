@@ -95,14 +95,20 @@ class BodyParts:
             )
         return self._meshes[key]
 
-    def add_sensors(self, robot: Robot) -> None:
-        """Add sensors: cameras, an axis of each lidar, what an IMU feels, positions of joints."""
+    def add_sensors(self, robot: Robot, *, lidars: bool = True) -> None:
+        """Add sensors: cameras, what an IMU feels and, unless left out, an axis of each lidar."""
         sensors = etree.SubElement(self._root, "sensor")
         for link in robot.links:
             for sensor in link.sensors:
+                if sensor.kind.is_lidar and not lidars:
+                    continue
                 place = _place_of(robot, link, sensor)
                 if place is not None and link.scoped_name in self._bodies:
                     self._add_sensor(sensors, self._bodies[link.scoped_name], sensor, place)
+
+    def add_encoders(self) -> None:
+        """Add the position and velocity of each joint with a servo to the sensors."""
+        sensors = section(self._root, "sensor")
         for servo in self._root.iter("velocity"):
             for tag in ("jointpos", "jointvel"):
                 etree.SubElement(sensors, tag, joint=servo.get("joint") or "")

@@ -36,7 +36,7 @@ class Exported:
 
     def __init__(self, package: Path, folder: Path) -> None:
         name = f"{folder}/made/"
-        assert main(["export", str(package), "--format", "mjcf", "--output", name]) == 0
+        assert main(["export", str(package), "--format", "mjcf-replay", "--output", name]) == 0
         self.model: Any = mujoco.MjModel.from_xml_path(str(next(Path(name).glob("*.xml"))))
         self.data: Any = mujoco.MjData(self.model)
         with next(Path(name).glob("*.controls.csv")).open() as stream:
@@ -139,7 +139,7 @@ def test_its_sensors_can_be_read(samples: Path, tmp_path: Path) -> None:
 
 def test_one_file_holds_everything(samples: Path, tmp_path: Path) -> None:
     package = samples / "subtcheck_buggy_sensor_config_1"
-    text = exported(Task(package), "mjcf").text
+    text = exported(Task(package), "mjcf-replay").text
     assert "file=" not in text
     model = mujoco.MjModel.from_xml_string(text)
     assert [model.key(number).name for number in range(model.nkey)] == ["settled"]

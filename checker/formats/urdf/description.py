@@ -129,10 +129,26 @@ def _attribute(element: Element, name: str) -> Located[str]:
 
 def joints_with_motor(robot: Robot) -> Iterator[str]:
     """Yield the names of joints that transmissions and ros2_control let a controller move."""
-    root = robot.element
+    yield from motor_interfaces(robot)
+
+
+def motor_interfaces(robot: Robot) -> dict[str, set[str]]:
+    """Return the joints that transmissions and ros2_control let a controller move.
+
+    Each has the interfaces that are stated: `position`, `velocity`, `effort` or another word.
+    """
+    root, found = robot.element, dict[str, set[str]]()
     for transmission in root.all("transmission"):
-        yield from (joint.get("name") or "" for joint in transmission.all("joint"))
+        for joint in transmission.all("joint"):
+            holders = (joint, *transmission.all("actuator"))
+            stated = [each for holder in holders for each in holder.all("hardwareInterface")]
+            # hardware_interface/PositionJointInterface
+            words = {each.text.value.strip().rpartition("/")[2] for each in stated}
+            names = {word.removesuffix("JointInterface").lower() for word in words}
+            found.setdefault(joint.get("name") or "", set()).update(names)
     for control in root.all("ros2_control"):
         for joint in control.all("joint"):
-            if joint.child("command_interface") is not None:
-                yield joint.get("name") or ""
+            if commands := joint.all("command_interface"):
+                words = {command.get("name") or "" for command in commands}
+                found.setdefault(joint.get("name") or "", set()).update(words)
+    return found

@@ -40,10 +40,17 @@ class Mover(Record):
 
 
 class Follower(Record):
-    """What a joint copies: the scoped name of another joint, and its motion / that of the other."""
+    """What a joint copies.
+
+    Attributes:
+        joint: Scoped name of the other joint.
+        ratio: The motion of this joint / that of the other.
+        offset: Its position where the other is at 0, rad or m.
+    """
 
     joint: str
     ratio: float
+    offset: float = 0.0
 
 
 def moving_controllers(robot: Robot) -> list[Controller]:
@@ -79,17 +86,23 @@ def _by_plugins(robot: Robot) -> Iterator[tuple[str, str]]:
 def followers(robot: Robot) -> dict[str, Follower]:
     """Return the joints that copy another one, by their scoped names."""
     return {
-        joint.scoped_name: Follower(joint.scope + joint.mimics[0].value, _ratio(joint))
+        joint.scoped_name: _follower(joint)
         for joint in robot.joints
         if joint.mimics and joint.scope + joint.mimics[0].value in robot.joints_by_name
     }
 
 
-def _ratio(joint: Joint) -> float:
-    """Return the multiplier of a joint that copies another one: of URDF an attribute."""
+def _follower(joint: Joint) -> Follower:
+    """Return what a joint with a `<mimic>` copies: URDF states numbers as attributes, SDF below."""
     holders = (joint.element, *joint.element.all("axis"))
     (mimic, *_) = (mimic for holder in holders for mimic in holder.all("mimic"))
-    stated = mimic.child("multiplier")
-    text = stated.text.value if stated is not None else mimic.get("multiplier")
-    ratio = parse_number(text or "1")
-    return 1.0 if ratio is None else ratio
+
+    def number(name: str, default: float) -> float:
+        stated = mimic.child(name)
+        text = stated.text.value if stated is not None else mimic.get(name)
+        value = parse_number(text or "")
+        return default if value is None else value
+
+    ratio = number("multiplier", 1.0)
+    offset = number("offset", 0.0) - ratio * number("reference", 0.0)
+    return Follower(joint.scope + joint.mimics[0].value, ratio, offset)

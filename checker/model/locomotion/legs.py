@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from checker.model.components import Joint, Link
@@ -31,19 +31,29 @@ def is_legged(robot: Robot) -> bool:
     if any(name in DRIVE_CLASSES for name in classes):
         return _WALKS in classes
     controlled = sum(name in _JOINT_CONTROLLERS for name in classes)
-    return controlled >= _FEWEST_JOINTS and _stands_on_legs(robot)
+    return controlled >= _FEWEST_JOINTS and _stands_on_legs(robot, robot.driven_joints)
 
 
-def _stands_on_legs(robot: Robot) -> bool:
+def looks_legged(robot: Robot) -> bool:
+    """Return whether a robot stands on its joints, whatever moves them."""
+    moving = {joint.scoped_name for joint in robot.joints if joint.axes and not joint.immovable}
+    return len(moving) >= _FEWEST_JOINTS and _stands_on_legs(robot, moving)
+
+
+def _stands_on_legs(robot: Robot, driven: Collection[str]) -> bool:
     """Return whether two legs or more reach as far down as the body between them.
 
     Arms on a column, gimbals below a copter, and flaps do not.
+
+    Args:
+        robot: The robot.
+        driven: Scoped names of the joints that a leg consists of.
     """
     legs: dict[Joint, float] = {}
     body: list[float] = []
     for link in robot.links:
         height = _height(robot, link)
-        above = list(_driven_above(robot, link))
+        above = list(_driven_above(robot, link, driven))
         if height is None:
             continue
         if len(above) >= _FEWEST_IN_SERIES:
@@ -63,11 +73,11 @@ def _height(robot: Robot, link: Link) -> float | None:
     return None if pose is None else pose.translation[2]
 
 
-def _driven_above(robot: Robot, link: Link) -> Iterator[Joint]:
-    """Yield the joints that plugins move between a link and the base, from the link upwards."""
+def _driven_above(robot: Robot, link: Link, driven: Collection[str]) -> Iterator[Joint]:
+    """Yield the driven joints between a link and the base, from the link upwards."""
     name, seen = link.scoped_name, set[str]()
     while name not in seen and (ties := robot.tree.ties_above.get(name)):
         seen.add(name)
-        if ties[0].joint.scoped_name in robot.driven_joints:
+        if ties[0].joint.scoped_name in driven:
             yield ties[0].joint
         name = ties[0].parent

@@ -162,7 +162,7 @@ class Layout:
         free = [name for name in self.forest.order if self.forest.tie(name) is None]
         if self.robot.stands_alone or len(free) != 1:
             return ""
-        self.ledger.note(_HELD, free[0])
+        self.ledger.note(HELD, free[0])
         return free[0]
 
     def _welded(self) -> dict[str, str]:
@@ -188,7 +188,8 @@ class Layout:
                 self.ledger.note(sentence, link.scoped_name)
 
 
-_HELD = "The URDF has neither wheels nor a drive: the trial holds its base in place"
+HELD = "The URDF has neither wheels nor a drive: the trial holds its base in place"
+"""Start of the note about such a robot."""
 
 
 # The links of a robot as nested bodies of MuJoCo.
