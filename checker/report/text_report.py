@@ -194,7 +194,7 @@ def closing_text(report: Report, settings: RenderSettings) -> str:
     if settings.quiet:
         return ""
     blocks = [summary_text(report.packages, settings.palette)] * (len(report.packages) > 1)
-    if skipped := [_skipped(item) for item in report.not_opened if not item.failed]:
+    if skipped := [*_skipped(item for item in report.not_opened if not item.failed)]:
         blocks.append("".join(skipped))
     blocks += [_hint(report, settings)]
     return "".join(f"\n{block}" for block in blocks if block)
@@ -363,5 +363,11 @@ def verdict_text(package: PackageReport, palette: Palette) -> str:
     return palette.verdict(package.verdict, f"{plain(package.name)}: {sentence(package)}")
 
 
-def _skipped(item: NotOpened) -> str:
-    return f"not opened: {plain(item.path)} {plain(item.reason)}\n"
+def _skipped(items: Iterable[NotOpened]) -> Iterator[str]:
+    """Name what was not opened, folders with one reason together."""
+    by_reason: dict[str, list[str]] = {}
+    for item in items:
+        by_reason.setdefault(item.reason, []).append(item.path)
+    for reason, (first, *others) in by_reason.items():
+        more = f" and {count(len(others), 'more folder')}:" if others else ""
+        yield f"not opened: {plain(first)}{more} {plain(reason)}\n"
