@@ -66,10 +66,17 @@ def _beside_robot(package: Package, model: MjcfModel, file: NamedFile) -> str:
 
 
 def _near(package: Package, file: NamedFile) -> str:
-    """Return what to write for the one file of that name, or of one that is almost it."""
+    """Return what to write for the one file of that name, or of one that is almost it.
+
+    Where the folder is there, only a misspelt name in it counts: in the folder of another thing, a
+    file of the same name is another file.
+    """
     wanted = file.tried[0].split("/")
     ending = posixpath.splitext(file.uri.value)[1].lower() or "\0"
     paths = [entry.path for entry in package.index.files if entry.path.lower().endswith(ending)]
+    folder = posixpath.dirname(file.tried[0])
+    if folder and package.exists(folder):
+        paths = [path for path in paths if posixpath.dirname(path) == folder]
     names = {posixpath.basename(path) for path in paths}
     name = wanted[-1] if wanted[-1] in names else Suggestions(names).correction(wanted[-1])
     alike = [(_common(path, wanted), path) for path in paths if posixpath.basename(path) == name]

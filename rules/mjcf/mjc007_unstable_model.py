@@ -3,7 +3,8 @@
 The model is simulated for one second from its first keyframe, with the commands of that keyframe,
 or from its reference pose. MuJoCo resets such a model to the start and prints a warning, so that
 the robot only seems to twitch. Causes are servos that are too stiff for the time step, inertias
-that are far too small, negative damping, and shapes that overlap at the start.
+that are far too small, negative damping, and shapes that overlap at the start. A joint that is
+faster than 500 rad/s or m/s is a warning: something falls past the ground, or is shot away.
 
 Fix: give the joints `armature`, choose `integrator="implicitfast"`, or a smaller `timestep`.
 Source: MuJoCo 4.0.0, mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC.
@@ -12,6 +13,8 @@ Source: MuJoCo 4.0.0, mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC.
 from checker.physics.compiled.model import CompiledModel
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
+_FASTEST = 500.0
+
 
 @rule("MJC007", "unstable-model", Severity.ERROR, Concern.ROBOT)
 def check(model: CompiledModel) -> Findings:
@@ -19,12 +22,21 @@ def check(model: CompiledModel) -> Findings:
     compiled = model.compiled
     if model.lacks_files:
         yield unchecked(f"{model.model.file} is not simulated: {model.text.absent[0]}")
-    elif compiled.trouble:
-        options = next(model.model.tagged("option"), model.model.document.root)
+        return
+    options = next(model.model.tagged("option"), model.model.document.root)
+    if compiled.trouble:
         yield finding(
             options,
             f"{model.model.file} cannot be simulated: its {compiled.trouble} is NaN or huge "
             f"after {compiled.time:.3g} s, with a time step of {compiled.timestep:g} s",
+        )
+
+    elif compiled.fastest > _FASTEST:
+        yield finding(
+            options,
+            f"{model.model.file} has a joint that reaches {compiled.fastest:.3g} rad/s or m/s "
+            f"within {compiled.time:.3g} s, expected at most {_FASTEST:g}",
+            severity=Severity.WARNING,
         )
 
 

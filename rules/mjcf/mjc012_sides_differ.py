@@ -1,10 +1,11 @@
 """A left part that is not the mirror image of the right one.
 
-In a model whose left and right bodies lie at mirrored places, the ranges, damping, armature and
-masses of twins are compared. A mirrored hinge keeps its range if its axis is mirrored as an axis of
-rotation is, and else has it negated and exchanged; a slide keeps it if its axis is mirrored. What
-differs is often a sign or a class that was copied to one side only: the robot reaches further on
-one side, or leans.
+In a model whose left and right bodies lie at mirrored places, the ranges, damping, armature, masses
+and actuators of twins are compared; joints that an equality holds are left out. A
+mirrored hinge keeps its range if its axis is mirrored as an axis of rotation is, and else has it
+negated and exchanged; a slide keeps it if its axis is mirrored. What differs is often a sign, a
+power of ten or a class that was copied to one side only: the robot reaches further on one side, or
+leans.
 
 Fix: correct the side that is wrong.
 Source: six public models whose authors mended such faults.
@@ -34,6 +35,7 @@ def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
     for left, right in joint_pairs(model.compiled, twins):
         if _may_differ(model.compiled, left, right):
             continue
+        yield from _actuators(model, left, right)
         expected = _mirrored_range(left, right, twins.axis)
         if expected is None:
             continue
@@ -46,7 +48,10 @@ def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
 
 
 def _may_differ(compiled: Compiled, left: Joint, right: Joint) -> bool:
-    """Return whether two joints are fingers of one gripper: slides of one parent."""
+    """Return whether two joints are fingers of one gripper, slides of one parent, or held."""
+    numbers = {id(joint): number for number, joint in enumerate(compiled.joints)}
+    if not {numbers[id(left)], numbers[id(right)]}.isdisjoint(compiled.held):
+        return True
     parents = [compiled.bodies[joint.body].parent for joint in (left, right)]
     return left.type != right.type or (left.type == "slide" and parents[0] == parents[1])
 
@@ -93,6 +98,30 @@ def _dynamics(model: CompiledModel, left: Joint, right: Joint) -> Findings:
             f"joint {free.name!r} has no limits, but its twin {bound.name!r} has",
             related=[(model.span(bound.line), "its twin")],
         )
+
+
+def _actuators(model: CompiledModel, left: Joint, right: Joint) -> Findings:
+    """Report the only actuators of two joints if one is stronger than the other."""
+    compiled = model.compiled
+    of_joints = [
+        [it for it in compiled.actuators if it.joint >= 0 and compiled.joints[it.joint] is joint]
+        for joint in (left, right)
+    ]
+    if [len(actuators) for actuators in of_joints] != [1, 1]:
+        return
+    one, other = of_joints[0][0], of_joints[1][0]
+    for what, first, second in (
+        ("gear", abs(one.gear), abs(other.gear)),
+        ("gain", abs(one.gain), abs(other.gain)),
+        ("force range", max(map(abs, one.force_range)), max(map(abs, other.force_range))),
+    ):
+        if abs(first - second) > _SHARE * max(first, second):
+            yield finding(
+                model.span(other.line),
+                f"{what} of the actuator of joint {right.name!r} is {second:.4g}, that of its twin "
+                f"{left.name!r} {first:.4g}",
+                related=[(model.span(one.line), "its twin")],
+            )
 
 
 def _shown(joint: Joint, bounds: tuple[float, float]) -> str:

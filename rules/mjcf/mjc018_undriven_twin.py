@@ -19,7 +19,7 @@ def check(model: CompiledModel) -> Findings:
     if twins is None or compiled.refusals:
         return
     driven = {actuator.joint for actuator in compiled.actuators}
-    coupled = set(compiled.coupled)
+    coupled = {*compiled.held, *compiled.in_tendons}
     numbers = {id(joint): number for number, joint in enumerate(compiled.joints)}
     pairs = list(joint_pairs(compiled, twins))
     for left, right in (*pairs, *((right, left) for left, right in pairs)):

@@ -33,7 +33,9 @@ class Compiled(Record):
         sizes: Numbers of coordinates, velocities, commands and states: `nq`, `nv`, `nu`, `na`.
         timestep: Seconds.
         bodies: The bodies; the first one is the world.
-        coupled: Numbers of the joints that an equality or a tendon couples with others.
+        idle: Numbers of the actuators that have no moment about any joint.
+        held: Numbers of the joints that an equality holds, or couples with others.
+        in_tendons: Numbers of the joints of fixed tendons.
         at_key: Whether there is a keyframe, so that the start is the first one.
         contacts: Pairs of shapes that touch at the start.
         trouble: What became too large or NaN within the first second: `position`, `velocity` or
@@ -50,7 +52,9 @@ class Compiled(Record):
     joints: tuple[Joint, ...] = ()
     geoms: tuple[Geom, ...] = ()
     actuators: tuple[Actuator, ...] = ()
-    coupled: tuple[int, ...] = ()
+    idle: tuple[int, ...] = ()
+    held: tuple[int, ...] = ()
+    in_tendons: tuple[int, ...] = ()
     at_key: bool = False
     contacts: tuple[Contact, ...] = ()
     trouble: str = ""

@@ -27,6 +27,7 @@ _LEAVES = (
 """Elements to which no other one refers."""
 _NO_DENSITY = 1e-9
 """Instead of 0, with which MuJoCo refuses a mesh."""
+_NO_MOMENT = 1e-12
 _REFUSALS_LIMIT = 20
 _SECONDS = 1.0
 """Simulated, from the first keyframe on."""
@@ -133,7 +134,8 @@ def _facts(spec: Any, model: Any) -> dict[str, Any]:
         "joints": [_joint(model, data, i, lines) for i in range(model.njnt)],
         "geoms": [_geom(model, i, lines["geoms"]) for i in range(model.ngeom)],
         "actuators": [_actuator(model, i, lines["actuators"]) for i in actuators],
-        "coupled": sorted(_coupled(model)),
+        **_coupled(model),
+        "idle": _idle(model),
     }
 
 
@@ -219,18 +221,37 @@ def _geom(model: Any, i: int, lines: Mapping[int, int]) -> dict[str, Any]:
     }
 
 
-def _coupled(model: Any) -> set[int]:
-    """Return the joints of equalities and of fixed tendons."""
+def _coupled(model: Any) -> dict[str, list[int]]:
+    """Return the joints that equalities hold, and those of fixed tendons."""
     import mujoco
 
-    found = set[int]()
+    held = set[int]()
     for number, kind in enumerate(model.eq_type):
         if kind == mujoco.mjtEq.mjEQ_JOINT:
-            found |= {int(model.eq_obj1id[number]), int(model.eq_obj2id[number])}
-    for number, kind in enumerate(model.wrap_type):
-        if kind == mujoco.mjtWrap.mjWRAP_JOINT:
-            found.add(int(model.wrap_objid[number]))
-    return found
+            held |= {int(model.eq_obj1id[number]), int(model.eq_obj2id[number])}
+    wrapped = zip(model.wrap_type, model.wrap_objid, strict=True)
+    in_tendons = {int(joint) for kind, joint in wrapped if kind == mujoco.mjtWrap.mjWRAP_JOINT}
+    return {"held": sorted(held), "in_tendons": sorted(in_tendons)}
+
+
+def _idle(model: Any) -> list[int]:
+    """Return the actuators without a moment about any joint, in two poses."""
+    import mujoco
+
+    data = mujoco.MjData(model)
+    moved = set[int]()
+    for step in (0.0, 0.1):
+        mujoco.mj_integratePos(model, data.qpos, [step] * model.nv, 1.0)
+        mujoco.mj_forward(model, data)
+        moment = data.actuator_moment
+        for number, (start, length) in enumerate(
+            zip(data.moment_rowadr, data.moment_rownnz, strict=True)
+        ):
+            if abs(moment[start : start + length]).max(initial=0.0) > _NO_MOMENT:
+                moved.add(number)
+    kinds = model.actuator_trntype
+    by_tendon = [it for it, kind in enumerate(kinds) if kind == mujoco.mjtTrn.mjTRN_TENDON]
+    return [number for number in by_tendon if number not in moved]
 
 
 def _actuator(model: Any, i: int, lines: Mapping[int, int]) -> dict[str, Any]:
