@@ -21,7 +21,8 @@ from checker.cli.arguments import add_search_options, search_wishes
 from checker.cli.robot import named_robots
 from checker.cli.subjects import subject_of
 from checker.convert.mjcf_files import controls_of, meshes_apart, mjcf_of, scene_of_trial
-from checker.convert.mjcf_robot import robot_mjcf, scene_text
+from checker.convert.mjcf_plain import scene_text
+from checker.convert.mjcf_robot import robot_mjcf
 from checker.convert.sdf_to_urdf import converted_to_urdf
 from checker.convert.xml_writer import document_text
 from checker.engine.subject import Subject

@@ -41,7 +41,8 @@ def drives_of(robot: Robot, plan: Plan) -> dict[str, Drive]:
     Joints that copy another one have none, and rotors, which their thrust drives.
     """
     interfaces = motor_interfaces(robot)
-    known = {*interfaces, *robot.driven_joints, *commanded_joints(robot)}
+    commanded = {*interfaces, *commanded_joints(robot)}
+    known = {*commanded, *robot.driven_joints}
     names = list(dict.fromkeys((*plan.speeds, *plan.places)))
     if known and robot.locomotion.kind is DriveKind.NONE:
         names = [name for name in names if name in known]
@@ -50,8 +51,12 @@ def drives_of(robot: Robot, plan: Plan) -> dict[str, Drive]:
     drives = {}
     for name in names:
         joint = robot.joints_by_name.get(name)
-        passive = name not in known and any(word in name.lower() for word in _PASSIVE)
-        if joint is None or name in without or passive or not AXES.get(joint.type.value):
+        if joint is None or name in without or not AXES.get(joint.type.value):
+            continue
+        if name not in known and any(word in name.lower() for word in _PASSIVE):
+            continue
+        # Some plugins only measure how far a spring gives way.
+        if name not in commanded and joint.axes[0].stiffness.value > 0.0:
             continue
         drives[name] = _drive(robot, plan, joint, interfaces.get(name, set()))
     return drives

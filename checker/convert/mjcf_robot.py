@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from lxml import etree
 from msgspec.structs import replace
@@ -13,22 +13,17 @@ from checker.base.errors import CheckerError
 from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.convert.mjcf_drives import Drive, drives_of, place_gains, speed_gain
-from checker.convert.mjcf_files import (
-    COLLISIONS,
-    VISUALS,
-    add_studio,
-    document_of,
-    give_own_names,
-)
+from checker.convert.mjcf_files import VISUALS, document_of, give_own_names
 from checker.convert.mjcf_parts import BodyParts, section
-from checker.convert.xml_writer import document_text, number, numbers
+from checker.convert.mjcf_plain import finish, is_fixed, raise_by, without_trial
+from checker.convert.xml_writer import numbers
 from checker.model.locomotion.commanded_joints import followers
 from checker.model.locomotion.legs import looks_legged
 from checker.model.robot import Robot
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.home import Home, Load, at_home
 from checker.physics.trial.mjcf.layout import HELD
-from checker.physics.trial.mjcf.scene import GROUND, Scene, build_scene
+from checker.physics.trial.mjcf.scene import Scene, build_scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.run import TIMESTEP
 from checker.report.scene.scene import DisplayScene
@@ -42,8 +37,6 @@ _STIFF = "0.005 1"
 """Time constant in which a joint follows the one that it copies, s, and its damping ratio."""
 _DIGITS = 6
 """Decimals of a pose and of gains: micrometres."""
-_TURNS = 4 * math.pi
-"""rad beyond which a limit means that the joint turns without end."""
 _NEAR = 1e-3
 """Metres by which a fixed robot may reach below the ground of its scene."""
 
@@ -74,17 +67,6 @@ def robot_mjcf(robot: Robot, shown: DisplayScene, cache: Cache) -> RobotMjcf:
     return _Writer(robot, scene, plan, drives).written(shown, cache)
 
 
-def scene_text(file: str) -> str:
-    """Return a scene with ground and light around the robot of a file."""
-    root = etree.Element("mujoco", model=f"{file.rpartition('.')[0]} on the ground")
-    etree.SubElement(root, "include", file=file)
-    etree.SubElement(root, "asset")
-    world = etree.SubElement(root, "worldbody")
-    etree.SubElement(world, "geom", name=GROUND, type="plane", size="0 0 1")
-    add_studio(root)
-    return document_text(root)
-
-
 class _Writer:
     def __init__(self, robot: Robot, scene: Scene, plan: Plan, drives: Mapping[str, Drive]) -> None:
         self.robot, self.scene, self.plan, self.drives = robot, scene, plan, drives
@@ -97,7 +79,7 @@ class _Writer:
             name: renamed[joint] for name, joint in scene.joints.items() if joint in renamed
         }
         self.elements = {joint.get("name") or "": joint for joint in self.root.iter("joint")}
-        self.endless: list[str] = []
+        self.endless: Sequence[str] = ()
         self.followers = {
             name: it
             for name, it in followers(robot).items()
@@ -106,7 +88,7 @@ class _Writer:
 
     def written(self, shown: DisplayScene, cache: Cache) -> RobotMjcf:
         """Return the robot; MuJoCo computes what its joints carry, and where it comes to rest."""
-        self._simplify()
+        self.endless = without_trial(self.root, self.scene.spawn_height)
         self._couple()
         starts = self._starts()
         home = self._home(starts, cache)
@@ -114,22 +96,14 @@ class _Writer:
         self._actuate(home)
         self.parts.add_rotors(self.plan)
         if home.lift > _NEAR:
-            self._lift(home.lift)
+            raise_by(self.root, home.lift)
         settled = self._home(starts, cache, _SETTLING_SECONDS)
         commands = [*self._commands(settled, starts, home.loads)]
         self._release_motors()
         self._add_key(settled, commands)
         self.parts.add_sensors(self.robot, lidars=False)
         self.parts.add_visuals(shown, VISUALS)
-        world = section(self.root, "worldbody")
-        world.remove(section(world, f"geom[@name='{GROUND}']"))
-        for geom in world.iter("geom"):
-            if geom.get("class") is None:
-                self._set_class(geom)
-        for part in world.iter("*"):
-            _shorten(part)
-        for empty in [it for it in self.root if not len(it) and not it.attrib]:
-            self.root.remove(empty)
+        finish(self.root)
         return RobotMjcf(self.root, tuple(self._notes()))
 
     def _free(self) -> bool:
@@ -147,46 +121,6 @@ class _Writer:
                 body.insert(0, etree.Element("freejoint", name=link))
                 return True
         return False
-
-    def _simplify(self) -> None:
-        """Replace what is for the trial alone: solver, and shapes that touch only the ground."""
-        compiler, option = section(self.root, "compiler"), section(self.root, "option")
-        compiler.attrib.clear()
-        compiler.set("angle", "radian")
-        option.set("integrator", "implicitfast")
-        self.root.remove(section(self.root, "size"))
-        default = etree.Element("default")
-        for name, attributes in {
-            "visual": {"group": VISUALS, "contype": "0", "conaffinity": "0"},
-            "collision": {"group": COLLISIONS},
-        }.items():
-            of_class = etree.SubElement(default, "default", {"class": name})
-            etree.SubElement(of_class, "geom", attributes, mass="0")
-        option.addnext(default)
-        lift = self.scene.spawn_height
-        for body in section(self.root, "worldbody").iterchildren("body"):
-            x, y, z = map(float, (body.get("pos") or "").split())
-            body.set("pos", numbers((x, y, z - lift)))
-        for geom in section(self.root, "worldbody").iter("geom"):
-            self._set_class(geom)
-        for name, joint in self.elements.items():
-            joint.attrib.pop("limited", "")
-            bounds = [abs(float(bound)) for bound in (joint.get("range") or "0").split()]
-            if joint.get("type") == "hinge" and max(bounds) > _TURNS:
-                del joint.attrib["range"]
-                self.endless.append(name)
-
-    def _set_class(self, geom: etree._Element) -> None:
-        if geom.get("name") == GROUND:
-            for name in ("contype", "conaffinity", "priority"):
-                geom.attrib.pop(name)
-            return
-        seen = geom.get("contype") == geom.get("conaffinity") == "0"
-        for name in ("name", "group", "contype", "conaffinity", "condim", "priority"):
-            geom.attrib.pop(name, "")
-        if friction := geom.get("friction"):
-            geom.set("friction", number(float(friction.split()[0])))
-        geom.set("class", "visual" if seen else "collision")
 
     def _couple(self) -> None:
         equality = etree.SubElement(self.root, "equality")
@@ -219,7 +153,7 @@ class _Writer:
         pairs = dict.fromkeys(home.touching)
         for body in self.root.iter("body"):
             base = body.getparent()
-            if base is None or not _is_fixed(base) or body.find("joint") is None:
+            if base is None or not is_fixed(base) or body.find("joint") is None:
                 continue
             if base.find("geom") is not None and body.find("geom") is not None:
                 pairs[base.get("name") or "", body.get("name") or ""] = None
@@ -313,11 +247,6 @@ class _Writer:
                 weight += home.mass / _LEGS * _GRAVITY * load.radius
             yield name, replace(load, inertia=inertia, felt=felt, weight=weight)
 
-    def _lift(self, height: float) -> None:
-        for body in section(self.root, "worldbody").iterchildren("body"):
-            x, y, z = map(float, (body.get("pos") or "").split())
-            body.set("pos", numbers((x, y, round(z + height, 4))))
-
     def _motor_joints(self) -> set[str | None]:
         return {self.joints.get(name) for name, it in self.drives.items() if it is Drive.MOTOR}
 
@@ -353,23 +282,3 @@ class _Writer:
         yield from (note for note in self.scene.notes if not note.startswith(HELD))
         if not self.freed and any(note.startswith(HELD) for note in self.scene.notes):
             yield "The robot is fixed to the world, since it has neither wheels, legs nor a drive."
-
-
-def _shorten(part: etree._Element) -> None:
-    """Write the numbers of a pose without what rounding left, and none that is the default."""
-    for name in ("pos", "quat", "axis"):
-        if (stated := part.get(name)) is not None:
-            part.set(name, numbers(map(float, stated.split())))
-    for name, default in (("pos", "0 0 0"), ("quat", "1 0 0 0")):
-        if part.get(name) == default and part.tag != "inertial":
-            del part.attrib[name]
-
-
-def _is_fixed(body: etree._Element) -> bool:
-    """Return whether no joint is between a body and the world."""
-    at: etree._Element | None = body
-    while at is not None and at.tag == "body":
-        if at.find("joint") is not None or at.find("freejoint") is not None:
-            return False
-        at = at.getparent()
-    return body.tag == "body"
