@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from checker.pipeline import check_package
+from checker.report.report import VerdictKind
+from checker.settings import Settings
 from support.real_packages import MJCF, needed_folder, needs
 from tests.test_modern_bugs import reported
 
@@ -66,4 +69,6 @@ def test_placeholder_moments_of_fingers_are_reported() -> None:
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_nothing_is_reported_of_a_robot_that_is_right(name: str) -> None:
-    assert not reported(needed_folder(MJCF) / name, "MJC")
+    (package,) = check_package(needed_folder(MJCF) / name, Settings()).packages
+    assert package.verdict is VerdictKind.READY
+    assert not package.findings

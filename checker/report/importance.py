@@ -8,7 +8,7 @@ from checker.finding import Concern
 from checker.report.report import ReportedFinding
 
 _SOONEST = (
-    *("SDF", "URD", "REF", "MSH", "WLD", "LCH", "SPW", "PKG"),
+    *("SDF", "URD", "MJC", "REF", "MSH", "WLD", "LCH", "SPW", "PKG"),
     *("KIN", "PLG", "CTL", "R2C", "DRV", "INE", "GEO", "TRI"),
     *("BRG", "WIR", "SEN"),
 )

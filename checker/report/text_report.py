@@ -196,8 +196,23 @@ def closing_text(report: Report, settings: RenderSettings) -> str:
     blocks = [summary_text(report.packages, settings.palette)] * (len(report.packages) > 1)
     if skipped := [*_skipped(item for item in report.not_opened if not item.failed)]:
         blocks.append("".join(skipped))
-    blocks += [_hint(report, settings)]
+    blocks += [_first_of_all(report, settings), _hint(report, settings)]
     return "".join(f"\n{block}" for block in blocks if block)
+
+
+def _first_of_all(report: Report, settings: RenderSettings) -> str:
+    """Return the errors to correct first, where many packages have pushed them off the screen."""
+    first: dict[str, tuple[ReportedFinding, PackageReport]] = {}
+    for package in report.packages:
+        for found in package.findings:
+            if found.severity is Severity.ERROR:
+                first.setdefault(found.rule, (found, package))
+    if len(report.packages) <= FIRST or not first:
+        return ""
+    errors = sorted(first.values(), key=lambda pair: importance(pair[0]))
+    lines = (next(finding_text(*pair, settings, explained=True)) for pair in errors[:FIRST])
+    head = settings.palette.bold("Do first in all packages:")
+    return "".join(f"{line}\n" for line in (head, *lines))
 
 
 def _hint(report: Report, settings: RenderSettings) -> str:

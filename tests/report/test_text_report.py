@@ -320,6 +320,20 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
     ]
 
 
+def test_many_packages_end_with_what_to_do_first_in_all() -> None:
+    others = [replace(PACKAGE, name=f"p{number}", path=f"p{number}") for number in range(5)]
+    load = replace(FAULT, rule="SDF001", name="not-well-formed", message="a tag is open")
+    broken = replace(PACKAGE, path="b", findings=(load,))
+    shown = text(replace(PACKAGE, findings=(FAULT, FAULT)), *others, broken).splitlines()
+    head = shown.index("Do first in all packages:")
+    assert shown[head + 1 : head + 4] == [
+        "b/model.sdf:141:19 error SDF001 not-well-formed: a tag is open",
+        "models/rover/model.sdf:141:19 error SEN005 lidar-scan-resolution: scan resolution is 0.1, "
+        "expected 1",
+        "",
+    ]
+
+
 def test_packages_with_nothing_to_state_take_one_line() -> None:
     names = ("a_msgs", "b_msgs")
     ready = [replace(PACKAGE, name=name) for name in names]

@@ -180,7 +180,7 @@ def _visual_masses(spec: Any, model: Any) -> dict[int, float]:
     colliding = set[int]()
     for geom in spec.geoms:
         body = int(model.geom_bodyid[geom.id])
-        if not geom.density or not least <= geom.group <= most:
+        if geom.mass == 0 or not geom.density or not least <= geom.group <= most:
             continue
         if geom.contype or geom.conaffinity:
             colliding.add(body)
@@ -190,7 +190,10 @@ def _visual_masses(spec: Any, model: Any) -> dict[int, float]:
     bodies = [body for body in weighed if body in only_seen]
     for geom in (geom for body in bodies for geom in only_seen[body]):
         geom.density = _NO_DENSITY
-    bare = spec.compile() if bodies else model
+    try:
+        bare = spec.compile() if bodies else model
+    except ValueError:  # other shapes of a body weigh nothing
+        return {}
     return {body: float(model.body_mass[body] - bare.body_mass[body]) for body in bodies}
 
 
