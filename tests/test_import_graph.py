@@ -29,7 +29,8 @@ NOT_FOR_HELP = {"httpx", "lxml", "markdown_it", "tree_sitter", "yaml", "rules"} 
 MODULE = re.compile(r"(checker|rules)\.(?!html|j2)\w+(\.\w+)*\.?")
 FOR_RULES = (
     *("rule", "finding", "model", "formats", "robots", "launch", "ros", "package", "source"),
-    *("physics.mass", "physics.trial", "rulebook.suppression.parts", "rulebook.example_parts"),
+    *("physics.compiled", "physics.mass", "physics.trial"),
+    *("rulebook.suppression.parts", "rulebook.example_parts"),
     *("base.words", "base.record", "base.resources", "base.files"),
 )
 """What rules may import of the checker: the parts of a package and tables, nothing that reads

@@ -28,7 +28,7 @@ T = TypeVar("T")
 
 PROVIDERS = (
     *("launch.parts", "model.parts", "robots.parts", "robots.urdf_parts", "ros.parts"),
-    *("formats.mjcf.models", "physics.parts"),
+    *("formats.mjcf.models", "physics.compiled.compiling", "physics.parts"),
 )
 """Modules that make parts whose types are defined elsewhere."""
 

@@ -13,15 +13,22 @@ import math
 from checker.physics.compiled.model import CompiledModel
 from checker.rule import Concern, Findings, Severity, finding, rule
 
+_MARGIN = 1.2
+"""Times the reach: the shapes of a body may leave out screws and cables."""
+
 
 @rule("MJC015", "inertia-larger-than-body", Severity.WARNING, Concern.ROBOT)
-def check(model: CompiledModel) -> Findings:
-    """Report moving bodies whose radius of gyration exceeds the extent of their shapes."""
+def check(model: CompiledModel, *, margin: float = _MARGIN) -> Findings:
+    """Report moving bodies whose radius of gyration exceeds the extent of their shapes.
+
+    Options:
+        margin: Times the distance of the farthest point that the radius may have.
+    """
     for body in () if model.lacks_files else model.compiled.bodies:
         if not (body.stated and body.welded and body.reach and body.mass > 0):
             continue
         largest = max(body.inertia)
-        if math.sqrt(largest / body.mass) > body.reach:
+        if math.sqrt(largest / body.mass) > margin * body.reach:
             element = model.element(body.line)
             inertial = element.child("inertial") if element is not None else None
             yield finding(
