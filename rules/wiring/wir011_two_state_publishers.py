@@ -40,12 +40,13 @@ _NODE = """
              parameters=[{{"robot_description": "<robot name='rover'/>"}}]),
 """
 _HEAD = "LaunchDescription([\n"
-_MARK = "  # ^ WIR011"
+_OWN = 'executable="robot_state_publisher",\n             parameters=[{"robot_description": desc'
 
 
-def _example(name: str) -> dict[str, object]:
-    return {"@bridge": True, "@launch": {_HEAD: _HEAD + _NODE.format("") + _NODE.format(name)}}
+def _example(name: str, mark: str = "") -> dict[str, object]:
+    own = {_OWN: _OWN.replace(",\n", f",{mark}\n")}
+    return {"@bridge": True, "@launch": {_HEAD: _HEAD + _NODE.format(name), **own}}
 
 
 GOOD = [_example(' namespace="second",')]
-BAD = [_example(_MARK)]
+BAD = [_example("", "  # ^ WIR011")]

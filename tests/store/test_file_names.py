@@ -33,7 +33,7 @@ def test_a_name_made_safe(given: str, safe: str) -> None:
 
 @pytest.mark.parametrize("given", ["", "robot", "robot.rar", "zip", "robot.zip.exe", "robot.zip/"])
 def test_an_ending_of_no_known_kind(given: str) -> None:
-    with pytest.raises(UnknownKind, match=r"does not end in \.zip, \.tar\.gz, .* or \.xml$"):
+    with pytest.raises(UnknownKind, match=r"does not end in \.zip, \.tar\.gz, .* or \.mjcf$"):
         safe_name(given)
 
 

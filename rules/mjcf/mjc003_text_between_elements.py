@@ -11,7 +11,7 @@ from checker.formats.mjcf.model import MjcfModel
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 
 
-@rule("MJC003", "stray-text", Severity.WARNING, Concern.ROBOT)
+@rule("MJC003", "text-between-elements", Severity.WARNING, Concern.ROBOT)
 def check(model: MjcfModel) -> Findings:
     """Report text in elements of a model and of what it includes."""
     for element in model.elements:
