@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.formats.xacro.files import ROOT
 from checker.launch.ros2.graph import (
     LaunchFaultKind,
     LaunchGraph,
@@ -86,6 +87,18 @@ def test_places_are_those_of_the_literals(read: Read) -> None:
             ["1", "3"],
         ),
         ("x = ['a' if 2 > 1 else 'b']", ["a"]),
+        (
+            "def f(v):\n    try:\n        return str(int(v) + 1)\n"
+            "    except (KeyError, ValueError):\n        pass\n    return v\n"
+            "x = [f('4'), f('left')]",
+            ["5", "left"],
+        ),
+        (
+            "x = []\ntry:\n    try:\n        x += ['%d' % (1 // 0)]\n"
+            "    except ValueError:\n        x = ['inner']\n    finally:\n        x += ['end']\n"
+            "except ArithmeticError:\n    x += ['outer']",
+            ["end", "outer"],
+        ),
         ("x = [str(v) for v in sorted({3, 1})]", ["1", "3"]),
         (
             "def f(v):\n    if v == 'a':\n        return 'A'\n    return 'B'\nx = [f('a'), f('b')]",
@@ -287,6 +300,14 @@ def test_faults(read: Read, entities: str, kind: str, name: str) -> None:
         ("x = [eval('1')]", "eval is not defined"),
         ("class A:\n    pass\nx = A()", "class A is not evaluated"),
         ("x = [1 / 0]", "the expression raises ZeroDivisionError"),
+        (
+            "try:\n    x = [1 / 0]\nexcept KeyError:\n    x = []",
+            "the expression raises ZeroDivisionError",
+        ),
+        (
+            f"x = [open('{ROOT}/{NAME}/a.urdf').read().upper()]",
+            f"$(file-content $(find-pkg-share {NAME})/a.urdf), which is not known",
+        ),
         ("x = ['' + LaunchConfiguration('a')]", "a value that is only known when it is launched"),
     ],
 )
@@ -336,6 +357,21 @@ def test_the_comments_of_a_robot_may_be_removed(read: Read) -> None:
     parameter = graph.nodes[0].parameter("robot_description")
     assert parameter is not None
     assert str(parameter.value).endswith("/a.xacro)")
+    assert not graph.unread
+
+
+def test_a_robot_whose_text_is_replaced_is_that_of_the_file(read: Read) -> None:
+    graph = read(
+        f"""
+        with open(get_package_share_directory('{NAME}') + '/a.urdf') as file:
+            text = file.read().replace('@FOLDER@', '/tmp')
+        return LaunchDescription([
+            Node(package='p', executable='e', parameters=[{{'robot_description': text}}])])
+        """
+    )
+    parameter = graph.nodes[0].parameter("robot_description")
+    assert parameter is not None
+    assert str(parameter.value).endswith("/a.urdf)")
     assert not graph.unread
 
 

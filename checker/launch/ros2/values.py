@@ -29,6 +29,19 @@ MAX_DEPTH = 60
 _CHARACTERS_A_STEP = 64
 
 
+class HandledError(Exception):
+    """An error of Python in a launch file that a `try` around it handles.
+
+    Attributes:
+        names: The names of its class and of those above it.
+    """
+
+    def __init__(self, names: frozenset[str]) -> None:
+        """Raise an error of such a class."""
+        super().__init__()
+        self.names = names
+
+
 class Allowance:
     """Steps and levels that are left to one launch file and all that it includes."""
 

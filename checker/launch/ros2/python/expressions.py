@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 from checker.formats.xacro.expression.bounds import Budget, ExpressionLimit, RefusedExpression
 from checker.formats.xacro.expression.format import formatted
 from checker.formats.xacro.expression.operators import COMPARISONS, UNARY, apply_binary
-from checker.launch.ros2.graph import Condition, is_known
+from checker.launch.ros2.graph import Condition, display_path, is_known
 from checker.launch.ros2.python.scope import Scope
 from checker.launch.ros2.values import (
     Choice,
     FilePath,
     Guarded,
+    HandledError,
     Made,
     PlacedText,
     Unknown,
@@ -34,6 +35,8 @@ PATHS = ("PathSubstitution", "PathJoinSubstitution")
 _ITEMS_LIMIT = 5_000
 _DATA_LIMIT = 20_000
 _LEVELS_LIMIT = 40
+_SHOWN = 160
+"""Greatest number of characters of a text in a message."""
 
 
 def plain(value: Value) -> Any:
@@ -72,7 +75,9 @@ class _Plain:
 def _plain_text(value: Value) -> str:
     if isinstance(value, str):
         if not is_known(value):
-            raise RefusedExpression(f"{str(value)[:60]}, which is not known before the launch")
+            text = display_path(value)
+            text = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
+            raise RefusedExpression(f"{text}, which is not known before the launch")
         return str(value)
     if isinstance(value, Unknown):
         raise RefusedExpression(value.reason)
@@ -80,7 +85,11 @@ def _plain_text(value: Value) -> str:
 
 
 def bounded(run: Interpreter, node: ast.AST, work: Callable[[Budget], Value]) -> Value:
-    """Return the result of some work on data; Unknown when Python, or this reader, refuses it."""
+    """Return the result of some work on data; Unknown when Python, or this reader, refuses it.
+
+    Raises:
+        HandledError: Python raises an error that the launch file handles.
+    """
     run.allowance.spend()
     try:
         return add_place(work(Budget()), run.span(node))
@@ -90,7 +99,12 @@ def bounded(run: Interpreter, node: ast.AST, work: Callable[[Budget], Value]) ->
         return run.unknown(node, f"the expression {limit}")
     except RecursionError:
         return run.unknown(node, "the expression is nested too deeply")
-    except Exception as error:  # noqa: BLE001 - what Python raises for such values
+    except HandledError:
+        raise
+    except Exception as error:
+        names = frozenset(kind.__name__ for kind in type(error).__mro__)
+        if run.handles(names):
+            raise HandledError(names) from error
         return run.unknown(node, f"the expression raises {type(error).__name__}: {str(error)[:80]}")
 
 

@@ -68,6 +68,7 @@ class Interpreter:
         allowance: What it may still take.
         world: What it may query.
         guards: Conditions around the statement that is being evaluated.
+        handled: Names of the errors that each `try` around it handles, and its number of guards.
         by_argument: Whether a value that was read depends on an argument or a file.
         may_change: Whether the last call may have changed what is launched: it got something that
             can hold actions, or starts programs.
@@ -80,6 +81,7 @@ class Interpreter:
         self.allowance = allowance
         self.world = world
         self.guards: list[Condition] = []
+        self.handled: list[tuple[frozenset[str], int]] = []
         self.by_argument = False
         self.may_change = False
         self.notes: list[Unknown] = []
@@ -117,6 +119,10 @@ class Interpreter:
         """Note a call whose effect is not known, unless it has none on what is launched."""
         if self.may_change:
             self.notes.append(value)
+
+    def handles(self, names: frozenset[str]) -> bool:
+        """Return whether a `try` handles an error of these classes, under no further condition."""
+        return any(names & own and len(self.guards) == n for own, n in self.handled)
 
     # Tests and names.
 

@@ -98,6 +98,8 @@ def call(  # noqa: PLR0911 - one per method
             return _of_dict(run, owner, name, positional, named, node)
         case OpenFile() if name in ("read", "close", "readlines"):
             return FileText.read(owner.path, run.span(node)) if name == "read" else None
+        case FileText() if name in ("replace", "strip"):
+            return owner  # the file is judged as it is written
         case FilePath():
             return _on_path(run, owner, name, positional, node)
         case Made():

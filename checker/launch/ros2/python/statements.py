@@ -11,7 +11,16 @@ from checker.launch.ros2.classes import ROOTS
 from checker.launch.ros2.graph import Condition
 from checker.launch.ros2.python.expressions import binary, each, evaluate, negate
 from checker.launch.ros2.python.scope import Scope, merge_names
-from checker.launch.ros2.values import FilePath, Guarded, Inert, OpenFile, Symbol, Unknown, Value
+from checker.launch.ros2.values import (
+    FilePath,
+    Guarded,
+    HandledError,
+    Inert,
+    OpenFile,
+    Symbol,
+    Unknown,
+    Value,
+)
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -210,12 +219,32 @@ def _with(run: Interpreter, node: ast.With, scope: Scope) -> tuple[Flow, Value]:
 
 
 def _try(run: Interpreter, node: ast.Try, scope: Scope) -> tuple[Flow, Value]:
-    """Run the body; the handlers are ignored."""
-    flow, value = run_block(run, node.body, scope)
-    if flow is Flow.ON:
-        flow, value = run_block(run, node.orelse, scope)
+    """Run the body, and the handler of an error of Python that is sure to be raised."""
+    handlers = [(_handled(handler), handler.body) for handler in node.handlers]
+    names = frozenset(name for own, _ in handlers for name in own)
+    run.handled.append((names, len(run.guards)))
+    try:
+        flow, value = run_block(run, node.body, scope)
+        after = node.orelse if flow is Flow.ON else []
+    except HandledError as error:
+        body = next((body for own, body in handlers if own & error.names), None)
+        if body is None:
+            run_block(run, node.finalbody, scope)
+            raise
+        flow, value, after = Flow.ON, None, body
+    finally:
+        run.handled.pop()
+    if after:
+        flow, value = run_block(run, after, scope)
     end, last = run_block(run, node.finalbody, scope)
     return (flow, value) if end is Flow.ON else (end, last)
+
+
+def _handled(handler: ast.ExceptHandler) -> frozenset[str]:
+    """Return the names of the errors that a handler is for."""
+    kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    names = (ast.unparse(kind).rpartition(".")[2] if kind else "BaseException" for kind in kinds)
+    return frozenset(names)
 
 
 def _define(run: Interpreter, node: ast.FunctionDef, scope: Scope) -> tuple[Flow, Value]:
