@@ -128,10 +128,13 @@ class RobotTrials(Record, eq=False, dict=True):
 
     @cached_property
     def _left_out(self) -> frozenset[int]:
-        """The numbers of robots that are too many: those without a drive before the others."""
+        """The numbers of robots that are too many: without drive, those with the fewest joints."""
         driven_first = sorted(
             range(len(self.robots)),
-            key=lambda number: self.robots[number].locomotion.kind is DriveKind.NONE,
+            key=lambda number: (
+                self.robots[number].locomotion.kind is DriveKind.NONE,
+                -len(self.robots[number].joints),
+            ),
         )
         return frozenset(driven_first[ROBOTS_LIMIT:])
 
