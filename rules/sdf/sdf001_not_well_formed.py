@@ -4,8 +4,9 @@ A parser stops at the first such error, so the simulator or roslaunch refuses th
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, `<` for `&lt;` inside a value, control characters and a second root
 element. In files that only Gazebo or pluginlib reads these are infos; the other parsers of ROS
-refuse them. So are faults of files in a folder of tests whose name says that a test expects them
-(`invalid_tree.urdf`), and of templates: files with `[PLACEHOLDER]` in a folder `templates`.
+refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
+faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
+and of templates: files with `[PLACEHOLDER]` in a folder `templates`.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
@@ -57,6 +58,8 @@ def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
 
 
 def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
+    if path.endswith(".launch") and fault.span.source.text.startswith("#!"):
+        return  # a script
     if not fault.span.source.text.strip() and path.startswith("urdf/"):
         # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
         yield finding(fault.span, f"{path} is empty", severity=Severity.WARNING)
@@ -76,7 +79,10 @@ def _top(path: str) -> Span:
     return SourceText(path, "").whole()
 
 
-GOOD = [{"worlds/example.sdf": "<sdf version='1.6'><world name='w'/></sdf>"}]
+GOOD = [
+    {"test/drive.launch": "#! /usr/bin/env python3\nimport launch\n"},
+    {"worlds/example.sdf": "<sdf version='1.6'><world name='w'/></sdf>"},
+]
 BAD = [
     {
         "worlds/example.sdf": """<sdf version="1.6">

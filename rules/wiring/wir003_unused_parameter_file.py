@@ -113,6 +113,10 @@ def _component(name: str) -> dict[str, object]:
     return {**_example("amcl", ""), "@launch": launch}
 
 
+_REWRITTEN = """
+             parameters=[RewrittenYaml(os.path.join(HERE, "config", "a.yaml"), {}, "rover")]),
+"""
+_IN_ROVER = _IN_NAMESPACE.partition("\n             parameters")[0] + _REWRITTEN
 _LIDAR = ("acme_lidar", "lidar_node")
 GOOD = [
     _component(' name="amcl",'),
@@ -122,6 +126,13 @@ GOOD = [
     _example("/**", ' name="follower",'),
     _example("/**/controller_server", ' namespace="rover",'),
     _example("rover/controller_server", ' namespace="rover",'),
+    {
+        **_example("controller_server", ""),
+        "@launch": {
+            _HEAD: _IN_ROVER,
+            _IMPORTS: f"{_IMPORTS}from nav2_common.launch import RewrittenYaml\n",
+        },
+    },
     _example("lidar", "", *_LIDAR),
     _example("lidar", ' name="lidar",', *_LIDAR),
     _example("wheel_controller", ' name="manager",', "controller_manager", "ros2_control_node"),

@@ -6,22 +6,31 @@ active without the servers of its behaviour tree. A namespace on only one of two
 in the launch file, makes the names differ as well.
 
 It is reported where all nodes of the launch file are known, and no other launch file of the package
-starts a node that offers it. Custom behaviour trees may need other servers, and are not checked.
+starts a node that offers it. Custom behaviour trees may need other servers, and are not checked;
+nor are launch files with a `LaunchTestService`, which starts the program under test.
 
 Fix: start the node that is missing, or correct its name or namespace.
 Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design, "Managed nodes".
 """
 
 from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
+from checker.package.package import Package
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
 from checker.ros.wiring.services import Wanted, offered_services, wanted_services
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.text import SourceText
+
+_TESTS = "LaunchTestService("
+"""Part of launch files that start programs of tests besides what they describe."""
 
 
 @rule("WIR008", "unavailable-service", Severity.WARNING, Concern.INTERFACE)
-def check(wiring: Wiring, launch: Ros2Launch) -> Findings:
+def check(wiring: Wiring, launch: Ros2Launch, package: Package) -> Findings:
     """Report services and actions that known nodes wait for, and that no node offers."""
+    source = package.read(wiring.graph.file)
+    if isinstance(source, SourceText) and _TESTS in source.text:
+        return
     there = {name for node in wiring.every_node for name in offered_services(node)}
     others = [graph for graph in launch.entries if graph is not wiring.graph]
     for node in wiring.nodes:
@@ -95,7 +104,28 @@ def _tree(controller: str, mark: str = "") -> dict[str, object]:
 
 
 _WITHOUT = ' if="false"'
+_TEST = """from launch import LaunchDescription, LaunchService
+from launch.actions import ExecuteProcess
+from launch_ros.actions import Node
+from launch_testing.legacy import LaunchTestService
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", name="manager",
+             parameters=[{"node_names": ["fake_server"]}]),
+    ])
+
+
+if __name__ == "__main__":
+    service, test = LaunchService(), LaunchTestService()
+    description = generate_launch_description()
+    test.add_test_action(description, ExecuteProcess(cmd=["fake_server"]))
+    service.include_launch_description(description)
+    test.run(service)
+"""
 GOOD = [
+    {"@bridge": True, "test/manager_launch.py": _TEST},
     _manager_example("[map_server, amcl]"),
     _manager_example("[map_server]", ' namespace="r1"'),
     _tree(""),

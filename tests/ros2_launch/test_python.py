@@ -175,6 +175,23 @@ def test_what_is_chosen_by_an_unknown_test_is_not_known(read: Read) -> None:
     assert [unread.reason for unread in graph.unread] == ["depends on \"robot == 'a'\""]
 
 
+def test_an_include_that_is_left_out_sets_no_argument(read: Read) -> None:
+    other = python("return LaunchDescription([])")
+    graph = read(
+        f"""
+        path = PathJoinSubstitution([FindPackageShare('{NAME}'), 'launch', 'other.launch.py'])
+        return LaunchDescription([
+            DeclareLaunchArgument('robot', default_value='one'),
+            IncludeLaunchDescription(PythonLaunchDescriptionSource(path),
+                                     launch_arguments={{'robot': 'two'}}.items(),
+                                     condition=IfCondition('false')),
+            Node(package='p', executable='e', arguments=[LaunchConfiguration('robot')])])
+        """,
+        others={"launch/other.launch.py": other},
+    )
+    assert words(graph) == ["one"]
+
+
 def test_scopes_includes_and_events(read: Read) -> None:
     other = python(
         """

@@ -181,11 +181,13 @@ class ParameterFile(Record, eq=False):
         path: Its path; see `share_path`.
         substitutes: Whether substitutions in the file are made (`allow_substs`).
         span: The place of the path.
+        root: A key that is put above all others of the file: `root_key` of a `RewrittenYaml`.
     """
 
     path: str
     substitutes: bool
     span: Span
+    root: str = ""
 
 
 Parameters = tuple[Parameter | ParameterFile, ...]

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.launch.ros1.graph import apply_remaps, resolve_name
 from checker.launch.ros2.graph import Node, NodeKind, ParameterFile, is_known
@@ -143,7 +145,10 @@ def _loaded(node: Node, given: ParameterFile, reader: ControlReader) -> LoadedFi
     is_component = node.kind is NodeKind.COMPONENT
     if file is None or (is_component and (node.name is None or file.refused is not None)):
         return LoadedFile(given)
-    return LoadedFile(given, file.path, file.blocks, True, file.refused)
+    blocks = file.blocks
+    if given.root.strip("/"):
+        blocks = tuple(replace(b, name=f"/{given.root.strip('/')}{b.name}") for b in blocks)
+    return LoadedFile(given, file.path, blocks, True, file.refused)
 
 
 def spawned_names(nodes: Iterable[WiredNode]) -> list[str]:

@@ -27,7 +27,7 @@ def description(visitor: Visitor, made: Made, context: Context) -> None:
 
 
 def include(visitor: Visitor, made: Made, context: Context) -> None:
-    """Visit an included file; its arguments are valid after it, too."""
+    """Visit an included file; its arguments are valid after it, too, if it is included."""
     source = chosen_value(made.values.get("launch_description_source"))
     if isinstance(source, Made) and source.name == "LaunchDescriptionSource":
         visitor.visit(source.values.get("launch_description"), context)
@@ -39,15 +39,17 @@ def include(visitor: Visitor, made: Made, context: Context) -> None:
     if isinstance(target, Unknown):
         visitor.unread(target.reason, target.span)
         return
+    left_out = any(condition.holds is False for condition in context.conditions)
+    inner = context.inner() if left_out else context
     for name, value in arguments.items():
-        context.state.configurations[name] = PlacedText(value.value, value.span)
-    became = visitor.files.include(target, context)
+        inner.state.configurations[name] = PlacedText(value.value, value.span)
+    became = visitor.files.include(target, inner)
     accepts, nodes = became.accepts, tuple[Node, ...]()
     if became.reason:
         context.state.beyond = True
         if (known := known_file(target)) is not None:
             accepts = frozenset(known.arguments)
-            nodes = tuple(nodes_of(known, context, made.span))
+            nodes = tuple(nodes_of(known, inner, made.span))
             context.used |= accepts
     visitor.found.includes.append(
         Include(

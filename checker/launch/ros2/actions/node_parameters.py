@@ -58,8 +58,9 @@ def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
             yield Unread(entry.reason, entry.span)
         case Made(name="ParameterFile"):
             substitutes = chosen_value(entry.values.get("allow_substs", False))
-            path = perform(entry.values.get("param_file"), context, entry.span)
-            yield _file(path, substitutes in (True, "true", "True"), entry.span)
+            file = chosen_value(entry.values.get("param_file"))
+            path, root = perform(file, context, entry.span), _root(file, context, entry.span)
+            yield _file(path, substitutes in (True, "true", "True"), entry.span, root)
         case Made(name="Parameter", values=values) if "value" in values:
             name = perform(values.get("name"), context, entry.span)
             yield from _mapping({str(name): values["value"]}, "", context, entry.span)
@@ -67,15 +68,24 @@ def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
             for item in entry:
                 yield from _mapping(item, "", context, span)
         case Made() | str() | FilePath() | list() | tuple():
-            yield _file(perform(entry, context, span), False, span)
+            root = _root(entry, context, span)
+            yield _file(perform(entry, context, span), False, span, root)
         case _:
             yield Unread("the parameters are not evaluated", span)
 
 
-def _file(path: PlacedText | Unknown, substitutes: bool, span: Span) -> Item:
+def _root(file: Value, context: Context, span: Span) -> str:
+    """Return the key that a rewritten file gets above all others; empty for other files."""
+    rewritten = isinstance(file, Made) and file.name == "RewrittenYaml"
+    key = chosen_value(file.values.get("root_key")) if rewritten else None
+    text = perform(key, context, span) if key is not None else ""
+    return UNKNOWN if isinstance(text, Unknown) else str(text)
+
+
+def _file(path: PlacedText | Unknown, substitutes: bool, span: Span, root: str) -> Item:
     if isinstance(path, Unknown):
         return Unread(path.reason, path.span)
-    return ParameterFile(str(path), substitutes, span_of(path, span))
+    return ParameterFile(str(path), substitutes, span_of(path, span), root)
 
 
 def _mapping(
