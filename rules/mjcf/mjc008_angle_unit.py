@@ -11,8 +11,10 @@ Source: XMLreference, compiler/angle.
 
 import math
 
+from checker.finding import Fix
 from checker.physics.compiled.model import CompiledModel, Joint
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
+from checker.source.xml_insertion import insert_into, with_attributes
 
 _TURNS = 4 * math.pi
 """Radians; robots whose joints turn twice in both directions exist."""
@@ -40,7 +42,21 @@ def check(model: CompiledModel) -> Findings:
             f"model as little: the ranges are in radians, but MuJoCo reads degrees; write "
             f'<compiler angle="radian"/>',
             key="radians",
+            fix=_in_radians(model),
         )
+
+
+def _in_radians(model: CompiledModel) -> Fix:
+    """Return the fix that states radians, in the `<compiler>` that there is."""
+    stated = model.model.compiler.get("angle")
+    if stated is not None:
+        return replace_text(stated, "radian", Safety.UNSAFE)
+    compiler = next(model.model.tagged("compiler"), None)
+    if compiler is not None:
+        added = with_attributes(compiler, {"angle": "radian"})
+        return Fix(Safety.UNSAFE, tuple(each.edit for each in added))
+    root = model.model.document.root
+    return Fix(Safety.UNSAFE, (insert_into(root, ['<compiler angle="radian"/>']),))
 
 
 def _far(model: CompiledModel, hinges: list[Joint]) -> list[Finding]:
