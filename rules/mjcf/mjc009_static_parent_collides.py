@@ -8,8 +8,10 @@ Fix: add `<contact><exclude body1="BASE" body2="LINK"/></contact>`.
 Source: MuJoCo 4.0.0, tried; documentation, Computation, "Collision detection".
 """
 
+from checker.finding import Fix
 from checker.physics.compiled.model import CompiledModel
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.source.xml_insertion import append_to
 
 _DEPTH = 0.001
 
@@ -37,7 +39,20 @@ def check(model: CompiledModel, *, depth: float = _DEPTH) -> Findings:
             f"body {link.name!r} overlaps its base {base.name!r} by {-distance * 1000:.3g} mm at "
             f"the start, and MuJoCo makes contacts with a parent that is welded to the world: "
             f'write <exclude body1="{base.name}" body2="{link.name}"/>',
+            fix=_excluded(model, base.name, link.name),
         )
+
+
+def _excluded(model: CompiledModel, base: str, link: str) -> Fix | None:
+    """Return the fix that leaves the pair out; None if one of the bodies has no name."""
+    if not (base and link):
+        return None
+    exclude = f'<exclude body1="{base}" body2="{link}"/>'
+    contact = model.model.document.root.child("contact")
+    if contact is not None:
+        return Fix(Safety.UNSAFE, (append_to(contact, [exclude]),))
+    lines = ["<contact>", f"  {exclude}", "</contact>"]
+    return Fix(Safety.UNSAFE, (append_to(model.model.document.root, lines),))
 
 
 def _arm(exclude: str = "", mark: str = "") -> dict[str, str]:
