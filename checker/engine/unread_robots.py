@@ -38,7 +38,8 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
 
 def _without_robot(subject: Subject) -> Iterator[NotChecked]:
     package = subject.package
-    reasons = list(dict.fromkeys((*_of_launch_files(subject), *_of_templates(package))))
+    sources = (_of_launch_files(subject), _of_templates(package), _of_mujoco(subject))
+    reasons = list(dict.fromkeys(reason for source in sources for reason in source))
     for reason in reasons:
         yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
     if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
@@ -74,6 +75,13 @@ def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
         if concerns and (why := unavailable(package, named.path.package)):
             what = "includes" if named.include else "takes the robot from"
             yield f"{graph.file} {what} {named.path}: {why}"
+
+
+def _of_mujoco(subject: Subject) -> Iterator[str]:
+    """Yield why there is no model of MuJoCo although files of one are there."""
+    models = subject.one(MjcfModel)
+    if isinstance(models, NotAvailable) and models.applicable:
+        yield models.reason
 
 
 def _of_templates(package: Package) -> Iterator[str]:
