@@ -91,6 +91,20 @@ CONTROLLED = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 </robot>
 """
 CHOSEN = {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": CONTROLLED}
+FORMER = {"@ros2": "        Node(package='p', node_executable='e'),"}
+LEFT = {
+    "package.xml": """<package format="3">
+  <name>acme_can</name>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "CMakeLists.txt": "project(acme_can)\n"
+    "install(DIRECTORY urdf worlds thumbnails DESTINATION share/acme_can)\n"
+    "install(FILES model.sdf DESTINATION share/acme_can)\n",
+    "launch/description.launch": '<launch><node pkg="acme_can" type="can" name="can"/></launch>',
+    **dict.fromkeys(("launch/spawner.rb", "launch/example.ign", "launch/vehicle_topics.launch")),
+}
 DRIVE = '<plugin filename="libp.so" name="ignition::gazebo::systems::{name}">{inside}</plugin>'
 LINEAR = "".join(
     f"<{end}_linear_{kind}>{sign}1</{end}_linear_{kind}>"
@@ -114,10 +128,15 @@ CASES: list[tuple[str, Example, str]] = [
     ),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
+    ("LCH004", FORMER, "error"),
+    ("LCH004", {**FORMER, "README.md": "A rover with ROS 2 Foxy\n"}, "warning"),
+    ("LCH004", {**FORMER, "README.md": "A rover with ROS 2 Humble\n"}, "error"),
     ("PKG003", {"specifications.md": None}, "error"),
     ("PKG003", {**HELD, SHEET: "# Rover\nsensor_config_1 has no lidar\n"}, "warning"),
     ("PKG003", {**HELD, SHEET: "# Rover\nconfiguration 12\n"}, "error"),
     ("PKG003", {"thumbnails/1.png": None}, "info"),
+    ("PKG008", LEFT, "info"),
+    ("PKG008", {**LEFT, "launch/b.launch.py": "def generate_launch_description(): ..."}, "error"),
     ("PKG016", LINKED, "error"),
     ("PKG016", {**LINKED, "package.xml": DEPENDS}, "info"),
     ("REF002", MESH, "error"),

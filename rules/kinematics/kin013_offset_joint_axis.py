@@ -2,15 +2,17 @@
 
 The part swings around its axis on an invisible arm, or floats in the air. Usually a pose has a
 wrong decimal point or unit, or refers to an unintended frame. No accepted package that we checked
-has this fault.
+has this fault. Parts with a fixed joint that both touch a third part are not reported: the frames
+of a stereo camera touch its housing.
 
 Fix: correct the pose of the joint or of the child link, in metres.
 Source: geometry; SDF gives a joint's pose in its child link, URDF in its parent.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from checker.model.geometry.boxes import Box
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
@@ -43,6 +45,7 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0, marker: float =
             and parent is not None
             and max(child.diagonal, parent.diagonal) > marker
             and child.gap(parent) > gap * (together := child.diagonal + parent.diagonal)
+            and not (tie.joint.type.value == "fixed" and _share_part(child, parent, boxes.values()))
         ):
             yield finding(
                 tie.joint,
@@ -52,6 +55,12 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0, marker: float =
             )
         elif tie.joint.type.value in _HINGES:
             yield from _offset_axis(robot, tie, sizes)
+
+
+def _share_part(child: Box, parent: Box, boxes: Iterable[Box | None]) -> bool:
+    """Return whether another box touches both."""
+    others = (box for box in boxes if box is not None and box not in (child, parent))
+    return any(box.gap(child) == box.gap(parent) == 0.0 for box in others)
 
 
 def _offset_axis(robot: Robot, tie: Tie, sizes: float) -> Iterator[Finding]:
@@ -113,9 +122,21 @@ def _stereo(side: float, mark: str = "") -> str:
 """
 
 
+def _housing(z: float) -> str:
+    box = "<box><size>0.02 0.13 0.03</size></box>"
+    return f"""
+<link name="housing">
+  <pose>0 -0.045 {z} 0 0 0</pose>
+  <visual name="v"><geometry>{box}</geometry></visual>
+</link>
+<joint name="front" type="fixed"><parent>housing</parent><child>left_camera</child></joint>
+"""
+
+
 _MARK = "  <!-- ^ KIN013 -->"
 GOOD = [
     _stereo(0.01),
+    _stereo(0.015) + _housing(0.0),
     _wheel("0 0 0 0 0 0"),
     _wheel("0.2 0.3 0 0 0 0"),
     _wheel("0 5 0 0 0 0"),
@@ -124,4 +145,5 @@ BAD = [
     _wheel("1 0 0 0 0 0", mark=_MARK),
     _wheel("0 0 0 0 0 0", "0 30 0 0 0 0", mark=_MARK),
     _stereo(0.015, _MARK),
+    _stereo(0.015, _MARK) + _housing(0.03),
 ]

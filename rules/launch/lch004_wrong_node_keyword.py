@@ -2,7 +2,9 @@
 
 `node_name`, `node_executable` and `node_namespace` are of releases before Galactic, `type` is of
 ROS 1. Without `executable` (in XML and YAML `exec`) the launch file ends with an error. In a file
-that is named for one of these releases (`robot_eloquent.launch.py`) this is a warning.
+that is named for one of these releases (`robot_eloquent.launch.py`) this is a warning, and so it is
+in a package whose README or Dockerfile names Foxy, which knows the former keywords too, and logs
+that they are deprecated.
 
 Fix: write `name`, `executable` and `namespace`.
 Source: launch_ros, `Node`: `executable` is required, and other keywords raise a TypeError.
@@ -13,6 +15,7 @@ from collections.abc import Mapping
 
 from checker.finding import Fix
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
+from checker.package.package import Package
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span
 
@@ -23,18 +26,20 @@ OLD: Mapping[str, str] = {
 }
 
 _RELEASES = re.compile(r"(?<![a-z])(?:ardent|bouncy|crystal|dashing|eloquent|foxy)(?![a-z])")
-"""In the name of a file: releases of ROS 2 that know the former keywords."""
+"""Releases of ROS 2 that know the former keywords."""
 
 
 @rule("LCH004", "wrong-node-keyword", Severity.ERROR, Concern.INTERFACE)
-def check(launch: Ros2Launch) -> Findings:
+def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report nodes without executable, and keywords that were renamed."""
+    sign = package.distribution_sign
+    distro = sign.distro if sign is not None else ""
     for graph in launch.entries:
         for fault in graph.faults:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:
                 new = OLD.get(fault.name)
                 hint = f"; write {new}" if new else f"; add {_executable(fault.span)}"
-                is_for_old = bool(new and _RELEASES.search(fault.span.source.file))
+                is_for_old = bool(new and _RELEASES.search(f"{distro} {fault.span.source.file}"))
                 yield finding(
                     fault,
                     f"{fault.message}{hint}",

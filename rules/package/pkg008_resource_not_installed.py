@@ -1,7 +1,8 @@
 """A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine. Thumbnails are not needed there: they are infos. A setup.py
+only on the author's machine. A folder with launch files of ROS 1 alone in a package of ROS 2 is an
+info. Thumbnails are not needed there: they are infos. A setup.py
 that computes its `data_files` is not checked; if it names each folder, that is only an info.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
@@ -18,6 +19,7 @@ from itertools import islice
 from msgspec.structs import replace
 
 from checker.finding import Fix
+from checker.launch.ros2.package_launch import is_left_from_ros1
 from checker.package.installed import USUAL_FOLDERS
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
@@ -69,9 +71,11 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         if whole or _covers(installed, folder):
             continue
         message = f"folder {folder}/ is not installed"
-        yield _finding(
-            build, message, _LESS.get(folder), _install_fix(build, "DIRECTORY", [folder])
-        )
+        severity, fix = _LESS.get(folder), _install_fix(build, "DIRECTORY", [folder])
+        if is_left_from_ros1(package, folder):
+            message += ": it has only launch files of ROS 1; delete them, or write those of ROS 2"
+            severity, fix = Severity.INFO, None
+        yield _finding(build, message, severity, fix)
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
         message = f"neither of {' and '.join(model_files)} is installed"

@@ -118,6 +118,14 @@ def is_ros2_xml(package: Package, path: str) -> bool:
     return not _holds(package, "package.xml", _CATKIN) or _ROS_2.search(source.text) is not None
 
 
+def is_left_from_ros1(package: Package, folder: str) -> bool:
+    """Return whether a folder of a package of ROS 2 has only launch files of ROS 1."""
+    files = [it.path for it in package.index.files if it.path.startswith(f"{folder}/")]
+    return is_ros2_only(package) and all(
+        path.endswith((".launch", ".xml")) and _holds(package, path, _ROS_1) for path in files
+    )
+
+
 def built_by_ament(package: Package) -> bool:
     """Return whether package.xml states that the package is one of ROS 2."""
     return _holds(package, "package.xml", _BUILT_BY_AMENT)
