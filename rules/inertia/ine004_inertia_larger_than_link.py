@@ -3,8 +3,8 @@
 The radius of gyration, √(I/m), is the radius of a ring with the mass and moment of the link. No
 mass of the link is beyond its farthest point, so the radius cannot be larger. Usually the moments
 have other units, refer to another point than the centre of mass, or come from a larger part. The
-link then turns like a flywheel. With far too little inertia, as if all mass were in one point, the
-link jumps at the smallest force.
+link then turns like a flywheel: the robot moves, but more slowly than the real one. With far too
+little inertia, as if all mass were in one point, the link jumps at the smallest force.
 
 Fix: compute the moments about the centre of mass with CAD, or with the formula of the most similar
 solid.
@@ -33,7 +33,8 @@ def check(
     masses: MassProperties,
     context: Context,
     *,
-    error_above: float = 1.5,
+    error_above: float = 10.0,
+    subt_error_above: float = 1.5,
     warning_above: float = 1.0,
     warning_below: float = 0.02,
     share: float = 0.02,
@@ -47,7 +48,8 @@ def check(
 
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the
-            centre of mass; more is an error.
+            centre of mass; more is an error, such as moments in other units.
+        subt_error_above: The same ratio in a submission for SubT.
         warning_above: The same ratio; more is at least a warning, because no body has more than 1.
         warning_below: The same ratio; less is a warning, because few bodies have so much of their
             mass near the centre (a solid ball has 0.63).
@@ -78,7 +80,8 @@ def check(
             fixed = is_prop or name in masses.robot.tree.links_fixed_to_world
             heavy = masses.share(name) > share and not fixed
             mounted = masses.robot.is_mounted(name)
-            grave = ratio > error_above and not mounted
+            limit = subt_error_above if context.is_subt else error_above
+            grave = ratio > limit and not mounted
             grave = grave and not (inertia.mass <= placeholder and _is_made_up(inertia))
             severity = Severity.ERROR if grave else Severity.WARNING
             fault = finding(
