@@ -21,7 +21,9 @@ def check(model: CompiledModel) -> Findings:
     """Report models that MuJoCo cannot simulate for a second."""
     compiled = model.compiled
     if model.lacks_files:
-        yield unchecked(f"{model.model.file} is not simulated: {model.text.absent[0]}")
+        yield unchecked(
+            f"{model.model.file} is not simulated: {next(iter(model.text.absent.values()))}"
+        )
         return
     options = next(model.model.tagged("option"), model.model.document.root)
     if compiled.trouble:

@@ -10,8 +10,10 @@ Source: XMLreference, compiler/angle.
 """
 
 import math
+from collections.abc import Iterator
 
 from checker.finding import Fix
+from checker.formats.mjcf.values import numbers
 from checker.physics.compiled.model import CompiledModel, Joint
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml_insertion import insert_into, with_attributes
@@ -26,7 +28,7 @@ _FEWEST = 3
 
 @rule("MJC008", "angle-unit", Severity.ERROR, Concern.ROBOT)
 def check(model: CompiledModel) -> Findings:
-    """Report ranges of hinges that make sense in the other unit alone."""
+    """Report ranges of hinges and orientations that make sense in the other unit alone."""
     hinges = [
         joint
         for joint in model.compiled.joints
@@ -34,6 +36,7 @@ def check(model: CompiledModel) -> Findings:
     ]
     if model.model.in_radians:
         yield from _far(model, hinges)
+        yield from _turned(model)
     elif (small := _small(hinges)) is not None:
         low, high = map(math.degrees, small.range)
         yield finding(
@@ -71,6 +74,18 @@ def _far(model: CompiledModel, hinges: list[Joint]) -> list[Finding]:
         )
         for joint in far
     ]
+
+
+def _turned(model: CompiledModel) -> Iterator[Finding]:
+    for element in model.model.elements:
+        value, angles = element.attribute("euler"), numbers(element, "euler")
+        if value is not None and angles is not None and max(map(abs, angles)) > math.tau:
+            yield finding(
+                value,
+                f"euler {value.value!r} of <{element.tag}> is in radians, more than a turn: with "
+                'degrees meant, convert it, or remove angle="radian" of <compiler>',
+                key="turned",
+            )
 
 
 def _small(hinges: list[Joint]) -> Joint | None:
@@ -119,5 +134,9 @@ BAD = [
     {
         "@mjcf": '<compiler angle="radian"/>\n<worldbody><body>\n<joint name="a" range="-90 90"/>'
         f"{_MARK}\n<geom size='1'/></body></worldbody>"
+    },
+    {
+        "@mjcf": '<compiler angle="radian"/>\n<worldbody>\n<geom size="1" euler="0 90 0"/>'
+        f"{_MARK}\n</worldbody>"
     },
 ]

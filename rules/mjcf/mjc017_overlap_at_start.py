@@ -1,7 +1,8 @@
-"""Two parts of a robot that are inside each other at its first keyframe.
+"""Parts that are inside each other at the first keyframe.
 
 The contact pushes them apart with the first step: the robot jumps, or a joint is jammed. Bodies and
-their parents are left out, as MuJoCo leaves them out, and so are overlaps of less than 2 mm.
+their parents are left out, as MuJoCo leaves them out, and so are overlaps of less than 2 mm. Of a
+robot with a fixed base, what is more than 10 mm inside the ground or its stand counts as well.
 
 Fix: correct the keyframe or the shapes, or add `<exclude>` for shapes that always overlap.
 Source: MuJoCo 4.0.0, tried.
@@ -11,21 +12,27 @@ from checker.physics.compiled.model import CompiledModel
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _DEPTH = 0.002
+_GROUND_DEPTH = 0.01
 
 
 @rule("MJC017", "overlap-at-start", Severity.WARNING, Concern.ROBOT)
-def check(model: CompiledModel, *, depth: float = _DEPTH) -> Findings:
-    """Report moving bodies of one robot that overlap at the first keyframe.
+def check(
+    model: CompiledModel, *, depth: float = _DEPTH, ground_depth: float = _GROUND_DEPTH
+) -> Findings:
+    """Report bodies that overlap at the first keyframe.
 
     Options:
-        depth: Metres by which they overlap.
+        depth: Metres by which moving bodies of one robot overlap.
+        ground_depth: Metres by which a body of a robot with a fixed base is inside what is static.
     """
     compiled = model.compiled
     deepest: dict[tuple[int, int], float] = {}
     for contact in compiled.contacts if compiled.at_key and not model.lacks_files else ():
         first, second = sorted(compiled.geoms[geom].body for geom in contact.geoms)
-        are_moved = compiled.bodies[first].welded and compiled.bodies[second].welded
-        if are_moved and contact.distance < -depth and model.root(first) == model.root(second):
+        is_static = not compiled.bodies[first].welded
+        least = ground_depth if is_static else depth
+        are_one = _is_fixed(model, second) if is_static else model.root(first) == model.root(second)
+        if are_one and contact.distance < -least:
             deepest[first, second] = min(contact.distance, deepest.get((first, second), 0.0))
     for (first, second), distance in deepest.items():
         one, other = compiled.bodies[first], compiled.bodies[second]
@@ -35,6 +42,12 @@ def check(model: CompiledModel, *, depth: float = _DEPTH) -> Findings:
             "first keyframe",
             related=[(model.span(one.line), "the other body")],
         )
+
+
+def _is_fixed(model: CompiledModel, body: int) -> bool:
+    """Return whether a moving body is part of a robot that the world holds by hinges and slides."""
+    free = {joint.body for joint in model.compiled.joints if joint.type == "free"}
+    return model.compiled.bodies[body].welded != 0 and model.root(body) not in free
 
 
 def _arm(angle: str, mark: str = "") -> dict[str, str]:

@@ -55,9 +55,14 @@ def _compiled(model: MjcfModel, cache: Cache) -> CompiledModel | str:
     text = mujoco_text(model)
     if text.obstacle:
         return text.obstacle
-    item = {"text": text.text, "attached": dict(text.attached), "files": dict(text.files)}
+    item = {
+        "text": text.text,
+        "attached": dict(text.attached),
+        "files": dict(text.files),
+        "absent": list(text.absent),
+    }
     contents = [_content(place) for place in text.files.values()]
-    texts = (text.text, *text.attached.values(), *text.files)
+    texts = (text.text, *text.attached.values(), *text.files, *text.absent)
     key = work_key((*texts, *contents), ["physics/compiled"], ("mujoco",))
     work = Work("compiled", _MODULE, LIMITS, {key: item}, _decode, files=_files)
     result = Background(work, cache).result()

@@ -18,6 +18,7 @@ class Compiled(Record):
     Attributes:
         refusals: What it refuses; the parts are those of the text without that.
         sizes: Numbers of coordinates, velocities, commands and states: `nq`, `nv`, `nu`, `na`.
+        lacks_meshes: Whether a shape of an absent mesh collides, or gives its body mass.
         timestep: Seconds.
         bodies: The bodies; the first one is the world.
         idle: Numbers of the actuators that have no moment about any joint.
@@ -33,6 +34,7 @@ class Compiled(Record):
 
     refusals: tuple[Refusal, ...] = ()
     sizes: Mapping[str, int] = {}
+    lacks_meshes: bool = False
     timestep: float = 0.0
     integrator: int = 0
     bodies: tuple[Body, ...] = ()
@@ -177,8 +179,8 @@ class CompiledModel(Record, eq=False, dict=True):
 
     @cached_property
     def lacks_files(self) -> bool:
-        """True if files are missing, so that masses and contacts of meshes mean nothing."""
-        return bool(self.text.absent)
+        """True if a file is missing on which masses or contacts depend."""
+        return self.compiled.lacks_meshes
 
 
 class CompiledModels(Record, eq=False):

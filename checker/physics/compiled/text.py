@@ -39,7 +39,7 @@ class MujocoText(Record, eq=False):
         attached: Texts of the models that it attaches, by their short names.
         lines: The element of each line of these texts, from the first line on.
         files: Paths on disk of the files that go along, by their short names.
-        absent: Meshes and height fields that do not go along, each with the reason, as a clause.
+        absent: Reasons why meshes and height fields do not go along, as clauses, by their names.
         obstacle: Why MuJoCo cannot be given the model, as a clause; empty if it can.
     """
 
@@ -47,7 +47,7 @@ class MujocoText(Record, eq=False):
     attached: Mapping[str, str]
     lines: tuple[Element, ...]
     files: Mapping[str, str]
-    absent: tuple[str, ...] = ()
+    absent: Mapping[str, str] = {}
     obstacle: str = ""
 
     def element(self, line: int) -> Element | None:
@@ -61,7 +61,7 @@ class _Writer:
         self.lines: list[Element] = []
         self.names: dict[str, str] = {}
         self.attached: dict[str, MjcfModel] = {}
-        self.absent: list[str] = []
+        self.absent: dict[str, str] = {}
         self.obstacle = ""
 
     def text(self, model: MjcfModel) -> str:
@@ -113,15 +113,16 @@ class _Writer:
         if substitute is None:
             self.obstacle = self.obstacle or absent
             return element.attributes
-        if element.tag != "texture":
-            self.absent.append(absent)
         uri = element.get("file") or ""
         kept = {
             name: value
             for name, value in element.attributes.items()
             if name not in _OF_FILES and not name.startswith("file")
         }
-        return {"name": posixpath.splitext(posixpath.basename(uri))[0], **kept, **substitute}
+        named = {"name": posixpath.splitext(posixpath.basename(uri))[0], **kept}
+        if element.tag != "texture":
+            self.absent[named["name"]] = absent
+        return {**named, **substitute}
 
     def _short_name(self, file: NamedFile, element: Element) -> str:
         if element.tag == "model" and file.path.lower().endswith(SUFFIXES):
@@ -163,6 +164,6 @@ def mujoco_text(model: MjcfModel) -> MujocoText:
         attached,
         tuple(writer.lines),
         {name: place for place, name in writer.names.items()},
-        tuple(dict.fromkeys(writer.absent)),
+        writer.absent,
         writer.obstacle,
     )

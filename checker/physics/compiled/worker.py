@@ -71,7 +71,8 @@ def _compiled(item: Mapping[str, Any], files: Files) -> dict[str, Any]:
                 break
             text = mended
         else:
-            return {"refusals": refusals, **_facts(spec, model), **_first_second(model)}
+            lacks = {"lacks_meshes": _lacks(spec, item["absent"])}
+            return {"refusals": refusals, **lacks, **_facts(spec, model), **_first_second(model)}
     return {"refusals": refusals}
 
 
@@ -95,6 +96,20 @@ def _without(text: str, refused: str, number: int) -> str:
         lines[number - 1] = line[leaf.end() :]
         return "\n".join(lines)
     return text
+
+
+def _lacks(spec: Any, absent: list[str]) -> bool:
+    """Return whether a shape of an absent mesh or height field collides or has mass."""
+    names = {*absent}
+    return any(
+        (geom.meshname or geom.hfieldname) in names
+        and (
+            geom.contype
+            or geom.conaffinity
+            or not (geom.parent.explicitinertial or geom.mass == 0 or geom.density == 0)
+        )
+        for geom in spec.geoms
+    )
 
 
 def _line(element: Any) -> int:
