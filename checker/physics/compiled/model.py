@@ -36,7 +36,6 @@ class Compiled(Record):
     sizes: Mapping[str, int] = {}
     lacks_meshes: bool = False
     timestep: float = 0.0
-    integrator: int = 0
     bodies: tuple[Body, ...] = ()
     joints: tuple[Joint, ...] = ()
     geoms: tuple[Geom, ...] = ()
