@@ -7,7 +7,7 @@ from pathlib import Path
 
 from checker.finding import Severity
 from checker.pipeline import check_package
-from checker.report.report import Report, VerdictKind
+from checker.report.report import Cause, Report, VerdictKind
 from checker.settings import Settings
 
 ARM = "<worldbody><body name='arm'><joint name='tilt'{}/><geom size='0.1'/></body></worldbody>"
@@ -101,3 +101,14 @@ def test_what_an_earlier_version_reads_is_a_warning_where_it_is_stated(tmp_path:
     (found,) = checked(tmp_path / "arm", files).packages[0].findings
     assert found.severity is Severity.WARNING
     assert "requirements.txt:2 has mujoco==2.3.5" in found.message
+
+
+def test_includes_that_nest_deeply_are_no_crash(tmp_path: Path) -> None:
+    depth, files = 200, {"f9.xml": "<mujoco><worldbody/></mujoco>"}
+    for number in range(9):
+        inner = f"<include file='f{number + 1}.xml'/>"
+        nested = "<frame>" * depth + inner + "</frame>" * depth
+        files[f"f{number}.xml"] = f"<mujoco><worldbody>{nested}</worldbody></mujoco>"
+    (package,) = checked(tmp_path / "deep", files).packages
+    assert not [it for it in package.not_checked if it.cause is Cause.CRASHED]
+    assert package.verdict is VerdictKind.INCOMPLETE

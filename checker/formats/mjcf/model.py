@@ -14,7 +14,7 @@ from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.package import Package
 from checker.source.text import Located
-from checker.source.xml import Element, XmlDocument
+from checker.source.xml import MAX_DEPTH, Element, XmlDocument
 from checker.source.xml_positions import XmlFault
 
 _FOLDER = {
@@ -66,7 +66,7 @@ class MjcfModel(Record, eq=False, dict=True):
             them; `<include>` itself and the roots of included files are left out.
         parents: The parent of each element in this order, by its number; the root has none.
         included: The included files.
-        broken: Included files that are not well-formed XML.
+        broken: Included files that are not well-formed XML, and includes that nest too deeply.
         repeated: Includes of a file that was included before, which MuJoCo refuses.
         missing: Includes whose file is not there.
     """
@@ -179,20 +179,23 @@ class _Reader:
         self.repeated: list[Element] = []
         self.missing: list[NamedFile] = []
 
-    def add(self, element: Element, parent: int) -> None:
+    def add(self, element: Element, parent: int, depth: int = 0) -> None:
         """Add an element and all below it."""
         if element.tag == "include":
-            self._include(element, parent)
+            self._include(element, parent, depth)
             return
         number = len(self.elements)
         self.elements.append(element)
         self.parents.append(parent)
         for child in element.children:
-            self.add(child, number)
+            self.add(child, number, depth + 1)
 
-    def _include(self, element: Element, parent: int) -> None:
+    def _include(self, element: Element, parent: int, depth: int) -> None:
         uri = element.attribute("file")
         if uri is None:
+            return
+        if depth > MAX_DEPTH:
+            self.broken.append(XmlFault(element.span, "elements nest too deeply"))
             return
         folders = (self.folder, posixpath.dirname(element.source.file))
         named = named_file(self.package, element, uri, folders, uri.value)
@@ -203,7 +206,7 @@ class _Reader:
         if isinstance(document, XmlDocument):
             self.seen.add(named.path)
             for child in document.root.children:
-                self.add(child, parent)
+                self.add(child, parent, depth)
         elif isinstance(document, XmlFault):
             self.broken.append(document)
         else:
