@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.formats.mjcf.model import MjcfModel
+from checker.formats.mjcf.models import MODELS_LIMIT, MjcfFiles
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
@@ -32,6 +33,10 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
     cause = Cause.NOT_SUPPORTED if was_read else Cause.NOT_AT_HAND
     for reason in unchecked_models(file.path for file in package.index.files):
         yield NotChecked(FILES, reason, cause)
+    mujoco = subject.one(MjcfFiles)
+    if isinstance(mujoco, MjcfFiles) and mujoco.left_out:
+        beyond = f"only {MODELS_LIMIT} of its MuJoCo models are checked, {mujoco.left_out} are not"
+        yield NotChecked(FILES, beyond, Cause.NOT_AT_HAND)
     if not was_read and package.kind not in _WITHOUT_ROBOT:
         yield from _without_robot(subject)
 

@@ -112,3 +112,13 @@ def test_includes_that_nest_deeply_are_no_crash(tmp_path: Path) -> None:
     (package,) = checked(tmp_path / "deep", files).packages
     assert not [it for it in package.not_checked if it.cause is Cause.CRASHED]
     assert package.verdict is VerdictKind.INCOMPLETE
+
+
+def test_models_beyond_the_limit_are_named(tmp_path: Path) -> None:
+    model = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>"
+    files = {f"m{number}.xml": model for number in range(42)}
+    settings = Settings(display=False, select=("MJC003",))
+    for path, text in files.items():
+        (tmp_path / path).write_text(text)
+    (package,) = check_package(tmp_path, settings).packages
+    assert "2 are not" in " ".join(spot.reason for spot in package.blind_spots)
