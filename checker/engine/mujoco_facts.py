@@ -10,8 +10,6 @@ from checker.engine.part_facts import rounded
 from checker.physics.compiled.model import Actuator, Compiled, CompiledModel, Joint
 from checker.report.robot_facts import AxisFacts, JointFacts, LinkFacts, Numbers, RobotFacts
 
-_ANGLES = ("hinge", "ball")
-
 
 def model_overview(model: CompiledModel) -> dict[str, Any]:
     """Return the figures of a model; the world is no body of it."""
@@ -23,7 +21,7 @@ def model_overview(model: CompiledModel) -> dict[str, Any]:
         "joints": len(compiled.joints),
         "actuators": len(compiled.actuators),
     }
-    if not model.lacks_files:
+    if not model.compiled.lacks_meshes:
         known["mass_kg"] = rounded(sum(body.mass for body in compiled.bodies))
         known["simulated_s"] = rounded(compiled.time)
     return {name: value for name, value in known.items() if value is not None}
@@ -34,10 +32,9 @@ def model_facts(model: CompiledModel) -> RobotFacts:
     overview = model_overview(model)
     name, file = overview.pop("robot"), overview.pop("file")
     bodies = model.compiled.bodies
+    lacks_meshes = model.compiled.lacks_meshes
     links = tuple(
-        LinkFacts(
-            body.name, None if model.lacks_files else rounded(body.mass), _numbers(body.position)
-        )
+        LinkFacts(body.name, None if lacks_meshes else rounded(body.mass), _numbers(body.position))
         for body in bodies[1:]
     )
     joints = tuple(_joints(model.compiled))
@@ -63,7 +60,7 @@ def _joints(compiled: Compiled) -> Iterator[JointFacts]:
 def _axis(joint: Joint, mover: Actuator | None) -> AxisFacts:
     lower, upper = map(rounded, joint.range) if joint.limited else (None, None)
     force = max(map(abs, mover.force_range)) if mover and mover.force_limited else None
-    unit = "rad" if joint.type in _ANGLES else "m"
+    unit = "m" if joint.type == "slide" else "rad"
     effort = None if force is None else rounded(force)
     return AxisFacts(_numbers(joint.axis), unit, lower, upper, None, effort)
 

@@ -127,8 +127,7 @@ def _in_files(
         text = _without_comments(source)
         for target, pattern in patterns.items():
             if match := pattern.search(text):
-                line, _ = source.position(match.start())
-                yield target, f"{path}:{line} names {match.group().strip()}"
+                yield target, f"{source.where(match.start())} names {match.group().strip()}"
 
 
 _LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)

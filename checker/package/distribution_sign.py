@@ -86,6 +86,5 @@ def _signs(sources: Sequence[SourceText], named: re.Pattern[str]) -> list[Distri
 def _found(sources: Iterable[SourceText], named: re.Pattern[str]) -> Iterator[DistributionSign]:
     for source in sources:
         for match in named.finditer(source.text):
-            line, _ = source.position(match.start())
             words = " ".join(match.group().split())
-            yield DistributionSign(match[1].lower(), f"{source.file}:{line} names {words}")
+            yield DistributionSign(match[1].lower(), f"{source.where(match.start())} names {words}")

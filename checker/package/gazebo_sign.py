@@ -51,6 +51,5 @@ def _sign(package: Package, named: re.Pattern[str], other: re.Pattern[str]) -> s
             return ""
         for source in sources:
             if match := named.search(source.text):
-                line, _ = source.position(match.start())
-                return f"{source.file}:{line} names {match.group()}"
+                return f"{source.where(match.start())} names {match.group()}"
     return ""

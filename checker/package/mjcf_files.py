@@ -13,21 +13,15 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 SUFFIXES = (".xml", ".mjcf")
-HEAD = 8_000
+_HEAD = 8_000
 """Characters of a file in which its root element is looked for."""
 _PROLOGUE = re.compile(r"<!--.{0,8000}?-->|<\?.{0,500}?\?>", re.DOTALL)
-_ROOT = re.compile(r"[\ufeff\s]{0,999}<mujoco(include)?[\s/>]")
+_ROOT = re.compile(r"[\ufeff\s]{0,999}<mujoco[\s/>]")
 
 
-def is_mjcf(head: str, *, parts_too: bool = True) -> bool:
-    """Return whether a text begins as a file of MuJoCo.
-
-    Args:
-        head: The beginning of the text.
-        parts_too: Whether `<mujocoinclude>`, a part of other files, counts.
-    """
-    root = _ROOT.match(_PROLOGUE.sub("", head[:HEAD]))
-    return root is not None and (parts_too or root[1] is None)
+def _is_model(text: str) -> bool:
+    """Return whether a text begins as a whole model, not as a part that others include."""
+    return _ROOT.match(_PROLOGUE.sub("", text[:_HEAD])) is not None
 
 
 def mjcf_files(package: Package) -> tuple[str, ...]:
@@ -41,25 +35,23 @@ def mjcf_files(package: Package) -> tuple[str, ...]:
         for path in paths
         if not package.lies_in_unit(path)
         and isinstance(source := package.read(path), SourceText)
-        and is_mjcf(source.text, parts_too=False)
+        and _is_model(source.text)
     )
 
 
 def holds_mjcf(folder: Path, names: Iterable[str]) -> bool:
     """Return whether one of the files of a folder begins as a whole model of MuJoCo."""
     return any(
-        is_mjcf(head_of(folder / name), parts_too=False)
-        for name in names
-        if name.lower().endswith(SUFFIXES)
+        _is_model(_head_of(folder / name)) for name in names if name.lower().endswith(SUFFIXES)
     )
 
 
-def head_of(file: Path) -> str:
+def _head_of(file: Path) -> str:
     """Return the first characters of a file; empty if it is none or cannot be read."""
     try:
         if not file.is_file():
             return ""
         with file.open(encoding="utf-8", errors="replace") as opened:
-            return opened.read(HEAD)
+            return opened.read(_HEAD)
     except OSError:
         return ""

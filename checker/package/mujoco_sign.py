@@ -36,8 +36,7 @@ def mujoco_sign(package: Package) -> MujocoSign | None:
     for source in files_around(package, _FILES):
         for pattern, old in ((_PINNED, ""), (_OF_VERSION_2, "2.1")):
             if found := pattern.search(source.text):
-                line, _ = source.position(found.start())
-                stated = f"{source.file}:{line} has {found[0].strip()}"
+                stated = f"{source.where(found.start())} has {found[0].strip()}"
                 return MujocoSign(old or found[1], stated)
     return None
 

@@ -23,12 +23,14 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _AROUND = 12
 """Bytes of a chunk besides its data: length, kind and check sum."""
 
+LFS_POINTER = b"version https://git-lfs"
+"""How the file begins that Git LFS leaves in the place of one that is not fetched."""
 _OTHERS = {
     b"\xff\xd8\xff": "a JPEG file",
     b"GIF8": "a GIF file",
     b"BM": "a BMP file",
     b"<svg": "an SVG file",
-    b"version https://git-lfs": "a Git LFS pointer, not the picture",
+    LFS_POINTER: "a Git LFS pointer, not the picture",
 }
 
 

@@ -75,6 +75,10 @@ class SourceText(Record, eq=False, dict=True):
         line = bisect_right(self._line_starts, offset)
         return line, offset - self._line_starts[line - 1] + 1
 
+    def where(self, offset: int) -> str:
+        """Return `FILE:LINE` of a character offset."""
+        return f"{self.file}:{self.position(offset)[0]}"
+
     def offset_of(self, line: int, column: int) -> int | None:
         """Return the character offset of a line and column, both from 1; None outside the text."""
         starts = self._line_starts

@@ -20,7 +20,7 @@ _FASTEST = 500.0
 def check(model: CompiledModel) -> Findings:
     """Report models that MuJoCo cannot simulate for a second."""
     compiled = model.compiled
-    if model.lacks_files:
+    if model.compiled.lacks_meshes:
         yield unchecked(
             f"{model.model.file} is not simulated: {next(iter(model.text.absent.values()))}"
         )

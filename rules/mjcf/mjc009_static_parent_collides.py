@@ -24,19 +24,14 @@ def check(model: CompiledModel, *, depth: float = _DEPTH) -> Findings:
         depth: Metres by which they overlap.
     """
     compiled = model.compiled
-    found: dict[tuple[int, int], float] = {}
-    for contact in () if model.lacks_files else compiled.contacts:
-        first, second = (compiled.geoms[geom].body for geom in contact.geoms)
-        for parent, child in ((first, second), (second, first)):
-            of_child = compiled.bodies[compiled.bodies[child].welded].parent
-            is_base = compiled.bodies[parent].welded == 0 and parent != 0
-            if is_base and of_child == parent and contact.distance < -depth:
-                found[parent, child] = min(contact.distance, found.get((parent, child), 0.0))
-    for (parent, child), distance in found.items():
+    for (parent, child), overlap in model.overlaps.items():
         base, link = compiled.bodies[parent], compiled.bodies[child]
+        is_base = parent != 0 and base.welded == 0
+        if overlap <= depth or not is_base or compiled.bodies[link.welded].parent != parent:
+            continue
         yield finding(
             model.span(link.line),
-            f"body {link.name!r} overlaps its base {base.name!r} by {-distance * 1000:.3g} mm at "
+            f"body {link.name!r} overlaps its base {base.name!r} by {overlap * 1000:.3g} mm at "
             f"the start, and MuJoCo makes contacts with a parent that is welded to the world: "
             f'write <exclude body1="{base.name}" body2="{link.name}"/>',
             fix=_excluded(model, base.name, link.name),

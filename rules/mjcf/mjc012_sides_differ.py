@@ -12,6 +12,7 @@ Source: six public models whose authors mended such faults.
 """
 
 import math
+from collections.abc import Iterator
 
 from checker.physics.compiled.model import Compiled, CompiledModel, Joint
 from checker.physics.compiled.twins import Twins, joint_pairs, twins_of
@@ -32,10 +33,11 @@ def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
     twins = twins_of(model.compiled)
     if twins is None:
         return
-    for left, right in joint_pairs(model.compiled, twins):
-        if _may_differ(model.compiled, left, right):
+    for pair in joint_pairs(model.compiled, twins):
+        left, right = (model.compiled.joints[number] for number in pair)
+        if not {*pair}.isdisjoint(model.compiled.held) or _may_differ(model.compiled, left, right):
             continue
-        yield from _actuators(model, left, right)
+        yield from _actuators(model, pair)
         expected = _mirrored_range(left, right, twins.axis)
         if expected is None:
             continue
@@ -43,15 +45,12 @@ def check(model: CompiledModel, *, angle: float = _RANGE) -> Findings:
         if left.limited and right.limited and off > angle:
             yield _ranges(model, left, right, expected)
         yield from _dynamics(model, left, right)
-    if not model.lacks_files:
+    if not model.compiled.lacks_meshes:
         yield from _masses(model, twins, {it.body for it in model.compiled.joints})
 
 
 def _may_differ(compiled: Compiled, left: Joint, right: Joint) -> bool:
-    """Return whether two joints are fingers of one gripper, slides of one parent, or held."""
-    numbers = {id(joint): number for number, joint in enumerate(compiled.joints)}
-    if not {numbers[id(left)], numbers[id(right)]}.isdisjoint(compiled.held):
-        return True
+    """Return whether two joints are fingers of one gripper: slides of one parent."""
     parents = [compiled.bodies[joint.body].parent for joint in (left, right)]
     return left.type != right.type or (left.type == "slide" and parents[0] == parents[1])
 
@@ -79,18 +78,16 @@ def _ranges(
 
 
 def _dynamics(model: CompiledModel, left: Joint, right: Joint) -> Findings:
-    for what, one, other in (
+    for what, one, other in _unequal(
         ("damping", left.damping, right.damping),
         ("armature", left.armature, right.armature),
         ("stiffness", left.stiffness, right.stiffness),
     ):
-        if abs(one - other) > _SHARE * max(one, other):
-            yield finding(
-                model.span(right.line),
-                f"{what} of joint {right.name!r} is {other:.4g}, that of its twin {left.name!r} "
-                f"{one:.4g}",
-                related=[(model.span(left.line), "its twin")],
-            )
+        yield finding(
+            model.span(right.line),
+            f"{what} of joint {right.name!r} is {other}, that of its twin {left.name!r} {one}",
+            related=[(model.span(left.line), "its twin")],
+        )
     if left.limited is not right.limited:
         free, bound = (right, left) if left.limited else (left, right)
         yield finding(
@@ -100,28 +97,32 @@ def _dynamics(model: CompiledModel, left: Joint, right: Joint) -> Findings:
         )
 
 
-def _actuators(model: CompiledModel, left: Joint, right: Joint) -> Findings:
+def _unequal(*pairs: tuple[str, float, float]) -> Iterator[tuple[str, str, str]]:
+    """Yield names and texts of the pairs of values that are not negative and differ."""
+    for what, one, other in pairs:
+        if abs(one - other) > _SHARE * max(one, other):
+            yield what, f"{one:.4g}", f"{other:.4g}"
+
+
+def _actuators(model: CompiledModel, pair: tuple[int, int]) -> Findings:
     """Report the only actuators of two joints if one is stronger than the other."""
     compiled = model.compiled
-    of_joints = [
-        [it for it in compiled.actuators if it.joint >= 0 and compiled.joints[it.joint] is joint]
-        for joint in (left, right)
-    ]
+    left, right = (compiled.joints[number] for number in pair)
+    of_joints = [[it for it in compiled.actuators if it.joint == number] for number in pair]
     if [len(actuators) for actuators in of_joints] != [1, 1]:
         return
     one, other = of_joints[0][0], of_joints[1][0]
-    for what, first, second in (
+    for what, first, second in _unequal(
         ("gear", abs(one.gear), abs(other.gear)),
         ("gain", abs(one.gain), abs(other.gain)),
         ("force range", max(map(abs, one.force_range)), max(map(abs, other.force_range))),
     ):
-        if abs(first - second) > _SHARE * max(first, second):
-            yield finding(
-                model.span(other.line),
-                f"{what} of the actuator of joint {right.name!r} is {second:.4g}, that of its twin "
-                f"{left.name!r} {first:.4g}",
-                related=[(model.span(one.line), "its twin")],
-            )
+        yield finding(
+            model.span(other.line),
+            f"{what} of the actuator of joint {right.name!r} is {second}, that of its twin "
+            f"{left.name!r} {first}",
+            related=[(model.span(one.line), "its twin")],
+        )
 
 
 def _shown(joint: Joint, bounds: tuple[float, float]) -> str:

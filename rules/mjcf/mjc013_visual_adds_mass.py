@@ -21,7 +21,7 @@ def check(model: CompiledModel, *, share: float = _SHARE) -> Findings:
     Options:
         share: Part of the body's mass from which on it is reported.
     """
-    for body in () if model.lacks_files else model.compiled.bodies:
+    for body in () if model.compiled.lacks_meshes else model.compiled.bodies:
         if body.welded and body.visual_mass > share * body.mass:
             yield finding(
                 model.span(body.line),

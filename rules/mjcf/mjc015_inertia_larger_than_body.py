@@ -24,7 +24,7 @@ def check(model: CompiledModel, *, margin: float = _MARGIN) -> Findings:
     Options:
         margin: Times the distance of the farthest point that the radius may have.
     """
-    for body in () if model.lacks_files else model.compiled.bodies:
+    for body in () if model.compiled.lacks_meshes else model.compiled.bodies:
         if not (body.stated and body.welded and body.reach and body.mass > 0):
             continue
         largest = max(body.inertia)

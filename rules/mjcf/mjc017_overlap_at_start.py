@@ -26,19 +26,15 @@ def check(
         ground_depth: Metres by which a body of a robot with a fixed base is inside what is static.
     """
     compiled = model.compiled
-    deepest: dict[tuple[int, int], float] = {}
-    for contact in compiled.contacts if compiled.at_key and not model.lacks_files else ():
-        first, second = sorted(compiled.geoms[geom].body for geom in contact.geoms)
-        is_static = not compiled.bodies[first].welded
-        least = ground_depth if is_static else depth
-        are_one = _is_fixed(model, second) if is_static else model.root(first) == model.root(second)
-        if are_one and contact.distance < -least:
-            deepest[first, second] = min(contact.distance, deepest.get((first, second), 0.0))
-    for (first, second), distance in deepest.items():
+    for (first, second), overlap in model.overlaps.items() if compiled.at_key else ():
         one, other = compiled.bodies[first], compiled.bodies[second]
+        is_static = not one.welded
+        are_one = _is_fixed(model, second) if is_static else model.root(first) == model.root(second)
+        if not are_one or overlap <= (ground_depth if is_static else depth):
+            continue
         yield finding(
             model.span(other.line),
-            f"bodies {one.name!r} and {other.name!r} overlap by {-distance * 1000:.3g} mm at the "
+            f"bodies {one.name!r} and {other.name!r} overlap by {overlap * 1000:.3g} mm at the "
             "first keyframe",
             related=[(model.span(one.line), "the other body")],
         )

@@ -20,10 +20,10 @@ def check(model: CompiledModel) -> Findings:
         return
     driven = {actuator.joint for actuator in compiled.actuators}
     coupled = {*compiled.held, *compiled.in_tendons}
-    numbers = {id(joint): number for number, joint in enumerate(compiled.joints)}
     pairs = list(joint_pairs(compiled, twins))
-    for left, right in (*pairs, *((right, left) for left, right in pairs)):
-        if numbers[id(left)] in driven and numbers[id(right)] not in driven | coupled:
+    for one, other in (*pairs, *((right, left) for left, right in pairs)):
+        if one in driven and other not in driven | coupled:
+            left, right = compiled.joints[one], compiled.joints[other]
             yield finding(
                 model.span(right.line),
                 f"joint {right.name!r} has no actuator, but its twin {left.name!r} has",

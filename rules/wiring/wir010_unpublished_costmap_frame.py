@@ -16,6 +16,7 @@ from collections.abc import Iterator
 
 from checker.launch.ros2.graph import Ros2Launch
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
+from checker.ros.wiring.frames import STATE_PUBLISHER
 from checker.ros.wiring.inputs import costmap_of
 from checker.ros.wiring.parameters import Setting
 from checker.ros.wiring.wiring import Wiring
@@ -23,7 +24,6 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import DRIVEN_URDF, tf_bridge
 
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"
-_OF_JOINTS = "robot_state_publisher/robot_state_publisher"
 
 
 @rule("WIR010", "unpublished-costmap-frame", Severity.ERROR, Concern.INTERFACE)
@@ -61,7 +61,7 @@ def _unknown_cause(wiring: Wiring, launch: Ros2Launch) -> str:
         included = (node for include in graph.includes for node in include.nodes)
         for program in map(program_of, (*graph.nodes, *included)):
             facts = node_facts().get(program)
-            if program != _OF_JOINTS and (facts is None or _publishes_frames(facts)):
+            if program != STATE_PUBLISHER and (facts is None or _publishes_frames(facts)):
                 reasons.append(f"{program} may publish it")
     return next(iter(reasons), "")
 

@@ -11,11 +11,10 @@ Fix: remove one, or give the included launch file an argument that leaves it out
 Source: ROS 2, node names: each node of a graph needs a name of its own; robot_state_publisher.
 """
 
+from checker.ros.wiring.frames import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
-
-_PROGRAM = "robot_state_publisher/robot_state_publisher"
 
 
 @rule("WIR011", "two-state-publishers", Severity.WARNING, Concern.INTERFACE)
@@ -23,7 +22,7 @@ def check(wiring: Wiring) -> Findings:
     """Report each further robot_state_publisher of one full name."""
     first: dict[str, WiredNode] = {}
     for node in wiring.nodes:
-        if node.program != _PROGRAM or not node.full_name:
+        if node.program != STATE_PUBLISHER or not node.full_name:
             continue
         before = first.setdefault(node.full_name, node)
         if before is not node:

@@ -17,12 +17,12 @@ from collections.abc import Iterator, Mapping
 
 from checker.model.geometry.boxes import Box
 from checker.model.robot import Robot
+from checker.ros.wiring.frames import STATE_PUBLISHER
 from checker.ros.wiring.inputs import costmap_of
 from checker.ros.wiring.parameters import Setting
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
-_PUBLISHER = "robot_state_publisher/robot_state_publisher"
 _NONE = ("", "[]")
 
 
@@ -34,7 +34,7 @@ def check(wiring: Wiring, *, part: float = 0.95) -> Findings:
         part: Radius of a costmap divided by that of the largest circle around the base frame that
             is within the base; less is reported.
     """
-    publishers = [node for node in wiring.every_node if node.program == _PUBLISHER]
+    publishers = [node for node in wiring.every_node if node.program == STATE_PUBLISHER]
     if len(publishers) != 1 or len(wiring.described) != 1:
         return
     _, robot = wiring.described[0]

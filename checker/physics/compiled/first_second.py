@@ -18,7 +18,7 @@ def first_second(model: Any) -> dict[str, Any]:
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
-    contacts = [*_contacts(data)]
+    contacts = [*_contacts(model, data)]
     # A state that is reset starts again, so that the fault would be hidden.
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     steps = max(1, min(_STEPS_LIMIT, int(_SECONDS / max(model.opt.timestep, 1e-6))))
@@ -49,6 +49,7 @@ def _trouble(data: Any) -> str:
     return next((name for name, kind in kinds.items() if data.warning[kind].number), "")
 
 
-def _contacts(data: Any) -> Iterator[dict[str, Any]]:
+def _contacts(model: Any, data: Any) -> Iterator[dict[str, Any]]:
     for contact in data.contact[:_CONTACTS_LIMIT]:
-        yield {"geoms": [int(it) for it in contact.geom], "distance": float(contact.dist)}
+        bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
+        yield {"bodies": bodies, "distance": float(contact.dist)}

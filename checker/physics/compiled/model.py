@@ -25,7 +25,7 @@ class Compiled(Record):
         held: Numbers of the joints that an equality holds, or couples with others.
         in_tendons: Numbers of the joints of fixed tendons.
         at_key: Whether there is a keyframe, so that the start is the first one.
-        contacts: Pairs of shapes that touch at the start.
+        contacts: Bodies whose shapes touch at the start.
         trouble: What became too large or NaN within the first second: `position`, `velocity` or
             `acceleration`; else empty.
         time: Seconds that were simulated.
@@ -38,7 +38,6 @@ class Compiled(Record):
     timestep: float = 0.0
     bodies: tuple[Body, ...] = ()
     joints: tuple[Joint, ...] = ()
-    geoms: tuple[Geom, ...] = ()
     actuators: tuple[Actuator, ...] = ()
     idle: tuple[int, ...] = ()
     held: tuple[int, ...] = ()
@@ -65,7 +64,6 @@ class Body(Record):
         mass: Kilograms.
         inertia: Principal moments, kg·m².
         position: Its frame in the world, metres, in the reference pose.
-        centre: Its centre of mass in the world, metres, in the reference pose.
         reach: Metres from its centre of mass to the farthest point of its shapes, at most; 0 for a
             body without shapes.
         stated: Whether its mass and inertia are stated, not computed from its shapes.
@@ -79,7 +77,6 @@ class Body(Record):
     mass: float
     inertia: tuple[float, float, float]
     position: tuple[float, float, float]
-    centre: tuple[float, float, float]
     reach: float
     stated: bool
     visual_mass: float
@@ -105,16 +102,6 @@ class Joint(Record):
     stiffness: float
     damping: float
     armature: float
-    friction: float
-
-
-class Geom(Record):
-    """A shape; `collides` is False for one that is only seen."""
-
-    line: int
-    name: str
-    body: int
-    collides: bool
 
 
 class Actuator(Record):
@@ -143,9 +130,9 @@ class Actuator(Record):
 
 
 class Contact(Record):
-    """Two shapes that touch; a negative distance (metres) is how deep they overlap."""
+    """Two shapes of bodies that touch; a negative distance (metres) is how deep they overlap."""
 
-    geoms: tuple[int, int]
+    bodies: tuple[int, int]
     distance: float
 
 
@@ -177,9 +164,17 @@ class CompiledModel(Record, eq=False, dict=True):
         return (self.text.element(line) or self.model.document.root).span
 
     @cached_property
-    def lacks_files(self) -> bool:
-        """True if a file is missing on which masses or contacts depend."""
-        return self.compiled.lacks_meshes
+    def overlaps(self) -> Mapping[tuple[int, int], float]:
+        """Depth by which bodies overlap at the start, metres; empty if shapes are missing.
+
+        The keys are the numbers of two bodies, the smaller one first.
+        """
+        deepest: dict[tuple[int, int], float] = {}
+        for contact in () if self.compiled.lacks_meshes else self.compiled.contacts:
+            first, second = sorted(contact.bodies)
+            depth = max(-contact.distance, deepest.get((first, second), 0.0))
+            deepest[first, second] = depth
+        return deepest
 
 
 class CompiledModels(Record, eq=False):

@@ -29,7 +29,6 @@ def model_parts(spec: Any, model: Any) -> dict[str, Any]:
     parts = {
         "bodies": spec.bodies,
         "joints": spec.joints,
-        "geoms": spec.geoms,
         "actuators": spec.actuators,
     }
     lines = {
@@ -49,7 +48,6 @@ def model_parts(spec: Any, model: Any) -> dict[str, Any]:
             for i in range(model.nbody)
         ],
         "joints": [_joint(model, data, i, lines) for i in range(model.njnt)],
-        "geoms": [_geom(model, i, lines["geoms"]) for i in range(model.ngeom)],
         "actuators": [_actuator(model, i, lines["actuators"]) for i in actuators],
         **_coupled(model),
         "idle": _idle(model),
@@ -69,7 +67,6 @@ def _body(model: Any, data: Any, i: int, lines: Mapping[int, int]) -> dict[str, 
         "mass": float(model.body_mass[i]),
         "inertia": model.body_inertia[i].tolist(),
         "position": data.xpos[i].tolist(),
-        "centre": data.xipos[i].tolist(),
         "reach": _reach(model, i),
     }
 
@@ -128,16 +125,6 @@ def _joint(model: Any, data: Any, i: int, lines: Mapping[str, Mapping[int, int]]
         "stiffness": float(model.jnt_stiffness[i].max()),
         "damping": float(model.dof_damping[dof].max()),
         "armature": float(model.dof_armature[dof]),
-        "friction": float(model.dof_frictionloss[dof]),
-    }
-
-
-def _geom(model: Any, i: int, lines: Mapping[int, int]) -> dict[str, Any]:
-    return {
-        "line": lines.get(i, 0),
-        "name": _name(model.name_geomadr[i], model.names),
-        "body": int(model.geom_bodyid[i]),
-        "collides": bool(model.geom_contype[i] or model.geom_conaffinity[i]),
     }
 
 

@@ -14,6 +14,7 @@ from checker.base.record import Record
 from checker.formats.mjcf.model import MjcfModel, NamedFile, read_model
 from checker.package.mjcf_files import SUFFIXES
 from checker.package.package import Package
+from checker.source.binary_headers import LFS_POINTER
 from checker.source.xml import Element
 
 _FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
@@ -25,7 +26,6 @@ _SUBSTITUTES: Mapping[str, Mapping[str, str]] = {
 _OF_FILES = ("file", "content_type", "gridsize", "gridlayout", "nrow", "ncol")
 _ATTACHED_LIMIT = 20
 """Models that one model attaches."""
-_POINTER = b"version https://git-lfs"
 _POINTER_SIZE = 1_000
 SIZE_LIMIT = 100_000_000
 """Bytes of a file."""
@@ -89,7 +89,7 @@ class _Writer:
         if not files:
             return stated
         if absent := next(filter(None, map(self._absent, files)), ""):
-            return self._substituted(element, absent)
+            return self._substituted(element, files[0], absent)
         short = {file.attribute: self._short_name(file, element) for file in files}
         named = {} if element.tag == "model" else _default_name(files[0])
         return {**named, **stated, **short}
@@ -104,22 +104,21 @@ class _Writer:
                 f"{file.path} has {entry.size:,} bytes; only files of up to {SIZE_LIMIT:,} are read"
             )
         head = self.package.read_bytes(file.path) if entry.size < _POINTER_SIZE else b""
-        if isinstance(head, bytes) and not head.startswith(_POINTER):
+        if isinstance(head, bytes) and not head.startswith(LFS_POINTER):
             return ""
         return f"{file.path} is a Git LFS pointer: `git lfs pull` fetches it"
 
-    def _substituted(self, element: Element, absent: str) -> Mapping[str, str]:
+    def _substituted(self, element: Element, file: NamedFile, absent: str) -> Mapping[str, str]:
         substitute = _SUBSTITUTES.get(element.tag)
         if substitute is None:
             self.obstacle = self.obstacle or absent
             return element.attributes
-        uri = element.get("file") or ""
         kept = {
             name: value
             for name, value in element.attributes.items()
             if name not in _OF_FILES and not name.startswith("file")
         }
-        named = {"name": posixpath.splitext(posixpath.basename(uri))[0], **kept}
+        named = {**_default_name(file), **kept}
         if element.tag != "texture":
             self.absent[named["name"]] = absent
         return {**named, **substitute}

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from statistics import median
 
 from checker.base.record import Record
-from checker.physics.compiled.model import Body, Compiled, Joint
+from checker.physics.compiled.model import Body, Compiled
 
 _SIDES = (
     ("left", "right"),
@@ -32,12 +32,10 @@ class Twins(Record, eq=False):
 
     Attributes:
         axis: 0 for x, 1 for y, 2 for z.
-        centre: Metres along the axis: the plane of the mirror.
         bodies: Numbers of the bodies of each pair, left first, that are mirrored to 5 mm.
     """
 
     axis: int
-    centre: float
     bodies: tuple[tuple[int, int], ...]
 
 
@@ -67,11 +65,11 @@ def twins_of(compiled: Compiled) -> Twins | None:
     return best if len(best.bodies) >= max(_FEWEST, _SHARE * len(pairs)) else None
 
 
-def joint_pairs(compiled: Compiled, twins: Twins) -> Iterator[tuple[Joint, Joint]]:
-    """Yield the joints of twin bodies that have twin names, or are their only ones."""
+def joint_pairs(compiled: Compiled, twins: Twins) -> Iterator[tuple[int, int]]:
+    """Yield the numbers of the joints of twin bodies that have as many joints, left first."""
     for left, right in twins.bodies:
-        of_left = [joint for joint in compiled.joints if joint.body == left]
-        of_right = [joint for joint in compiled.joints if joint.body == right]
+        of_left = [at for at, joint in enumerate(compiled.joints) if joint.body == left]
+        of_right = [at for at, joint in enumerate(compiled.joints) if joint.body == right]
         if len(of_left) == len(of_right):
             yield from zip(of_left, of_right, strict=True)
 
@@ -84,7 +82,7 @@ def _mirrored(bodies: Sequence[Body], pairs: list[tuple[int, int]], axis: int) -
     alike = [
         (left, right)
         for left, right in pairs
-        if are_mirrored(bodies[left].position, bodies[right].position, axis, centre, _NEAR)
+        if _are_mirrored(bodies[left].position, bodies[right].position, axis, centre)
     ]
     apart = [
         pair
@@ -92,15 +90,13 @@ def _mirrored(bodies: Sequence[Body], pairs: list[tuple[int, int]], axis: int) -
         if abs(bodies[pair[0]].position[axis] - bodies[pair[1]].position[axis]) > _NEAR
     ]
     # Pairs on top of each other are mirrored about any plane.
-    return Twins(axis, centre, tuple(alike) if apart else ())
+    return Twins(axis, tuple(alike) if apart else ())
 
 
-def are_mirrored(
-    left: Sequence[float], right: Sequence[float], axis: int, centre: float, near: float
-) -> bool:
-    """Return whether two points are mirrored about a plane, metres."""
+def _are_mirrored(left: Sequence[float], right: Sequence[float], axis: int, centre: float) -> bool:
+    """Return whether two points are mirrored about a plane to 5 mm."""
     image = [2 * centre - value if at == axis else value for at, value in enumerate(left)]
-    return max(abs(one - other) for one, other in zip(image, right, strict=True)) <= near
+    return max(abs(one - other) for one, other in zip(image, right, strict=True)) <= _NEAR
 
 
 def _count(twins: Twins) -> int:

@@ -17,6 +17,7 @@ from checker.physics.mesh.measure import measure
 from checker.physics.mesh.obj import read_obj
 from checker.physics.mesh.trimesh_files import SUFFIXES as TRIMESH_SUFFIXES
 from checker.physics.mesh.trimesh_files import read_with_trimesh
+from checker.source.binary_headers import LFS_POINTER
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -93,8 +94,6 @@ _READERS: dict[str, _Reader] = {
     **{suffix: partial(read_with_trimesh, suffix=suffix) for suffix in TRIMESH_SUFFIXES},
 }
 
-_POINTER = b"version https://git-lfs"
-
 
 def load_libraries(names: Iterable[str]) -> None:
     """Import once what reads files of these names, before a process forks to read them."""
@@ -142,7 +141,7 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
         raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
     if not data.strip():
         raise NoSurface("is empty")
-    if data.startswith(_POINTER):
+    if data.startswith(LFS_POINTER):
         raise NoSurface("is a Git LFS pointer, not the mesh", MeshTrouble.POINTER)
     # Its every line may be wrong.
     try:

@@ -9,6 +9,7 @@ from checker.model.robot import Robot
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.transforms import Transform
 
+STATE_PUBLISHER = "robot_state_publisher/robot_state_publisher"
 _STATIC_PUBLISHER = "tf2_ros/static_transform_publisher"
 _STATIC, _SUFFIX = "/tf_static", "_static"
 _PREFIX = "frame_prefix"
