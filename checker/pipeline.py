@@ -184,7 +184,13 @@ def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
         return
     from checker.base.process_pool import map_in_processes
 
-    yield from map_in_processes(_checked, tasks, jobs)
+    # What shows a message stays here: it is told what the other processes say.
+    silent = [replace(task, say=say_nothing) for task in tasks]
+    yield from map_in_processes(_checked_aloud, silent, jobs, tasks[0].say)
+
+
+def _checked_aloud(task: Task, say: Say) -> Checked:
+    return _checked(replace(task, say=say))
 
 
 def _checked(task: Task) -> Checked:

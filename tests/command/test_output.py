@@ -68,9 +68,10 @@ def test_each_package_is_printed_when_it_ends(samples: Path) -> None:
     assert [name for name in ALL[1:] if f"{name}: " not in rest] == []
 
 
-def test_a_terminal_shows_how_far_it_is(samples: Path) -> None:
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_terminal_shows_how_far_it_is(samples: Path, jobs: str) -> None:
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "checker.cli", "robots", "--no-trial", "--jobs", "1"]
+    command = [sys.executable, "-m", "checker.cli", "robots", "--no-trial", "--jobs", jobs]
     done = subprocess.run(
         command, cwd=samples.parent, stdout=subprocess.DEVNULL, stderr=theirs, check=False
     )
@@ -78,6 +79,7 @@ def test_a_terminal_shows_how_far_it_is(samples: Path) -> None:
     shown = os.read(ours, 100_000).decode()
     assert done.returncode == 1
     assert f"1 of {len(ALL)}  " in shown
+    assert [name for name in ALL if f" of {len(ALL)}  {name}: rules" not in shown] == []
     assert shown.endswith("\r\x1b[K"), "the line is left empty"
 
 

@@ -9,9 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import replace
-
-from checker.base.output import current_folder, empty_of, say_nothing, say_progress, show, write
+from checker.base.output import current_folder, empty_of, say_progress, show, write
 from checker.base.progress import ProgressLine
 from checker.base.resources import processors
 from checker.base.words import plain, shortened
@@ -44,9 +42,6 @@ def check_and_print(
     tasks = tasks_of(paths, wishes, progress.say)
     progress.total = len(tasks)
     jobs = min(options.jobs or processors(), len(tasks))
-    if jobs > 1:
-        # None of several processes knows what the others do.
-        tasks = [replace(task, say=say_nothing) for task in tasks]
     is_printed = options.format in _LINES and not (options.output or options.write_baseline)
     settings = _render_settings(options)
     text = TextReport(settings, [task.display_path for task in tasks])
