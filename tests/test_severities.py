@@ -178,6 +178,15 @@ def test_severity_depends_on_the_case(
     ]
 
 
+@pytest.mark.parametrize(("gravity", "severity"), [("0.0 0.0 -9.8", "warning"), ("0 0 0", "error")])
+def test_a_misplaced_default_changes_nothing(gravity: str, severity: str, tmp_path: Path) -> None:
+    world = tmp_path / "lab.sdf"
+    physics = f'<physics type="ode"><gravity>{gravity}</gravity></physics>'
+    world.write_text(f'<sdf version="1.6"><world name="lab">{physics}</world></sdf>', "utf-8")
+    (report,) = check_package(world, Settings(select=("SDF008",))).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
+
+
 LID = '<joint name="lid" type="revolute"><parent>body</parent><child>top</child></joint>'
 
 

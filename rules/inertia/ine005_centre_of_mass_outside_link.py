@@ -5,7 +5,8 @@ The link swings about a point outside itself, and the robot leans to one side. U
 outside the box around it. But shapes may leave out a part, such as a nut at the end of a rod or the
 battery above a skirt: among published robots, centres of mass up to 0.1 of the diagonal outside are
 of this kind, and those from 0.2 on are wrong. A distance larger than the robot, such as `00064528`
-for `0.0064528`, is an error for any link: joints have to hold the weight at that distance.
+for `0.0064528`, is an error for any link: joints have to hold the weight at that distance. Boxes,
+balls and cylinders of up to 2 mm are placeholders, and do not count as shapes.
 
 Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
 and inertia belong to the same part.
@@ -96,6 +97,7 @@ _FINGER = """
 """
 GOOD = [
     *map(_body, (0, 0.29, 0.31, 0.37)),
+    _body(0.1).replace("0.6 0.4 0.2", "0.001 0.001 0.001"),
     {"@urdf": _FINGER.format("0.0064528", "")},
 ]
 BAD = [

@@ -9,8 +9,9 @@ heavy one with the greatest. A collision may cover only a part of the link, so f
 visuals count too. A mesh that is not closed counts as its convex hull. If the greatest volume is
 that of meshes, a heavy link is an info: a mesh often draws a bracket or a cover, and the motor
 behind it is not drawn. In published robots none of the links that are heavier than steel in meshes
-has a wrong mass, and all that are so in simple shapes have one. A whole link that is as dense as
-solid steel is suspicious if the rest of the robot is hollow, as robots are.
+has a wrong mass, and all that are so in simple shapes have one; simple shapes of up to 2 mm are
+placeholders, and do not count. A whole link that is as dense as solid steel is suspicious if the
+rest of the robot is hollow, as robots are.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
@@ -209,7 +210,12 @@ def _box(mass: float, mark: str = "", size: str = "0.1 0.1 0.1", more: str = "")
 
 _MARK = "  <!-- ^ INE006 -->"
 _HOUSING = '<visual name="v"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></visual>'
-GOOD = [_box(2), _box(7.8), _box(2, size="0.1 0.1 0.001", more=_HOUSING)]
+GOOD = [
+    _box(2),
+    _box(7.8),
+    _box(2, size="0.001 0.001 0.001"),
+    _box(2, size="0.1 0.1 0.001", more=_HOUSING),
+]
 _BESIDE = """
 <link name="ballast">
   <inertial><mass>4</mass></inertial>

@@ -16,7 +16,7 @@ from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
 from checker.formats.sdf.schema import ElementType, all_tags, holders_of, parents_of
 from checker.formats.sdf.unread import is_appearance, is_unread
-from checker.model.values import parse_number
+from checker.model.values import numbers_of_words
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
@@ -118,12 +118,14 @@ def _is_usual(element: Element, place: str, kinds: _Kinds) -> bool:
     """Return whether the element states the value that the right place has anyway."""
     around = element.parent.parent if element.parent is not None else None
     holder = kinds.get(around) if around is not None else None
-    right = holder.children.get(place) if holder is not None else None
+    if holder is None or around is None:
+        return False
+    right = holder if around.tag == place else holder.children.get(place)
     meant = right.children.get(element.tag) if right is not None else None
     if meant is None or meant.default is None:
         return False
-    said, default = parse_number(element.text.value), parse_number(meant.default)
-    return said == default if said is not None else element.text.value == meant.default
+    said, default = map(numbers_of_words, (element.text.value, meant.default))
+    return said == default if None not in said else element.text.value == meant.default
 
 
 def _places(

@@ -61,12 +61,24 @@ def farthest(geometry: Geometry, pose: Transform, point: Vector, meshes: Meshes)
 
 
 _Shape = Collision | Visual
+_PLAIN = ("box", "sphere", "cylinder", "capsule")
 _NOTHING = ("", "empty")
+_PLACEHOLDER = 0.002
+"""Metres: boxes, balls and cylinders of up to this size are written where a shape is required."""
 
 
 def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
-    """Return the shapes that take room."""
-    return [shape for shape in shapes if shape.geometry.shape not in _NOTHING]
+    """Return the shapes that take room, without placeholders."""
+    return [
+        shape
+        for shape in shapes
+        if shape.geometry.shape not in _NOTHING and not _is_placeholder(shape.geometry)
+    ]
+
+
+def _is_placeholder(geometry: Geometry) -> bool:
+    sizes = [number.value for values in geometry.sizes.values() for number in values]
+    return geometry.shape in _PLAIN and 0.0 < max(sizes, default=0.0) <= _PLACEHOLDER
 
 
 def unknown_mesh(robot: Robot, link: Link) -> str:
