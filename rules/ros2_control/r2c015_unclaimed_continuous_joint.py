@@ -9,6 +9,9 @@ Source: gz_ros2_control, gz_system.cpp, `write`: joints with command interfaces 
 claims get a velocity of zero; gazebo_ros2_control, pull requests 177 and 237.
 """
 
+from collections import Counter
+from collections.abc import Iterator
+
 from checker.finding import Fix
 from checker.formats.xacro.expanded import written_element
 from checker.package.package import Package
@@ -23,18 +26,22 @@ from checker.source.xml_insertion import removal
 
 @rule("R2C015", "unclaimed-continuous-joint", Severity.WARNING, Concern.ROBOT)
 def check(control: RobotControl, package: Package) -> Findings:
-    """Report continuous joints with a velocity command that no file of parameters names."""
+    """Report continuous joints with a velocity command that files of parameters do not name.
+
+    JointStateBroadcaster claims no joint that it names.
+    """
     simulated = [it for it in control.hardware if is_of_gazebo(it.plugin.value)]
     if not simulated or not control.is_named:
         return
     yield from map(unchecked, control.unread)
     read = [package.read(file.path) for file in control.files]
     texts = [source.text if isinstance(source, SourceText) else "" for source in read]
+    listened = Counter(_listened(control))
     for joint in (joint for hardware in simulated for joint in hardware.joints):
         known, name = control.joint(joint), joint.name.value
         endless = known is not None and known.type.value == "continuous"
         commands = [command.name.value for command in joint.commands]
-        named = any(name in text for text in texts) or not all(texts)
+        named = sum(text.count(name) for text in texts) > listened[name] or not all(texts)
         if endless and "velocity" in commands and not named and not control.unread:
             yield finding(
                 joint.name,
@@ -44,6 +51,13 @@ def check(control: RobotControl, package: Package) -> Findings:
             )
 
 
+def _listened(control: RobotControl) -> Iterator[str]:
+    for controller in control.controllers:
+        if controller.class_name == "JointStateBroadcaster":
+            for name in controller.own.intersection(("joints", "extra_joints")):
+                yield from (joint.value for joint in controller.parameters[name].texts)
+
+
 def _without_commands(joint: HardwareJoint) -> Fix:
     written = (written_element(command.element) for command in joint.commands)
     return Fix(Safety.UNSAFE, tuple(map(removal, written)))
@@ -51,16 +65,18 @@ def _without_commands(joint: HardwareJoint) -> Fix:
 
 _CASTER = """
 <link name="ball"/>
-<joint name="caster" type="continuous">
+<joint name="swivel" type="continuous">
   <parent link="upper_arm"/><child link="ball"/><axis xyz="0 1 0"/>
 </joint>
 """
 _PARAMETERS = "<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"
 
 
-def _robot(interface: str, joints: str = "shoulder", mark: str = "") -> dict[str, str]:
+def _robot(
+    interface: str, joints: str = "shoulder", mark: str = "", more: str = ""
+) -> dict[str, str]:
     control = f"""<joint name="shoulder"><command_interface name="velocity"/></joint>
-  <joint name="caster">{mark}
+  <joint name="swivel">{mark}
     {interface}
     <state_interface name="position"/>
   </joint>"""
@@ -74,10 +90,16 @@ arm_controller:
   ros__parameters:
     interface_name: velocity
     joints: [{joints}]
-""",
+{more}""",
     }
 
 
 _VELOCITY = '<command_interface name="velocity"/>'
-GOOD = [_robot(""), _robot(_VELOCITY, "shoulder, caster")]
-BAD = [_robot(_VELOCITY, mark="  <!-- ^ R2C015 -->")]
+GOOD = [_robot(""), _robot(_VELOCITY, "shoulder, swivel")]
+_MARK = "  <!-- ^ R2C015 -->"
+_LISTENER = """listener:
+  ros__parameters:
+    type: joint_state_broadcaster/JointStateBroadcaster
+    joints: [shoulder, swivel]
+"""
+BAD = [_robot(_VELOCITY, mark=_MARK), _robot(_VELOCITY, mark=_MARK, more=_LISTENER)]
