@@ -46,6 +46,9 @@ from checker.model.unknowns import (
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
+EARTH_GRAVITY = 9.81
+"""m/s², as Pinocchio and MuJoCo have it; Gazebo's default is 9.8."""
+
 
 class Robot(Part, dict=True):
     """A whole robot; the parts of nested models are in the same tuples, with scoped names.
@@ -67,6 +70,7 @@ class Robot(Part, dict=True):
         driven_in: Path of the SDF file that describes the same robot with its drive; else empty.
         shown_only: Why no simulator gets it, as a clause; empty if one may.
         unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
+        gravity: The downward gravity of the world that it starts in, m/s²; else the Earth's.
     """
 
     document: XmlDocument
@@ -89,6 +93,7 @@ class Robot(Part, dict=True):
     driven_in: str = ""
     shown_only: str = ""
     unloaded: str = ""
+    gravity: float = EARTH_GRAVITY
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

@@ -10,6 +10,7 @@ from checker.base.resources import table
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
+from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element, Tagged
 
@@ -68,6 +69,12 @@ class World(Tagged, Record, eq=False, dict=True):
         stems = (library_stem(plugin.filename.value) for plugin in self.plugins)
         whole = not any(model.missing_parts for model in self.models) and not self.unknown
         return whole and bool(self.plugins) and all(map(is_of_gazebo, stems))
+
+    @cached_property
+    def gravity(self) -> tuple[float, ...]:
+        """Its acceleration along x, y and z, m/s²; Gazebo's default where it states none."""
+        stated = ValueReader().numbers(self.element, "gravity", (0.0, 0.0, -9.8))
+        return tuple(each.value for each in stated)
 
     def sensors(self) -> Iterator[tuple[Robot, Sensor]]:
         """Yield the sensors of its models."""

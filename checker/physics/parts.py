@@ -10,6 +10,7 @@ from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
 from checker.base.output import Stages
 from checker.base.parts import NotAvailable, part
+from checker.model.placed_robots import PlacedRobots
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews
 from checker.package.package import Package
@@ -23,12 +24,11 @@ from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, Settled
 from checker.physics.trial.run import RobotTrials
 from checker.physics.trial.settling import unsettled_reason
 from checker.physics.views.sensor_views import RobotViews
-from checker.robots.parts import PlainRobots
 
 
 @part
 def robots(
-    plain: PlainRobots,
+    placed: PlacedRobots,
     package: Package,
     cache: Cache,
     stages: Stages,
@@ -37,7 +37,7 @@ def robots(
 ) -> tuple[Robot, ...]:
     """Return the robots of the package with their meshes."""
     with_meshes = []
-    for robot in plain.robots:
+    for robot in placed.robots:
         uris, picks = mesh_uris(robot), picked_parts(robot)
         meshes = PackageMeshes(package, uris, cache, stages, reader.server, picks)
         ends.callback(meshes.stop)

@@ -8,10 +8,12 @@ from checker.formats.xacro.expansion import Expander
 from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros2.graph import Ros2Launch
 from checker.model.locomotion.controlled import without_idle
+from checker.model.placed_robots import PlacedRobots, placed
 from checker.model.robot import Robot
+from checker.model.world import World
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.robots.parts import ControlledRobot
+from checker.robots.parts import ControlledRobot, PlainRobots
 from checker.robots.urdf_files import UrdfFiles
 from checker.ros.control.controllers import ControlSystem
 from checker.ros.control.loaded_parameters import Parameters, controllers_for, loaded_parameters
@@ -111,6 +113,23 @@ def simulations(
         if any(it.bridges.is_there or it.starts_gazebo or it.classic_robots for it in found.all):
             return found
     return NotAvailable("no launch file starts Gazebo or a bridge to it", applicable=False)
+
+
+@part
+def placed_robots(
+    plain: PlainRobots,
+    worlds: tuple[World, ...] | NotAvailable,
+    simulations: Simulations | NotAvailable,
+) -> PlacedRobots:
+    """Return the robots in the gravity of the worlds of their file, and of launch files."""
+    own = () if isinstance(worlds, NotAvailable) else worlds
+    launched = () if isinstance(simulations, NotAvailable) else simulations.launched
+    robots = []
+    for robot in plain.robots:
+        holding = (world for world in own if robot.element.parent is world.element)
+        loading = (world for each in launched for world in each.worlds_of(robot))
+        robots.append(placed(robot, (*holding, *loading)))
+    return PlacedRobots(tuple(robots))
 
 
 @part

@@ -63,6 +63,14 @@ class Simulation(Record, eq=False, dict=True):
         """Reasons why the world is not known; empty if no Gazebo is started."""
         return tuple(server.unknown for server in self.servers if server.unknown)
 
+    def worlds_of(self, robot: Robot) -> tuple[World | None, ...]:
+        """Return the worlds into which it spawns a robot; None for one that is not known."""
+        spawned = (*self.robots, *self.classic_robots)
+        file = robot.document.source.file
+        if not any(each.robot.document.source.file == file for each in spawned):
+            return ()
+        return (*self.worlds, *([] if self.worlds and not self.unknown_worlds else [None]))
+
     @property
     def starts_gazebo(self) -> bool:
         """True if it certainly starts Gazebo."""

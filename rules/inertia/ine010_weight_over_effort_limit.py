@@ -2,7 +2,9 @@
 
 In the robot's initial pose, gravity needs more torque than the joint's effort limit: the gimbal or
 arm sags as soon as the simulation runs, whatever its controller does. Joints above parts that are
-on the ground are left out, because the ground carries part of the weight.
+on the ground are left out, because the ground carries part of the weight. The gravity is that of
+the world with the robot, in its file or in a launch file of ROS 2; of several, the greatest. Where
+the world is not known, it is the Earth's.
 
 Fix: write the motor's stall torque (after its gear) as the effort limit, or correct the masses and
 centres of mass of the parts that the joint carries.
@@ -45,7 +47,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
             yield finding(
                 joint.axes[0].effort,
                 f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against "
-                f"gravity, but its effort limit is {limit:.3g} {unit}",
+                f"gravity of {robot.gravity:.4g} m/s², but its effort limit is {limit:.3g} {unit}",
             )
 
 
@@ -87,5 +89,40 @@ def _arm(effort: str, mark: str = "", plugin: str = "JointPositionController") -
 """
 
 
-GOOD = [_arm("12"), _arm("-1"), _arm("1", plugin="JointStatePublisher")]
-BAD = [_arm("8", "  <!-- ^ INE010 -->")]
+def _in_world(gravity: str, mark: str = "") -> str:
+    world = f'<sdf version="1.6"><world name="w"><gravity>0 0 {gravity}</gravity>'
+    arm = _arm("8", mark).replace('<sdf version="1.6">', world)
+    return arm.replace("</sdf>", "</world></sdf>")
+
+
+def _spawned(gravity: str, mark: str = "") -> dict[str, object]:
+    """Return a boom of 2 kg, 0.5 m from its joint, that a launch file spawns into a world."""
+    world = f'<sdf version="1.9"><world name="w"><gravity>0 0 {gravity}</gravity></world></sdf>'
+    gazebo = '("gz_args", ["-r ", os.path.join(HERE, "worlds", "moon.sdf")])'
+    moment = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    urdf = f"""<robot name="rover">
+<link name="base_link">
+  <inertial><mass value="20"/>{moment}</inertial>
+  <collision><geometry><box size="1 1 0.2"/></geometry></collision>
+</link>
+<link name="boom"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>{moment}</inertial></link>
+<joint name="shoulder" type="revolute">
+  <parent link="base_link"/><child link="boom"/><origin xyz="0 0 0.5"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="8" velocity="1"/>{mark}
+</joint>
+</robot>
+"""
+    changes = {'("gz_args", "-r empty.sdf")': gazebo}
+    files = {"worlds/moon.sdf": world, "urdf/rover.urdf": urdf}
+    return {"@bridge": True, "@launch": changes, **files}
+
+
+_MARK = "  <!-- ^ INE010 -->"
+GOOD = [
+    _arm("12"),
+    _arm("-1"),
+    _arm("1", plugin="JointStatePublisher"),
+    _in_world("-1.62"),
+    _spawned("-1.62"),
+]
+BAD = [_arm("8", _MARK), _in_world("-9.8", _MARK), _spawned("-9.8", _MARK)]

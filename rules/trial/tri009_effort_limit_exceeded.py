@@ -7,7 +7,8 @@ hinge needs no motor.
 
 The joints of an arm, which controllers move, go a small step from their start and back, one by one
 and then together, within their velocity limits: where that needs more than the limit, the arm
-cannot follow its controller even near its start.
+cannot follow its controller even near its start. The gravity of the trial is that of the robot's
+world, as in INE010; the Earth's where the world is not known.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
@@ -59,8 +60,9 @@ def check(
             remedy = f": write {_ABOVE * torque.value:.3g} if its motor gives that" if path else ""
             yield finding(
                 driven.part(torque.part),
-                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}{path}, but its effort "
-                f"limit is {limit:.3g} {unit}{remedy}",
+                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit} at a gravity of "
+                f"{driven.robot.gravity:.4g} m/s²{path}, but its effort limit is "
+                f"{limit:.3g} {unit}{remedy}",
                 key="torque",
             )
 
@@ -189,16 +191,26 @@ _MOTOR = """<transmission name="t">
   <joint name="hinge"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
   <actuator name="m"/>
 </transmission>"""
+
+
+def _in_world(gravity: str, mark: str = "") -> str:
+    world = f'<sdf version="1.6"><world name="w"><gravity>0 0 {gravity}</gravity>'
+    arm = _arm(1.5, mark).replace('<sdf version="1.6">', world)
+    return arm.replace("</sdf>", "</world></sdf>")
+
+
 GOOD = [
     _lid(""),
     _rover(50.0),
     _rover(-1.0),
     {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
     _arm(6.0),
+    _in_world("-0.3"),
 ]
 BAD = [
     _lid(_MOTOR, _MARK),
     _rover(0.1, _MARK),
     _arm(1.5, _MARK),
+    _in_world("-9.8", _MARK),
     {"model.sdf": _rover(0.1, _MARK), "specifications.md": _REFERENCE},
 ]

@@ -14,7 +14,6 @@ from checker.base.record import Record
 from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
-from checker.model.values import ValueReader
 from checker.model.world import World, holds
 from checker.ros.simulation import Simulations
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
@@ -70,8 +69,7 @@ def _falls(each: _Falling, release: str) -> bool:
 
 def _holds(world: World, release: str) -> bool:
     """Return whether a world contains something that holds robots up, or may do so."""
-    x_y_z = ValueReader().numbers(world.element, "gravity", (0.0, 0.0, -9.8))
-    weightless = all(value.value == 0.0 for value in x_y_z)
+    weightless = not any(world.gravity)
     foreign = any(not is_of_gazebo(library_stem(it.filename.value)) for it in world.plugins)
     lifted = any(holds(world.all_systems(release), system) for system in _LIFTS)
     others = any(world.element.child(tag) is not None for tag in _OTHER_PARTS)

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
-from checker.model.robot import Robot
+from checker.model.robot import EARTH_GRAVITY, Robot
 from checker.package.inputs import open_input
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.pinocchio_model import pin_model
-from checker.physics.mass.robot_mass import GRAVITY, weigh
+from checker.physics.mass.robot_mass import weigh
 from tests.dynamics.bodies import (
     Matrix,
     box,
@@ -94,7 +94,7 @@ def test_the_model_of_pinocchio_holds_what_the_scales_say(robot: Robot) -> None:
     centre = pin.centerOfMass(built.model, data, neutral)
     np.testing.assert_allclose(centre, properties.centre, atol=1e-9)
     torques = pin.computeGeneralizedGravity(built.model, data, neutral)
-    scale = properties.mass * GRAVITY * 50
+    scale = properties.mass * EARTH_GRAVITY * 50
     for torque, degree in zip(torques, built.degrees, strict=True):
         named = robot.joints_by_name.get(degree.part)
         if named in properties.gravity_torques and degree.number == 0:
@@ -127,20 +127,20 @@ def held(content: str, name: str = "shoulder") -> float | None:
 
 @given(st.floats(-3, 3), masses, sizes)
 def test_an_arm_holds_its_weight_at_its_reach(angle: float, mass: float, length: float) -> None:
-    expected = mass * GRAVITY * length * math.cos(angle)
+    expected = mass * EARTH_GRAVITY * length * math.cos(angle)
     assert held(arm(angle, mass, length)) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_lift_holds_the_weight_and_a_drawer_nothing() -> None:
-    assert held(arm(0, 3, 0.5, "prismatic", "0 0 1")) == pytest.approx(3 * GRAVITY)
+    assert held(arm(0, 3, 0.5, "prismatic", "0 0 1")) == pytest.approx(3 * EARTH_GRAVITY)
     assert held(arm(0, 3, 0.5, "prismatic", "1 0 0")) == pytest.approx(0.0)
 
 
 def test_a_shoulder_holds_what_hangs_on_the_elbow_too() -> None:
     fore = link("fore", inertial(2, np.eye(3), (0.3, 0, 0, 0, 0, 0)), (1, 0, 1, 0, 0, 0))
     content = arm(0, 3, 0.5) + fore + joint("elbow", "revolute", "arm", "fore", "0 -1 0")
-    assert held(content, "elbow") == pytest.approx(2 * 0.3 * GRAVITY)
-    assert held(content) == pytest.approx((3 * 0.5 + 2 * 1.3) * GRAVITY)
+    assert held(content, "elbow") == pytest.approx(2 * 0.3 * EARTH_GRAVITY)
+    assert held(content) == pytest.approx((3 * 0.5 + 2 * 1.3) * EARTH_GRAVITY)
 
 
 def test_the_ground_carries_what_stands_on_it() -> None:

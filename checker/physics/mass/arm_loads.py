@@ -15,7 +15,6 @@ from checker.model.tree import WORLD
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
 from checker.physics.mass.pose_search import JointLoad, PoseSearch
-from checker.physics.mass.robot_mass import GRAVITY
 
 MOST_JOINTS = 60
 """Moving joints of a robot whose poses are searched; one with two hands has about 50."""
@@ -120,7 +119,7 @@ def load_bounds(masses: MassProperties, tool: str, payload: float) -> dict[Joint
             continue
         slides = tie.joint.type.value == "prismatic"
         held = weights[name] if slides else moments[name] - weights[name] * way
-        bounds[tie.joint] = GRAVITY * held
+        bounds[tie.joint] = robot.gravity * held
         if tie.parent != WORLD:
             weights[tie.parent] += weights[name]
             moments[tie.parent] += moments[name]

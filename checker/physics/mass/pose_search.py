@@ -77,6 +77,7 @@ class PoseSearch:
         floating = [name for name, link in robot.tree.links.items() if not link.gravity.value]
         built = pin_model(robot, floating)
         self.model = built.model
+        self.model.gravity.linear = np.array((0.0, 0.0, -robot.gravity))
         if tool:
             frame = self.model.frames[self.model.getFrameId(tool)]
             mass = pin.Inertia(payload, frame.placement.translation, np.zeros((3, 3)))

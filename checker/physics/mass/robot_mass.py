@@ -48,10 +48,6 @@ if TYPE_CHECKING:
 # What joints hold against gravity.
 
 
-GRAVITY = 9.81
-"""m/s², as Pinocchio and MuJoCo have it; Gazebo's default is 9.8."""
-
-
 def gravity_torques(
     robot: Robot,
     spanning_tree: SpanningTree,
@@ -110,14 +106,14 @@ def _holding_effort(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> 
     mass, (x, y, _) = load
     a, b, c = motion.axis
     if motion.freedom is Freedom.SLIDE:
-        torque = mass * GRAVITY * c
+        torque = mass * robot.gravity * c
     else:
         pose = robot.pose_of_joint(joint)
         if pose is None:
             return None
         ox, oy, _ = pose.translation
         # axis · (arm × force) with the force straight up, against the weight
-        torque = GRAVITY * (a * (y - mass * oy) - b * (x - mass * ox))
+        torque = robot.gravity * (a * (y - mass * oy) - b * (x - mass * ox))
     return torque if math.isfinite(torque) else None
 
 

@@ -194,6 +194,9 @@ def _obstacle(robot: Robot) -> NotAvailable | None:
         )
     if robot.is_static:
         return NotAvailable("the model is static, so there is nothing to drive", applicable=False)
+    if not robot.gravity:
+        reason = "the robot starts in a world without gravity, in which it does not stand"
+        return NotAvailable(reason, applicable=False)
     if robot.shown_only and not any(link.collisions for link in robot.links):
         reason = f"the robot has no collisions: {robot.shown_only}"
         return NotAvailable(reason, applicable=False)

@@ -162,7 +162,11 @@ def build_scene(
     bodies, names, root = writer.text(height), writer.names, root_of(robot, layout)
     return Scene(
         mjcf=_document(
-            timestep, _assets(layout), bodies, _servos(names, servos, ledger), touches=touches
+            f'timestep="{timestep!r}" gravity="0 0 {-robot.gravity!r}"',
+            _assets(layout),
+            bodies,
+            _servos(names, servos, ledger),
+            touches=touches,
         ),
         bodies=names.bodies,
         joints=names.joints,
@@ -201,11 +205,11 @@ def _assets(layout: Layout) -> str:
     )
 
 
-def _document(timestep: float, assets: str, bodies: str, servos: str, *, touches: bool) -> str:
+def _document(options: str, assets: str, bodies: str, servos: str, *, touches: bool) -> str:
     # The ground takes part in every contact, and geoms of the robot in those with the ground alone.
     return f"""<mujoco>
 <compiler angle="radian" inertiafromgeom="false" autolimits="false" fusestatic="false"/>
-<option timestep="{timestep!r}" integrator="discrete" cone="elliptic" impratio="10"/>
+<option {options} integrator="discrete" cone="elliptic" impratio="10"/>
 <size memory="64M"/>
 <asset>
 {assets}
