@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
+
+from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.finding import SNIPPET_LIMIT, Edit, Fix
@@ -32,7 +35,18 @@ def corrected_lines(fix: Fix) -> Iterator[Corrected]:
         if after is None:
             yield from (Corrected(file, line, it.original, it.replacement, False) for it in edits)
         else:
-            yield Corrected(file, line, before.strip(), after.strip(), True)
+            yield _without_kept(Corrected(file, line, before.strip(), after.strip(), True))
+
+
+def _without_kept(line: Corrected) -> Corrected:
+    """Leave out a line that stays as it is, behind which others are added."""
+    if not _ELEMENTS.fullmatch(line.before) or not line.after.startswith(f"{line.before}\n"):
+        return line
+    return replace(line, before="", after=line.after.removeprefix(line.before).strip())
+
+
+_ELEMENTS = re.compile(r"<.*(?:/>|</[^<>]*>)")
+"""A line of whole elements: it does not say into what the added lines go."""
 
 
 def _after(edits: Sequence[Edit]) -> str | None:

@@ -52,7 +52,7 @@ def _corrected_line(finding: ReportedFinding) -> str:
     """Return the lines as the fix writes them; empty if they are long, or in another file."""
     lines = list(corrected_lines(finding.fix)) if finding.fix else []
     shown = all(it.is_line and it.file == finding.places[0].file and it.after for it in lines)
-    text = plain(" ".join(" ".join(it.after.split("\n")) for it in lines))
+    text = plain(" ".join(" ".join(part.strip() for part in it.after.split("\n")) for it in lines))
     return text if shown and "\n" not in text and len(text) <= SNIPPET_WIDTH else ""
 
 

@@ -112,6 +112,16 @@ def test_the_line_to_write_is_that_of_the_fix() -> None:
     ]
 
 
+def test_a_line_that_stays_is_not_to_be_written() -> None:
+    place = Place("model.sdf", 2, 8, 2, 8, snippet="  <a/>")
+    added = Edit(replace(place, column=7, end_column=7), "\n  <b/>\n  <c/>", "")
+    fixed = replace(FAULT, places=(place,), fix=Fix(Safety.SAFE, (added,)))
+    assert "    fix: write `<b/> <c/>`" in lines(fixed)
+    opened = replace(added.place, snippet="  <a>", column=6, end_column=6)
+    inside = replace(fixed, fix=Fix(Safety.SAFE, (replace(added, place=opened),)))
+    assert "    fix: write `<a> <b/> <c/>`" in lines(inside)
+
+
 def test_rules_that_report_the_same_fault_are_named_once() -> None:
     repeat = Repeat("SEN003", "lidar-scan", Severity.WARNING, "is odd", (PLACE,))
     found = replace(FAULT, repeats=(repeat, replace(repeat, message="is odd, too")))
