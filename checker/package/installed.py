@@ -153,6 +153,14 @@ def may_be_made(package: Package, path: str) -> bool:
     return False
 
 
+def foreign_installs(package: Package) -> str:
+    """Return `FILE:LINE` of what installs files of another place, unknown ones; else nothing."""
+    for install in package.build.installs if package.build is not None else ():
+        if install.kind != "TARGETS" and any("${" in item.value for item in install.items):
+            return install.span.source.where(install.span.start)
+    return ""
+
+
 def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:
     """Yield where files and folders go, below the installed package, and where they come from."""
     for install in build.installs:

@@ -6,7 +6,8 @@ the folder of the file that states it, **without** `meshdir`. So a robot that lo
 load through a scene in another folder: its meshes are looked for in the folder of the scene.
 `<include>` is taken from the folder of the model, then from that of the including file.
 
-A file that `.gitignore` excludes may be on the author's machine; nobody else has it.
+A file that `.gitignore` excludes may be on the author's machine; nobody else has it. Where
+CMakeLists.txt installs files of another place, a missing file may be one of these: not checked.
 
 Fix: correct the path, add the file, or put the scene into the folder of the robot.
 Source: MuJoCo 4.0.0, tried; XMLreference, compiler/meshdir and include.
@@ -19,8 +20,9 @@ from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.formats.mjcf.model import MjcfModel, NamedFile
 from checker.package.git_ignored import ignored_by
+from checker.package.installed import foreign_installs
 from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rename, rule
+from checker.rule import Concern, Findings, Severity, finding, rename, rule, unchecked
 
 _ABOVE = "/1/2/3/4/5/6/7/8/"
 """So many folders above the package may be named."""
@@ -29,8 +31,13 @@ _ABOVE = "/1/2/3/4/5/6/7/8/"
 @rule("MJC002", "missing-model-file", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, model: MjcfModel) -> Findings:
     """Report files that are not at any of the paths that MuJoCo tries."""
+    installed = foreign_installs(package)
     for file in (*model.missing, *model.files):
-        if not file.path:
+        if not file.path and installed:
+            yield unchecked(
+                f"{installed} installs files of another place, with which models may load"
+            )
+        elif not file.path:
             yield finding(
                 file.uri,
                 f"MuJoCo cannot load {model.file}: {_message(package, model, file)}",

@@ -79,13 +79,18 @@ def _far(model: CompiledModel, hinges: list[Joint]) -> list[Finding]:
 def _turned(model: CompiledModel) -> Iterator[Finding]:
     for element in model.model.elements:
         value, angles = element.attribute("euler"), numbers(element, "euler")
-        if value is not None and angles is not None and max(map(abs, angles)) > math.tau:
+        if value is not None and any(map(_is_in_degrees, angles or ())):
             yield finding(
                 value,
                 f"euler {value.value!r} of <{element.tag}> is in radians, more than a turn: with "
                 'degrees meant, convert it, or remove angle="radian" of <compiler>',
                 key="turned",
             )
+
+
+def _is_in_degrees(angle: float) -> bool:
+    """Return whether nobody means radians; a script that adds up angles may exceed one turn."""
+    return abs(angle) > (math.tau if angle.is_integer() else _TURNS)
 
 
 def _small(hinges: list[Joint]) -> Joint | None:
@@ -124,10 +129,12 @@ def _arm(compiler: str, bounds: str, mark: str = "") -> dict[str, str]:
 
 
 _MARK = "<!-- ^ MJC008 -->"
+_GEOM = '<geom size="1" euler="0 0 6.676"/>'
 GOOD = [
     _arm("", "-90 90"),
     _arm('angle="radian"', "-1.57 1.57"),
     _arm('angle="radian"', "-9.42 9.42"),
+    {"@mjcf": f'<compiler angle="radian"/><worldbody>{_GEOM}</worldbody>'},
 ]
 BAD = [
     _arm("", "-1.5708 1.5708", _MARK),

@@ -122,3 +122,15 @@ def test_models_beyond_the_limit_are_named(tmp_path: Path) -> None:
         (tmp_path / path).write_text(text)
     (package,) = check_package(tmp_path, settings).packages
     assert "2 are not" in " ".join(spot.reason for spot in package.blind_spots)
+
+
+def test_what_cmake_installs_from_another_package_is_not_missing(tmp_path: Path) -> None:
+    build = "install(DIRECTORY ${parts_DIR}/meshes DESTINATION share/arm)\n"
+    files = {
+        "arm.xml": "<mujoco><include file='meshes/hand.xml'/></mujoco>",
+        "CMakeLists.txt": f"project(arm)\n{build}",
+    }
+    report = checked(tmp_path / "arm", files)
+    assert places(report) == []
+    (reason,) = (it.reason for it in report.packages[0].not_checked if it.rule == "MJC002")
+    assert reason.startswith("CMakeLists.txt:2 installs files of another place")
