@@ -3,13 +3,17 @@
 Parameters that a controller does not declare are ignored without a message: the value has no
 effect. Usually a name is misspelt, belongs to another controller, or is of another distribution.
 Since Jazzy, the drives read `TwistStamped` only: `use_stamped_vel: false` is ignored, and messages
-of type `Twist` do not move the robot.
+of type `Twist` do not move the robot. A controller of a group of joints replaces `interface_name`
+by the interface of its type.
 
 Fix: remove the parameter, or correct its name.
 Source: parameter files of ros2_controllers, by branch.
 """
 
+from collections.abc import Iterator
+
 from checker.base.words import Suggestions
+from checker.model.controllers import Controller
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
     COMMON_PARAMETERS,
@@ -18,11 +22,22 @@ from checker.ros.ros2_control.distributions import (
     distribution_of,
 )
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule, unchecked
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    respelling,
+    rule,
+    unchecked,
+)
 from checker.rulebook.example_parts import SHOULDER, ros2_control
 from checker.source.text import Located
 
 _STAMPED = "use_stamped_vel"
+_INTERFACE = "interface_name"
 _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinematics.")
 """Starts of parameters that rclcpp, filters and solvers of kinematics declare themselves."""
 
@@ -42,37 +57,53 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
         if package.workspace.package(known.package) is not None:
             yield unchecked(f"{controller.label} is of a package in the workspace: it may differ")
             continue
-        names = _known_parameters(known, distribution)
-        suggestions = Suggestions(names)
-        of_type = f"{controller.label} ({controller.type.value})"
-        for name in sorted(controller.own) if names else ():
+        for name in sorted(controller.own) if _known_parameters(known, distribution) else ():
             if name in COMMON_PARAMETERS or name.startswith(_READ_OTHERWISE):
                 continue
-            if known.known_in(name, distribution):
-                continue
-            parameter = controller.parameters[name]
-            elsewhere = known.parameter(name) is not None
-            grave = name == _STAMPED and parameter.node.scalar is False
-            message = f"{name} of {of_type} has no effect in ROS 2 {distribution.title()}"
-            if grave:
-                message += (
-                    ": the controller reads TwistStamped, and Twist does not move the robot; "
-                    "publish geometry_msgs/msg/TwistStamped"
-                )
-            elif not elsewhere:
-                message = f"{of_type} has no parameter {name}{suggestions.hint(name)}"
-            yield finding(
-                parameter.key,
-                message,
-                severity=Severity.INFO if elsewhere and not grave else None,
-                fix=None
-                if elsewhere
-                else respelling(Located(name, parameter.key.span), suggestions),
-            )
+            if known.interface and name == _INTERFACE:
+                yield from _replaced(controller, known.interface)
+            elif not known.known_in(name, distribution):
+                yield _without_effect(controller, name, known, distribution)
 
 
 def _known_parameters(kind: ControllerType, distribution: str) -> tuple[str, ...]:
     return tuple(name for name in kind.params if kind.known_in(name, distribution))
+
+
+def _of_type(controller: Controller) -> str:
+    return f"{controller.label} ({controller.type.value})"
+
+
+def _replaced(controller: Controller, interface: str) -> Iterator[Finding]:
+    """Report an interface that is not the one of the controller's type."""
+    parameter = controller.parameters[_INTERFACE]
+    if parameter.is_known and parameter.node.scalar != interface:
+        yield finding(
+            parameter.key,
+            f"{_of_type(controller)} commands {interface}, and ignores {_INTERFACE} "
+            f"{parameter.span.text}: expected {interface}",
+        )
+
+
+def _without_effect(
+    controller: Controller, name: str, known: ControllerType, distribution: str
+) -> Finding:
+    parameter, of_type = controller.parameters[name], _of_type(controller)
+    if known.parameter(name) is None:
+        suggestions = Suggestions(_known_parameters(known, distribution))
+        return finding(
+            parameter.key,
+            f"{of_type} has no parameter {name}{suggestions.hint(name)}",
+            fix=respelling(Located(name, parameter.key.span), suggestions),
+        )
+    message = f"{name} of {of_type} has no effect in ROS 2 {distribution.title()}"
+    if name != _STAMPED or parameter.node.scalar is not False:
+        return finding(parameter.key, message, severity=Severity.INFO)
+    message += (
+        ": the controller reads TwistStamped, and Twist does not move the robot; "
+        "publish geometry_msgs/msg/TwistStamped"
+    )
+    return finding(parameter.key, message)
 
 
 def _arm(parameter: str) -> object:
@@ -87,15 +118,29 @@ def _arm(parameter: str) -> object:
     }
 
 
+def _group(interface: str, mark: str = "") -> object:
+    return {
+        "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
+        "config/arm.yaml": f"""arm_controller:
+  ros__parameters:
+    type: velocity_controllers/JointGroupVelocityController
+    joints: [shoulder]
+    interface_name: {interface}{mark}
+""",
+    }
+
+
 _MARK = "  # ^ R2C011"
 GOOD = [
     _arm("linear.x.max_velocity: 1.0"),
     _arm("linear: {x: {max_velocity: 1.0}}"),
     _arm("use_sim_time: true"),
+    _group("velocity"),
 ]
 BAD = [
     _arm(f"wheel_seperation: 0.5{_MARK}"),
     _arm(f"use_stamped_vel: false{_MARK}"),
     _arm(f"wheels_per_side: 1{_MARK}"),
     _arm(f"constraints: {{goal_time: 1.0}}{_MARK}"),
+    _group("position", _MARK),
 ]

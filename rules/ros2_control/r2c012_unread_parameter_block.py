@@ -5,6 +5,9 @@ A block of a parameter file is for the node of that full name: `controller_manag
 neither do its controllers; the spawner then reports that a type is not defined. Without
 `ros__parameters` below the name, the parameters are not read.
 
+A file with a block of the same node for the manager's namespace is for several robots: its blocks
+for other namespaces are not reported.
+
 Fix: put the blocks below the key of the namespace, or below two asterisks for any namespace, as in
 the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
@@ -12,7 +15,7 @@ Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
 
 from checker.model.controllers import ControllerFile
 from checker.model.ros_parameters import NodeBlock
-from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
@@ -26,10 +29,11 @@ def check(control: RobotControl) -> Findings:
             yield finding(key, message, covered_by=("WIR007",))
     if len(control.managers) != 1:
         return
-    names = {controller.name for controller in control.controllers}
+    manager = control.managers[0]
+    namespace = manager.namespace
+    names = {manager.node, *(controller.name for controller in control.controllers)}
     for file in control.files if control.is_named else ():
-        for block in _unread(file, control.managers[0], names):
-            namespace = control.managers[0].namespace
+        for block in _unread(file, namespace.value, names):
             yield finding(
                 block.span,
                 f"the parameters are for {block.name}, but the controller manager runs in "
@@ -39,15 +43,12 @@ def check(control: RobotControl) -> Findings:
             )
 
 
-def _unread(file: ControllerFile, manager: GazeboManager, names: set[str]) -> list[NodeBlock]:
-    """Return the blocks of the manager and its controllers that are for another namespace."""
-    namespace = manager.namespace.value
+def _unread(file: ControllerFile, namespace: str, names: set[str]) -> list[NodeBlock]:
+    """Return the blocks of these nodes, all of whose blocks are for another namespace."""
+    blocks = [block for block in file.blocks if block.node in names]
+    read = {block.node for block in blocks if block.is_for(block.node, namespace)}
     return [
-        block
-        for block in file.blocks
-        if block.node in (manager.node, *names)
-        and "$(" not in block.name + namespace
-        and not block.is_for(block.node, namespace)
+        block for block in blocks if block.node not in read and "$(" not in block.name + namespace
     ]
 
 
@@ -71,6 +72,7 @@ GOOD = [
     _arm(_manager("/**/controller_manager")),
     _arm(_manager("/robot/controller_manager")),
     _arm(_manager("/**")),
+    _arm(_manager("/robot/controller_manager") + _manager("/other/controller_manager")),
     _arm("robot:\n  controller_manager:\n    ros__parameters:\n      update_rate: 100\n"),
 ]
 BAD = [
