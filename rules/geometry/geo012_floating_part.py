@@ -5,7 +5,7 @@ sign, a unit, or the pose of another configuration. A box of a centimetre that m
 as `base_footprint`, is not a part. In published robots, intended gaps measure up to 16 mm, and
 mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin, it is an info: two
 tables in one file stand apart by intent. Two arms may stand apart as well, each with a base that is
-fixed to the world or to a root link without shapes.
+fixed to the world or to a root link without shapes, directly or through links without shapes.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.
@@ -17,7 +17,7 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.robot import Robot
-from checker.model.tree import WORLD, link_tree
+from checker.model.tree import WORLD, LinkTree, link_tree
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _EQUAL = 1e-6
@@ -94,12 +94,27 @@ def _stands_alone(robot: Robot, group: Sequence[Placed]) -> bool:
     """Return whether a group is a mechanism on a base of its own, such as one of two arms."""
     tree, links = link_tree(robot), {piece.link.scoped_name for piece in group}
     wheels = {wheel.scoped_name for wheel in robot.wheels}
-    empty = {name for name, link in tree.links.items() if not (link.collisions or link.visuals)}
-    roots = {WORLD, *(empty - tree.ties_above.keys())}
+    roots = _roots_without_shapes(tree)
     ties = [tie for tie in tree.ties if tie.child in links]
     based = any(tie.parent in roots and tie.joint.type.value == "fixed" for tie in ties)
     moving = (tie for tie in ties if tie.joint.type.value != "fixed" and tie.parent in links)
     return based and any(tie.child not in wheels for tie in moving)
+
+
+def _roots_without_shapes(tree: LinkTree) -> set[str]:
+    """Return the world, roots without shapes, and links without shapes that are fixed to them."""
+    empty = {name for name, link in tree.links.items() if not (link.collisions or link.visuals)}
+    roots = {WORLD, *(empty - tree.ties_above.keys())}
+    below: dict[str, list[str]] = {}
+    for tie in tree.ties:
+        if tie.child in empty and tie.joint.type.value == "fixed":
+            below.setdefault(tie.parent, []).append(tie.child)
+    waiting = [*roots]
+    while waiting:
+        found = set(below.get(waiting.pop(), ())) - roots
+        roots |= found
+        waiting += found
+    return roots
 
 
 def _shows_frames(group: Sequence[Placed]) -> bool:
@@ -188,7 +203,7 @@ _WHEEL = """
 """
 
 
-def _arms(mount: str, mark: str = "") -> object:
+def _arms(mount: str, mark: str = "", between: str = "fixed") -> object:
     box = '<geometry>\n<box size="0.1 0.1 0.1"/>\n</geometry>'
 
     def arm(name: str, y: float, mark: str = "") -> str:
@@ -197,8 +212,12 @@ def _arms(mount: str, mark: str = "") -> object:
   <visual>{mark}{box}</visual>
 </link>
 <link name="{name}_arm"><visual>{box}</visual></link>
+<link name="{name}_foot"/>
+<joint name="{name}_place" type="{between}">
+  <parent link="base_link"/><child link="{name}_foot"/><origin xyz="0 {y} 0"/>
+</joint>
 <joint name="{name}_mount" type="{mount}">
-  <parent link="base_link"/><child link="{name}_base"/><origin xyz="0 {y} 0"/>
+  <parent link="{name}_foot"/><child link="{name}_base"/>
 </joint>
 <joint name="{name}_turn" type="continuous">
   <parent link="{name}_base"/><child link="{name}_arm"/><origin xyz="0 0 0.1"/>
@@ -221,4 +240,5 @@ BAD = [
     _camera("0 0 0.45", _MARK),
     _camera("1.5 0 0", _MARK),
     _arms("floating", _MARK),
+    _arms("fixed", _MARK, between="floating"),
 ]
