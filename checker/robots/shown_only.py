@@ -20,6 +20,10 @@ _SIMULATORS = re.compile(
     re.IGNORECASE,
 )
 """What a launch file contains that starts a simulator, or may."""
+_CLOCK = re.compile(
+    r"simulat(?:ion|ed|or)\s{1,4}(?:\(gazebo\)\s{1,4})?(?:clock|time)\b", re.IGNORECASE
+)
+"""The usual description of `use_sim_time`, which starts none."""
 _SIMULATED = frozenset({"plugin", "sensor"})
 """Children of a `<gazebo>` that no other program reads."""
 _FOR_RVIZ = re.compile(r"<!--[^<>]{0,300}\bfor rviz\b", re.IGNORECASE)
@@ -54,7 +58,7 @@ def shown_only(
     texts = _starting(launch, posixpath.basename(path)) or [*launch.values()]
     if not texts:
         return "no launch file of the workspace starts anything" if loose else ""
-    if not any(map(_SIMULATORS.search, texts)):
+    if not any(_SIMULATORS.search(_CLOCK.sub("", text)) for text in texts):
         return "no launch file that loads it starts a simulator"
     graphs = [*own, *(graph for _, graph in launches_naming(package))]
     if _get_others(package, graphs, path):

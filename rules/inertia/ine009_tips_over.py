@@ -4,7 +4,8 @@ The tip angle is the tilt at which the centre of mass is above the nearest edge 
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
 with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot
-of URDF that stands on legs is not judged: its controller decides how it stands.
+of URDF that stands on legs is not judged: its controller decides how it stands. For a description
+that no simulator gets, such as one for transforms alone, it is an info.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
 wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
@@ -68,11 +69,12 @@ def check(
     height = f"{centre[2] - ground:.3g} m above the ground"
     standing = "tips over on flat ground" if degrees < 0 else f"tips over at {degrees:.1f}°"
     heaviest = _heaviest(masses)
+    severity = Severity.ERROR if grave else Severity.WARNING
     yield finding(
         heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
         f"the robot {standing}, expected {least:g}° or more: its centre of mass "
         f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
-        severity=Severity.ERROR if grave else Severity.WARNING,
+        severity=Severity.INFO if robot.shown_only else severity,
     )
 
 

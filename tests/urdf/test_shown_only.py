@@ -22,6 +22,10 @@ state = Node(package='robot_state_publisher', executable='robot_state_publisher'
     parameters=[{{'robot_description': text}}])
 """
 _RVIZ = f"{_PUBLISHER}return LaunchDescription([state, Node(package='rviz2', executable='rviz2')])"
+_CLOCK = _RVIZ.replace(
+    "[state",
+    "[DeclareLaunchArgument('use_sim_time', description='Use simulation (Gazebo) clock'), state",
+)
 _SPAWNED = f"""{_PUBLISHER}
 world = IncludeLaunchDescription(PathJoinSubstitution([
     FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']))
@@ -44,13 +48,13 @@ def _report(tmp_path: Path, launch: str, *, urdf: str = _SHOWN, comment: str = "
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     return check_package(
-        tmp_path / NAME, Settings(select=("URD007", "URD016", "GEO002", "TRI"))
+        tmp_path / NAME, Settings(select=("URD007", "URD016", "GEO002", "INE009", "TRI"))
     ).packages[0]
 
 
 @pytest.mark.parametrize(
     "launch",
-    [_RVIZ, _SPAWNED.replace("GIVEN", _SDF)],
+    [_RVIZ, _CLOCK, _SPAWNED.replace("GIVEN", _SDF)],
 )
 def test_what_no_simulator_gets_needs_no_collision(tmp_path: Path, launch: str) -> None:
     report = _report(tmp_path, launch, urdf=_SHOWN + _TURNS)
@@ -69,6 +73,35 @@ def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
     launch = _SPAWNED.replace("GIVEN", "'-topic', 'robot_description'")
     report = _report(tmp_path, launch, comment="<!-- A simple model for RViz. -->")
     assert report.verdict is VerdictKind.READY
+
+
+_TOP_HEAVY = """<link name="body">
+<inertial><origin xyz="0 0 2"/><mass value="9"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+</link>
+<link name="left_wheel"><collision><origin rpy="1.5708 0 0"/>
+<geometry><cylinder radius="0.1" length="0.05"/></geometry></collision></link>
+<link name="right_wheel"><collision><origin rpy="1.5708 0 0"/>
+<geometry><cylinder radius="0.1" length="0.05"/></geometry></collision></link>
+<joint name="left" type="continuous"><axis xyz="0 1 0"/><origin xyz="0 0.2 0"/>
+<parent link="body"/><child link="left_wheel"/></joint>
+<joint name="right" type="continuous"><axis xyz="0 1 0"/><origin xyz="0 -0.2 0"/>
+<parent link="body"/><child link="right_wheel"/></joint>
+"""
+
+
+@pytest.mark.parametrize(
+    ("launch", "severity"),
+    [
+        (_RVIZ, Severity.INFO),
+        (_SPAWNED.replace("GIVEN", "'-topic', 'robot_description'"), Severity.WARNING),
+    ],
+)
+def test_what_no_simulator_gets_does_not_tip_over(
+    tmp_path: Path, launch: str, severity: Severity
+) -> None:
+    report = _report(tmp_path, launch, urdf=_TOP_HEAVY)
+    assert {it.severity for it in report.findings if it.rule == "INE009"} == {severity}
 
 
 _FOR_SOLVER = """<link name="foot"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
