@@ -38,6 +38,10 @@ def check(launch: Ros2Launch) -> Findings:
 _USE = """        Node(package='rviz2', executable='rviz2',
              arguments=['-d', LaunchConfiguration('view')]),"""
 _DECLARED = "        DeclareLaunchArgument('view', default_value='a.rviz'),"
+_PREFIX = """        Node(package='rviz2', executable='rviz2',
+             prefix=[LaunchConfiguration('view'), ' ']),"""
+_ON_EXIT = """        Node(package='rviz2', executable='rviz2',
+             on_exit=[ExecuteProcess(cmd=['echo'], cwd=LaunchConfiguration('view'))]),"""
 _INCLUDE = """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
             [FindPackageShare('acme_cells'), '/launch/x.launch.py'])),"""
 
@@ -50,7 +54,14 @@ _NAV2 = """<launch>
 GOOD = [
     {"@ros2": True, "launch/nav.launch.xml": _NAV2.replace("@", "map").replace("%", "")},
     {"@ros2": f"{_DECLARED}\n{_USE}"},
+    {"@ros2": f"{_DECLARED}\n{_PREFIX}"},
+    {"@ros2": f"{_DECLARED}\n{_ON_EXIT}"},
     {"@ros2": f"{_DECLARED}\n{_INCLUDE}"},
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": '<launch><arg name="to" default="screen"/>'
+        '<node pkg="rviz2" exec="rviz2" output="$(var to)"/></launch>',
+    },
     {
         "@ros2": True,
         "launch/view.launch.xml": '<launch><arg name="gui"/>'

@@ -165,7 +165,8 @@ class Markup:
                 return None
             return Unknown(f"<{entity.tag}> is not evaluated", entity.span)
         made = work(self, entity)
-        values = {name: value for name, value in made.values.items() if value is not None}
+        given = {**self.attributes(entity, **_READ_ALONE), **made.values}
+        values = {name: value for name, value in given.items() if value is not None}
         for attribute, name in (("if", "IfCondition"), ("unless", "UnlessCondition")):
             test = self.text(entity, attribute)
             if test is not None:
@@ -349,10 +350,24 @@ _TAGS: Mapping[str, Callable[[Markup, Entity], Made]] = MappingProxyType(
             bridge_params="bridge_params",
         ),
         "gz_server": _simple("GzServer", world_sdf_file="world_sdf_file"),
+        "shutdown": _simple("Shutdown", reason="reason"),
     }
+    | dict.fromkeys(
+        ("log", "log_info", "log_debug", "log_warning", "log_error"),
+        _simple("LogInfo", msg="message"),
+    )
 )
 _NOTHING = frozenset(
-    {"reset", "reset_env", "shutdown", "log", "log_info", "set_ros_log_dir", "push_env", "pop_env"}
-    | {"push_launch_configurations", "pop_launch_configurations", "log_debug", "log_warning"}
-    | {"log_error", "choice", "description"}
+    {"reset", "reset_env", "set_ros_log_dir", "push_env", "pop_env"}
+    | {"push_launch_configurations", "pop_launch_configurations", "choice", "description"}
 )
+_READ_ALONE = MappingProxyType(
+    {
+        name: name
+        for name in (
+            *("output", "launch-prefix", "respawn", "respawn_delay", "respawn_max_retries", "cwd"),
+            *("emulate_tty", "sigterm_timeout", "sigkill_timeout", "exec_name", "period"),
+        )
+    }
+)
+"""Attributes that matter for the arguments that they read alone."""

@@ -98,6 +98,32 @@ class Visitor:
         if made.values.get("condition") is not None and made.name != "IfElseSubstitution":
             context = context.under(read_conditions(made, context))
         handler(self, made, context)
+        for name in _arguments_in([*made.values.values()]):
+            context.allowance.spend()
+            context.used.add(name)
+
+
+def _arguments_in(waiting: list[Value]) -> Iterator[str]:
+    """Yield the launch arguments that values read; actions among them are visited themselves."""
+    seen: set[int] = set()
+    while waiting:
+        value = waiting.pop()
+        if id(value) in seen:
+            continue
+        seen.add(id(value))
+        match value:
+            case Made(name="LaunchConfiguration", values={"variable_name": str(name)}):
+                yield name
+            case Made() if value.name not in _HANDLERS or value.name in _PASSED_OVER:
+                waiting += value.values.values()
+            case dict():
+                waiting += (*value.keys(), *value.values())
+            case list() | tuple():
+                waiting += value
+            case Guarded():
+                waiting.append(value.value)
+            case Choice():
+                waiting += value.values
 
 
 def _made_in(value: Value) -> Iterator[Value]:
