@@ -12,25 +12,32 @@ from checker.report.robot_facts import AxisFacts, JointFacts, LinkFacts, Numbers
 
 
 def model_overview(model: CompiledModel) -> dict[str, Any]:
-    """Return the figures of a model; the world is no body of it."""
-    compiled = model.compiled
-    known: dict[str, Any] = {
-        "robot": (model.model.document.root.get("model") or posixpath.basename(model.model.file)),
-        "file": model.model.file,
-        "links": len(compiled.bodies) - 1,
-        "joints": len(compiled.joints),
-        "actuators": len(compiled.actuators),
-    }
-    if not model.compiled.lacks_meshes:
-        known["mass_kg"] = rounded(sum(body.mass for body in compiled.bodies))
+    """Return the figures of a model; the world is no body of it, and a scene has no other."""
+    compiled, name = model.compiled, _name(model)
+    bodies = len(compiled.bodies) - 1
+    known: dict[str, Any] = {"robot" if bodies else "scene": name, "file": model.model.file}
+    if bodies:
+        known |= {
+            "links": bodies,
+            "joints": len(compiled.joints),
+            "actuators": len(compiled.actuators),
+        }
+    if not compiled.lacks_meshes:
+        if bodies:
+            known["mass_kg"] = rounded(sum(body.mass for body in compiled.bodies))
         known["simulated_s"] = rounded(compiled.time)
     return {name: value for name, value in known.items() if value is not None}
+
+
+def _name(model: CompiledModel) -> str:
+    return model.model.document.root.get("model") or posixpath.basename(model.model.file)
 
 
 def model_facts(model: CompiledModel) -> RobotFacts:
     """Return the bodies and joints of a model, as links and joints of a robot."""
     overview = model_overview(model)
-    name, file = overview.pop("robot"), overview.pop("file")
+    name, file = _name(model), overview.pop("file")
+    overview = {key: value for key, value in overview.items() if key not in ("robot", "scene")}
     bodies = model.compiled.bodies
     lacks_meshes = model.compiled.lacks_meshes
     links = tuple(

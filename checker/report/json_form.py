@@ -201,6 +201,10 @@ _VECTOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "num
 _TENSOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": _VECTOR}
 _FACTS: Mapping[str, Any] = {
     "robot": {"type": "string"},
+    "scene": {
+        "type": "string",
+        "description": "Instead of `robot`: name of a model of MuJoCo without any body.",
+    },
     "file": {
         "type": "string",
         "description": "File of the robot, if a package has several robots.",

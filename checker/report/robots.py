@@ -41,8 +41,8 @@ class ReportedRobot(Record):
 
     @property
     def name(self) -> str:
-        """Name of the robot."""
-        return str(self.facts.get("robot", ""))
+        """Name of the robot, or of a scene without one."""
+        return str(self.facts.get("robot") or self.facts.get("scene", ""))
 
     @property
     def file(self) -> str:

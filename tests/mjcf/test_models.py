@@ -40,6 +40,17 @@ def test_a_folder_of_models_is_a_unit_and_so_is_each_folder_beside(tmp_path: Pat
     assert {package.verdict for package in report.packages} == {VerdictKind.READY}
 
 
+def test_a_scene_without_a_body_is_no_robot(tmp_path: Path) -> None:
+    track = (
+        "<mujoco model='track'><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>"
+    )
+    report = checked(tmp_path, {"arm.xml": f"<mujoco>{ARM.format('')}</mujoco>", "b.xml": track})
+    (package,) = report.packages
+    arm, scene = package.facts, *package.other_robots
+    assert (arm["robot"], arm["links"]) == ("arm.xml", 1)
+    assert (scene["scene"], "robot" in scene, "links" in scene) == ("track", False, False)
+
+
 def test_a_robot_in_two_scenes_is_reported_once_at_its_own_line(tmp_path: Path) -> None:
     scene = "<mujoco>\n<worldbody><geom type='plane' size='1 1 1'/></worldbody>\n{}</mujoco>"
     include = "<include file='arm.xml'/>\n"
