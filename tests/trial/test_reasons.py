@@ -66,5 +66,10 @@ def test_controllers(tmp_path: Path, kind: str, reason: str) -> None:
     assert reason in why(robot(tmp_path, kind, "    joints: [rear_left]\n"))
 
 
+def test_a_controller_of_an_own_class_names_joints_by_its_own_parameters(tmp_path: Path) -> None:
+    own = why(robot(tmp_path, "acme_control/Steering", "    wheel_joints: [rear_left]\n"))
+    assert "'base' commands joints in a way that the trial does not know" in own
+
+
 def test_nothing_moves_a_crate() -> None:
     assert not why(sdf('<link name="base"/>'))

@@ -73,6 +73,12 @@ def commanded_joints(robot: Robot) -> dict[str, Mover]:
     return commanded
 
 
+def has_own_joints(controller: Controller, robot: Robot) -> bool:
+    """Return whether a controller names joints by parameters of its own, as `wheel_joints`."""
+    own = (it for name, it in controller.parameters.items() if name not in _JOINTS)
+    return any(text.value in robot.joints_by_name for it in own for text in it.texts)
+
+
 def _by_plugins(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield the scoped names of joints, each with the class of the plugin that moves it."""
     for name, plugin in robot.driven_joints.items():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from checker.base.words import and_list, count
-from checker.model.locomotion.commanded_joints import moving_controllers
+from checker.model.locomotion.commanded_joints import has_own_joints, moving_controllers
 from checker.model.locomotion.controlled import DRIVING_CONTROLLERS
 from checker.model.locomotion.drive import WING_CLASSES, body_velocity
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
@@ -59,6 +59,8 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
     """Yield the other reasons, the most certain one first."""
     if moving := moving_controllers(robot):
         what = "names no joint of the model that can be moved"
+        if has_own_joints(moving[0], robot):
+            what = "commands joints in a way that the trial does not know"
         yield f"the {moving[0].class_name} {moving[0].name!r} {what}"
     if robot.element.child("ros2_control") is not None:
         joints = [j for system in robot.element.all("ros2_control") for j in system.all("joint")]
