@@ -34,7 +34,7 @@ from checker.model.locomotion.drive import WING_CLASSES, driven_joints, find_whe
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
-from checker.model.tree import LinkTree, link_tree
+from checker.model.tree import WORLD, LinkTree, link_tree
 from checker.model.unknowns import (
     LooseParts,
     bare_wheel,
@@ -137,6 +137,12 @@ class Robot(Part, dict=True):
         """True if it has no moving joint, sensor or plugin: a barrel, not a robot."""
         jointed = any(joint.type.value != "fixed" for joint in self.joints)
         return not (jointed or self.sensors or self.plugins)
+
+    @property
+    def is_fixture(self) -> bool:
+        """True if fixed joints connect all its links to the world: a camera on a wall."""
+        tree = self.tree
+        return bool(tree.links) and tree.links_fixed_to_world >= tree.links.keys() - {WORLD}
 
     def is_still(self, link: Link) -> bool:
         """Return whether a model around a link, this one or one nested in it, is static."""

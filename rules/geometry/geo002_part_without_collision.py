@@ -2,7 +2,8 @@
 
 A link without collision touches nothing: a wheel turns in the air or sinks into the ground, a body
 drives through walls, and a robot without collisions falls through the world. It is an info in a
-URDF that no launch file of the workspace gives to a simulator, since RViz needs no collision. No
+URDF that no launch file of the workspace gives to a simulator, since RViz needs no collision, and
+in what is fixed to the world, such as a camera that looks at the robot. No
 accepted package that we checked has this fault.
 
 Fix: give the part a `<collision>`: a wheel a cylinder, a track boxes and cylinders, a body a simple
@@ -57,6 +58,9 @@ def _without_any(robot: Robot, context: Context) -> Finding:
         return finding(robot, message, severity=Severity.INFO)
     if robot.shown_only:
         return finding(robot, f"{what}: {robot.shown_only}", severity=Severity.INFO)
+    if robot.is_fixture:
+        message = f"{what}; it is fixed to the world, so that it does not fall"
+        return finding(robot, message, severity=Severity.INFO)
     if robot.drives or (robot.stands_alone and context.is_subt):
         return finding(robot, f"{what}: the robot falls through the ground")
     is_object = robot.is_prop and robot.conventions.read_by_gazebo

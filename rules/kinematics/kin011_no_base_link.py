@@ -1,7 +1,8 @@
 """A robot without `base_link`, or whose canonical link does not exist.
 
 Tools for SubT, and most of ROS, use `base_link` as the robot's own frame: transforms, bridges of
-sensors and the wheels' odometry start there.
+sensors and the wheels' odometry start there. What is fixed to the world, such as a camera on a
+wall, needs none.
 
 Fix: name the link that carries the others `base_link`; let `canonical_link` name a link.
 Source: SubT model submission, static transforms from `base_link`; REP 105; SDFormat 1.7,
@@ -25,7 +26,7 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     if not robot.is_static:
         yield from _canonical(robot)
     # A file for no simulator may not be a robot, but a barrel.
-    is_prop = robot.is_prop and not context.is_subt
+    is_prop = (robot.is_prop or robot.is_fixture) and not context.is_subt
     if not context.release or not robot.links or base in robot.links_by_name or is_prop:
         return
     if robot.missing_parts:
@@ -62,14 +63,28 @@ def _model(link: str, attribute: str = "", mark: str = "") -> str:
 """
 
 
+def _fixture(kind: str, mark: str = "") -> dict[str, object]:
+    """Return a camera that a joint connects to the world."""
+    urdf = f"""<robot name="camera">{mark}
+  <link name="world"/>
+  <link name="lens"/>
+  <joint name="mount" type="{kind}"><parent link="world"/><child link="lens"/></joint>
+  <gazebo reference="lens"><sensor type="camera" name="eye"/></gazebo>
+</robot>
+"""
+    return {"@urdf": True, "@profile": "urdf", "urdf/arm.urdf": urdf}
+
+
 _MARK = "  <!-- ^ KIN011 -->"
 GOOD = [
     {"@fragment": _model("barrel"), "@profile": "ros2"},
     _model("base_link"),
     _model("base_link", ' canonical_link="base_link"'),
     _model("base_link", ' canonical_link=""'),
+    _fixture("fixed"),
 ]
 BAD = [
     _model("chassis", mark=_MARK),
     _model("base_link", ' canonical_link="chassis"', _MARK),
+    _fixture("continuous", _MARK),
 ]

@@ -129,3 +129,6 @@ def test_no_collision_matters_to_a_robot_that_stands(tmp_path: Path) -> None:
     wheel = f'<link name="wheel">{inertia(0.1)}</link>' + hinge("wheel")
     assert severities(checked(bare, tmp_path))["GEO002"] is Severity.WARNING
     assert severities(checked(bare + wheel, tmp_path))["GEO002"] is Severity.ERROR
+    held = '<joint name="h" type="fixed"><parent link="world"/><child link="base"/></joint>'
+    fixture = f'<link name="world"/>{bare}{held}'
+    assert severities(checked(fixture, tmp_path))["GEO002"] is Severity.INFO

@@ -194,6 +194,9 @@ def _obstacle(robot: Robot) -> NotAvailable | None:
         )
     if robot.is_static:
         return NotAvailable("the model is static, so there is nothing to drive", applicable=False)
+    if robot.is_fixture:
+        reason = "fixed joints connect all links to the world, so there is nothing to drive"
+        return NotAvailable(reason, applicable=False)
     if not robot.gravity:
         reason = "the robot starts in a world without gravity, in which it does not stand"
         return NotAvailable(reason, applicable=False)
