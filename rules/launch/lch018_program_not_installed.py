@@ -26,7 +26,10 @@ _CMAKE = re.compile(
 )
 """Among others a call with a variable, next to the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
-_SETUP = re.compile(r"[\"']lib/|\bf[\"']|\.format\(|\bfor\b")
+_SETUP = re.compile(
+    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%|\bfor\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
+)
+"""Among others names that are put together, and scripts that are not listed."""
 _NOT_PLAIN = {
     "CMakeLists.txt": _CMAKE,
     "setup.py": _SETUP,
@@ -100,12 +103,12 @@ setup(name='acme_nodes', data_files=[('share/acme_nodes/launch', glob('launch/*'
 """
 
 
-def _python(executable: str, mark: str = "") -> object:
+def _python(executable: str, mark: str = "", scripts: str = "[]") -> object:
     return {
         "@ros2": f"        Node(package='acme_nodes', executable='{executable}'),{mark}",
         "@profile": "ros2",
         "../acme_nodes/package.xml": "<package><name>acme_nodes</name></package>",
-        "../acme_nodes/setup.py": _SETUP_PY,
+        "../acme_nodes/setup.py": _SETUP_PY.replace("entry_", f"scripts={scripts}, entry_"),
     }
 
 
@@ -120,9 +123,12 @@ GOOD = [
     _node("driver", "set(name driver_2)\nadd_executable(${name} a.cpp)"),
     _node("driver", "SET(name driver_2)\nADD_EXECUTABLE(${name} a.cpp)"),
     _python("watch"),
+    _python("watcher", scripts="glob('scripts/*')"),
+    _python("watcher", scripts="['scripts/watcher']"),
 ]
 BAD = [
     _python("watcher", _MARK),
+    _python("watcher", _MARK, scripts="['scripts/watch_all']"),
     _node("drivr", _TARGET, _MARK),
     _node("watch", "install(PROGRAMS scripts/watch.py DESTINATION lib/x)", _MARK),
 ]
