@@ -19,6 +19,10 @@ _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
 """A path on the resource path of Gazebo, which may contain the folder of the model."""
 _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
 _AT_HOME = re.compile(r"(?:file://)?/(?:home|Users)/[^/]+/(.*)", re.DOTALL)
+_INSTALLED = re.compile(
+    r"(?:file://)?/.*/(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
+)
+"""A path in the folder into which colcon or catkin installs packages, or in that of ROS."""
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
@@ -37,15 +41,16 @@ class Unknown(Record):
 def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     """Return the path that a URI leads to, from a package; nothing need be there.
 
-    A path below an installed package is that of the file in the source which is installed there. A
-    path on its author's machine is that of the same file in the package, if it has one.
+    A path below an installed package is that of the file in the source which is installed there,
+    also where it names the folder of the installation. A path on its author's machine is that of
+    the same file in the package, if it has one.
 
     Args:
         package: The package whose file states it.
         folder: The folder of that file, relative to the package.
         uri: The URI as written.
     """
-    if named := _SCHEME.match(uri):
+    if named := _SCHEME.match(uri) or _INSTALLED.fullmatch(uri):
         return _in_package(package, *named.groups())
     if is_on_fuel(uri):
         on_fuel = path_from_fuel(package, uri)
@@ -67,12 +72,22 @@ def own_path_on_machine(package: Package, uri: str) -> str:
     """Return the path in the package that ends a path on its author's machine; empty without one.
 
     That is a path on a drive of Windows, `D:/work/arm/a.stl`, or in a home: `/home/me/arm/a.stl`.
+    A path in the folder of an installation names its package, which may be another one.
     """
+    installed = _INSTALLED.fullmatch(uri)
+    if installed and installed[1] not in (package.name, package.declared_name):
+        return ""
     on_machine = _ON_DRIVE.fullmatch(uri) or _AT_HOME.fullmatch(uri)
     path = on_machine[1].replace("\\", "/") if on_machine else ""
     while path and not package.exists(path):
         path = path.partition("/")[2]
     return path
+
+
+def uri_of_installed(uri: str) -> str:
+    """Return the `package://` of a path in the folder of an installation; empty for any other."""
+    found = _INSTALLED.fullmatch(uri)
+    return f"package://{found[1]}/{found[2]}" if found else ""
 
 
 def _in_package(package: Package, name: str, path: str) -> str | Unknown:

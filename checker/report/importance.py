@@ -9,11 +9,12 @@ from checker.report.report import ReportedFinding
 
 _SOONEST = (
     *("SDF", "URD", "MJC", "REF", "MSH", "WLD", "LCH", "SPW", "PKG"),
-    *("KIN", "PLG", "CTL", "R2C", "DRV", "INE", "GEO", "TRI"),
-    *("BRG", "WIR", "SEN"),
+    *("KIN", "PLG", "CTL", "R2C", "WIR", "DRV", "INE", "GEO", "TRI"),
+    *("BRG", "SEN"),
 )
-"""Groups of rules in the order in which a robot starts: it is loaded, moves, and senses. What a
-trial shows comes last of what moves: it follows from faults of the model."""
+"""Groups of rules in the order in which a robot starts: it is loaded, its controllers and nodes
+start, it moves, and senses. What a trial shows comes last of what moves: it follows from faults of
+the model."""
 _LATER = (Concern.PAPERWORK, Concern.PORTABILITY)
 
 

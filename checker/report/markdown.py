@@ -20,6 +20,7 @@ from checker.report.report import (
 )
 from checker.report.robots import ReportedRobot, robots_of
 from checker.report.summary import ready_of_all, sentence, summary_markdown
+from checker.report.unseen import Unseen, by_reason
 
 SIZE_LIMIT = 65_000
 """Bytes; GitHub takes comments of up to 65 536 characters."""
@@ -112,18 +113,15 @@ def _aside(pair: tuple[str, Suppressed]) -> str:
     return f"{_begin(name)}{text} ({suppressed.by}: {_short(suppressed.reason)})"
 
 
-def _unseen(package: PackageReport) -> Iterable[tuple[str, list[str]]]:
+def _unseen(package: PackageReport) -> Iterable[Unseen]:
     """Return reasons, each with the rules that it kept from looking."""
-    by_reason: dict[str, list[str]] = {}
-    for skipped in package.not_checked:
-        if skipped.cause is not Cause.NOT_APPLICABLE:
-            by_reason.setdefault(skipped.reason, []).append(skipped.rule)
-    return by_reason.items()
+    shown = (it for it in package.not_checked if it.cause is not Cause.NOT_APPLICABLE)
+    return by_reason(shown)
 
 
-def _unseen_line(pair: tuple[str, tuple[str, list[str]]]) -> str:
-    name, (reason, rules) = pair
-    return f"{_begin(name)}{_short(', '.join(rules))}: {_short(reason)}"
+def _unseen_line(pair: tuple[str, Unseen]) -> str:
+    name, unseen = pair
+    return f"{_begin(name)}{_short(', '.join(unseen.rules))}: {_short(unseen.reason)}"
 
 
 def _robots(package: PackageReport) -> Iterable[ReportedRobot]:

@@ -21,6 +21,7 @@ from checker.report.report import (
     ReportedFinding,
     VerdictKind,
 )
+from checker.report.unseen import by_reason
 
 # The verdict on a package as one sentence, the same in every report.
 
@@ -85,7 +86,7 @@ def _unseen(package: PackageReport) -> str:
     unseen = [spot for spot in package.blind_spots if spot.may_hide_error]
     robots = list(dict.fromkeys(spot.reason for spot in unseen if spot.rule == ROBOT))
     others = [spot for spot in unseen if spot.rule != ROBOT]
-    reasons = robots or list(dict.fromkeys(spot.reason for spot in others))
+    reasons = robots or list(dict.fromkeys(it.reason for it in by_reason(others)))
     shown = plain(shortened(and_list(reasons[:3]), _REASON_LIMIT))
     blind = len({spot.rule for spot in others})
     what = "no robot was read" if robots else f"{count(blind, 'rule')} could not run"

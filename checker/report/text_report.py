@@ -30,6 +30,7 @@ from checker.report.report import (
 )
 from checker.report.robots import robots_of
 from checker.report.summary import sentence, summary_text
+from checker.report.unseen import by_reason
 
 # The trial for a person at a terminal: one line for each figure that matters.
 
@@ -341,12 +342,9 @@ def _unread_robots(package: PackageReport) -> Iterator[str]:
 
 def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) -> Iterator[str]:
     """Name the rules that could not look; those that the user or the package leaves out count."""
-    by_reason: dict[tuple[str, Cause], list[str]] = {}
-    for skipped in not_checked:
-        by_reason.setdefault((skipped.reason, skipped.cause), []).append(skipped.rule)
-    for (reason, cause), rules in by_reason.items():
-        text = plain(shortened(reason, MESSAGE_LIMIT))
-        match cause:
+    for unseen in by_reason(not_checked):
+        rules, text = unseen.rules, plain(shortened(unseen.reason, MESSAGE_LIMIT))
+        match unseen.cause:
             case Cause.NOT_APPLICABLE:
                 if settings.infos:
                     yield f"not applicable: {count(len(rules), 'rule')}: {text}"

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 
 from checker.formats.urdf.description import UrdfDescription
 from checker.package.package import Package
-from checker.package.uris import own_path_on_machine
+from checker.package.uris import own_path_on_machine, uri_of_installed
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -56,10 +56,11 @@ def check(package: Package, description: UrdfDescription) -> Findings:
                 key="three slashes",
             )
         elif named is None:
+            meant = uri_of_installed(uri.value)
             yield finding(
                 uri,
                 f"mesh {uri.value!r} does not start with package://, so it is "
-                "found only on the machine of its author",
+                "found only on the machine of its author" + (f": write {meant}" if meant else ""),
                 key="no package",
             )
         elif description.for_rviz:
@@ -148,6 +149,7 @@ BAD = [
     _example(f"{_OWN}/weel.dae{_MARK}"),
     _example(f"meshes/wheel.dae{_MARK}"),
     _example(f"file:///home/me/wheel.dae{_MARK}"),
+    _example(f"file:///home/me/ws/install/acme_arm/share/acme_arm/meshes/wheel.dae{_MARK}"),
     _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
     {"@urdf": True, _MESH: "<COLLADA/>", **_example(f"D:\\work\\rover/meshes/wheel.dae{_MARK}")},
     {

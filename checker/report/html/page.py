@@ -24,6 +24,7 @@ from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed
 from checker.report.sarif import to_sarif
 from checker.report.summary import has_suppressed, sentence, what_is_ready
+from checker.report.unseen import by_reason
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -66,14 +67,10 @@ class SetAside(Record):
 
 def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
     """Join what has one reason; what keeps the package from being ready comes first."""
-    by_reason: dict[tuple[Cause, str], list[str]] = {}
-    for skipped in not_checked:
-        by_reason.setdefault((skipped.cause, skipped.reason), []).append(skipped.rule)
     order = list(_CAUSES)
-    ordered = sorted(by_reason.items(), key=lambda item: order.index(item[0][0]))
     return [
-        Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
-        for (cause, reason), rules in ordered
+        Reason(_CAUSES[unseen.cause], plain(shortened(unseen.reason, _TEXT_LIMIT)), unseen.rules)
+        for unseen in sorted(by_reason(not_checked), key=lambda it: order.index(it.cause))
     ]
 
 

@@ -1,0 +1,44 @@
+"""Rules that were not checked, by the reason."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from checker.base.record import Record
+from checker.base.words import count
+from checker.report.report import Cause, NotChecked
+
+_OF_PACKAGE = re.compile(r"(?:the (?:\w+ )?mesh )?(\S+) is in (\S+), which is not available")
+
+
+class Unseen(Record):
+    """Rules that were not checked for one reason."""
+
+    reason: str
+    cause: Cause
+    rules: tuple[str, ...]
+
+
+def by_reason(not_checked: Iterable[NotChecked]) -> list[Unseen]:
+    """Join what has one reason; all files of a package that is not available are one."""
+    joined: dict[tuple[str, Cause], list[NotChecked]] = {}
+    for skipped in not_checked:
+        of_package = _OF_PACKAGE.fullmatch(skipped.reason)
+        reason = of_package[2] if of_package else skipped.reason
+        joined.setdefault((reason, skipped.cause), []).append(skipped)
+    return [
+        Unseen(_reason(several), cause, tuple(dict.fromkeys(it.rule for it in several)))
+        for (_, cause), several in joined.items()
+    ]
+
+
+def _reason(several: list[NotChecked]) -> str:
+    first = several[0].reason
+    matches = [match for it in several if (match := _OF_PACKAGE.fullmatch(it.reason))]
+    others = len({match[1] for match in matches}) - 1
+    if others < 1:
+        return first
+    file, name = matches[0].groups()
+    more = count(others, "more file")
+    return f"{file} and {more} are in {name}, which is not available"
