@@ -13,19 +13,30 @@ if TYPE_CHECKING:
 
 _NAMES = re.compile(r"\A(?:\.\./)*\.gitignore\Z")
 _PATTERN = re.compile(r"\*?[\w.-]{1,100}")
+_KEPT = "!"
 
 
 def ignored_by(package: Package, path: str) -> str:
     """Return the line of a `.gitignore` that excludes a file of this name: `.gitignore:3`.
 
-    Lines that are a name, or its end after an asterisk (`*.pcd`), count; others are not read.
+    Lines that are a name, or its end after an asterisk (`*.pcd`), count; others are not read. A
+    later line that keeps files of such a name (`!src/**/*.pcd`) may keep this one.
     """
     name = posixpath.basename(path)
     for source in files_around(package, _NAMES):
+        found = ""
         for number, line in enumerate(source.text.splitlines(), 1):
             pattern = line.strip()
-            if not _PATTERN.fullmatch(pattern):
-                continue
-            if name == pattern or (pattern[0] == "*" and name.endswith(pattern[1:])):
-                return f"{source.file}:{number}"
+            if pattern.startswith(_KEPT):
+                found = "" if _fits(name, posixpath.basename(pattern.lstrip(_KEPT))) else found
+            elif _fits(name, pattern):
+                found = f"{source.file}:{number}"
+        if found:
+            return found
     return ""
+
+
+def _fits(name: str, pattern: str) -> bool:
+    if not _PATTERN.fullmatch(pattern):
+        return False
+    return name == pattern or (pattern[0] == "*" and name.endswith(pattern[1:]))

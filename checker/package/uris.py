@@ -20,7 +20,7 @@ _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
 _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
 _AT_HOME = re.compile(r"(?:file://)?/(?:home|Users)/[^/]+/(.*)", re.DOTALL)
 _INSTALLED = re.compile(
-    r"(?:file://)?/.*/(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
+    r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
 )
 """A path in the folder into which colcon or catkin installs packages, or in that of ROS."""
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")

@@ -15,7 +15,8 @@ meshes/ and other usual folders.
 An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone. It is
 reported if the package has the file.
 
-A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked.
+A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked. One
+that a `.gitignore` keeps out of the repository is a warning: its author has it.
 
 Fix: add the file, correct the path, or install the folder.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package;
@@ -29,6 +30,7 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.package.downloaded import downloaded_by
+from checker.package.git_ignored import ignored_by
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -72,16 +74,26 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
         if place := downloaded_by(package, path):
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
-        alike = [other for other in package.index.similar_files(path) if _may_be(other, path)]
-        where = f" (looked for {path})" if path != uri.value else ""
-        yield finding(
-            uri,
-            f"{uri.value} does not exist{where}" + (f"; did you mean {alike[0]}?" if alike else ""),
-            severity=None if uri in meshes else Severity.WARNING,
-            key=robot.unloaded or path,
-            covered_by=("REF004",),
-            fix=_other_file(uri, path, alike),
-        )
+        yield _missing(package, robot, uri, path, is_mesh=uri in meshes)
+
+
+def _missing(
+    package: Package, robot: Robot, uri: Located[str], path: str, *, is_mesh: bool
+) -> Finding:
+    alike = [other for other in package.index.similar_files(path) if _may_be(other, path)]
+    where = f" (looked for {path})" if path != uri.value else ""
+    hint = f"; did you mean {alike[0]}?" if alike else ""
+    ignored = ignored_by(package, path)
+    if ignored:
+        hint = f": {ignored} keeps it out of the repository; git add -f adds it"
+    return finding(
+        uri,
+        f"{uri.value} does not exist{where}{hint}",
+        severity=None if is_mesh and not ignored else Severity.WARNING,
+        key=robot.unloaded or path,
+        covered_by=("REF004",),
+        fix=None if ignored else _other_file(uri, path, alike),
+    )
 
 
 def _former_names(package: Package, paperwork: Paperwork, uris: list[str]) -> frozenset[str]:
