@@ -161,6 +161,12 @@ _SHARED = re.compile(
     r"(?:\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)|package://([\w-]{1,200}))" + _PATH
 )
 _MESSAGES = re.compile(r"^[ \t]{0,40}from[ \t]{1,8}([a-z]\w{0,199})\.(?:msg|srv|action)[ \t]", re.M)
+_MODULES = re.compile(
+    r"^(?:from|import)[ \t]{1,8}"
+    r"(cv_bridge|image_geometry|message_filters|sensor_msgs_py|tf_transformations)\b",
+    re.M,
+)
+"""Packages of ROS whose module in Python has the package's name; an indented import is optional."""
 
 
 def uses_in_ros2(package: Package) -> Iterator[Use]:
@@ -177,7 +183,8 @@ def uses_in_ros2(package: Package) -> Iterator[Use]:
     for file in package.index.with_suffix(".py"):
         source = package.read(file.path)
         if isinstance(source, SourceText):
-            for match in _MESSAGES.finditer(source.text):
+            found = (*_MESSAGES.finditer(source.text), *_MODULES.finditer(source.text))
+            for match in found:
                 if not package.exists(match[1]):
                     yield Use(match[1], Span(source, *match.span(1)).place(), match[0].strip())
 

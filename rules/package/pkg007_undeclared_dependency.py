@@ -4,7 +4,8 @@ A package that package.xml does not name is not installed with the robot: launch
 submission, the bridge to ROS, or the package of a node are then missing where the robot runs.
 Comments do not count, nor launch files of ROS 1 in a package of ROS 2. In ROS 2 this holds for the
 packages of nodes, components, included launch files, parameter files, `xacro` commands, `$(find …)`
-and `package://` in robot descriptions, and messages that nodes in Python import; dependencies of a
+and `package://` in robot descriptions, and for messages and a few modules of ROS, such as
+`cv_bridge`, that nodes in Python import; other modules in Python are not checked. Dependencies of a
 declared metapackage such as ros_gz count as declared. The same happens if package.xml misspells the
 package of a team or plugin: it is reported if a package of a similar name is available, and the
 misspelt one is not. If a package is not available, and this package has every file that it uses of
@@ -59,6 +60,7 @@ _PACKAGES_OF_PACKAGES = {
     "ros2_control": "controller_manager|hardware_interface|joint_limits|ros2controlcli",
     "ros2_controllers": ".*_controllers?|.*_broadcaster",
     "moveit": "moveit_.*",
+    "vision_opencv": "cv_bridge|image_geometry",
     "joint_state_publisher_gui": "joint_state_publisher",
 }
 """Packages of packages, and the names of what each depends on."""
@@ -248,6 +250,11 @@ _HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:include filename="$(find acme_hand)/hand.xacro"/>@
 </robot>
 """
+_OPTIONAL = """try:
+    from cv_bridge import CvBridge
+except ImportError:
+    CvBridge = None
+"""
 
 GOOD = [
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
@@ -256,6 +263,11 @@ GOOD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz"),
         "docs/old.launch": '<launch><node pkg="nodelet" type="t" name="n"/></launch>',
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", "image_geometry"),
+        "acme_arm_bringup/look.py": f"import image_geometry\n{_OPTIONAL}",
     },
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
@@ -276,6 +288,11 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "acme_arm_bringup/stop.py": "from geometry_msgs.msg import Twist\n",
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
+        "acme_arm_bringup/look.py": "import sensor_msgs_py.point_cloud2 as clouds\n",
     },
     {
         "@ros2": _BRIDGE,
