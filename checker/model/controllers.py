@@ -92,16 +92,26 @@ class ControllerFile(Record, eq=False):
 
 
 def controllers_of(files: Iterable[ControllerFile]) -> tuple[Controller, ...]:
-    """Put together what files state about each controller; of two types, the last counts."""
+    """Put together what files state about each controller.
+
+    Of two types the last counts; what files of the other one state is left out.
+    """
     blocks = [block for file in files for block in file.blocks]
     drafts: dict[str, _Draft] = {}
+    stated: dict[tuple[str, str], str] = {}
     for name, parameter, listed in _types(blocks):
         kind = next(iter(parameter.texts), None)
         if kind is not None and _TYPE.match(kind.value):
             before = drafts.get(name)
             was_listed = before is not None and before.listed
             drafts[name] = _Draft(kind, listed or was_listed)
-    return tuple(_controller(name, draft, blocks) for name, draft in drafts.items())
+            stated[name, kind.span.source.file] = kind.value
+    controllers = []
+    for name, draft in drafts.items():
+        own = draft.type.value
+        agreed = [it for it in blocks if stated.get((name, it.span.source.file), own) == own]
+        controllers.append(_controller(name, draft, agreed))
+    return tuple(controllers)
 
 
 class _Draft(Record, eq=False):

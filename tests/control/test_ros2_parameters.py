@@ -10,8 +10,8 @@ from checker.source.text import SourceText
 from checker.source.yaml import YamlNode, read_yaml
 
 
-def root(text: str) -> YamlNode:
-    document = read_yaml(SourceText("c.yaml", text))
+def root(text: str, file: str = "c.yaml") -> YamlNode:
+    document = read_yaml(SourceText(file, text))
     assert document.root is not None
     return document.root
 
@@ -98,6 +98,18 @@ other_node:
     assert [text.value for text in controllers["own"].texts("joints")] == ["a", "b"]
     assert controllers["own"].own == {"type", "joints"}
     assert controllers["own"].flag("use_sim_time", default=False)
+
+
+def test_a_file_with_another_type_of_a_controller_is_for_another_robot() -> None:
+    text = "gripper:\n  ros__parameters: {{type: grippers/{}, {}: arm}}\n"
+    files = [
+        ControllerFile(file, tuple(read_blocks(root(text.format(kind, parameter), file))))
+        for file, kind, parameter in (("a.yaml", "One", "joint"), ("b.yaml", "Two", "joints"))
+    ]
+    (gripper,) = controllers_of(files)
+
+    assert gripper.class_name == "Two"
+    assert gripper.own == {"type", "joints"}
 
 
 def test_a_manager_without_the_level_of_parameters_is_told() -> None:
