@@ -9,7 +9,7 @@ from checker.base.record import Record
 from checker.base.words import count
 from checker.report.report import Cause, NotChecked
 
-_OF_PACKAGE = re.compile(r"(?:the (?:\w+ )?mesh )?(\S+) is in (\S+), which is not available")
+_OF_PACKAGE = re.compile(r"(\S+) is in (\S+), which is not available")
 
 
 class Unseen(Record):

@@ -106,4 +106,4 @@ def test_a_robot_whose_collision_mesh_is_missing(tmp_path: Path) -> None:
     model.write_text(f'{before}{opening} name="c">{mesh}{closing}{rest}', "utf-8")
     report = driven(package)
     assert not report.findings
-    assert "the collision mesh meshes/gone.stl does not exist" in report.blind_spots[0].reason
+    assert "meshes/gone.stl does not exist" in report.blind_spots[0].reason

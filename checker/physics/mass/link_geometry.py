@@ -97,7 +97,7 @@ def _unknown_meshes(robot: Robot, link: Link) -> Iterator[tuple[str, MeshTrouble
         mesh = robot.mesh_of(shape)
         if isinstance(mesh, MeshFault):
             uri = shape.geometry.uri
-            yield f"the mesh {uri.value if uri else ''} {mesh.reason}", mesh.trouble
+            yield f"{uri.value if uri else 'a mesh'} {mesh.reason}", mesh.trouble
 
 
 def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:

@@ -138,6 +138,8 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
     reader = _READERS.get(suffix)
     if reader is None:
         reason = f"has a format that the checker does not read: .{suffix}"
+        if "." not in path.rpartition("/")[2]:
+            reason = "has no suffix that says which format it has"
         raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
     if not data.strip():
         raise NoSurface("is empty")

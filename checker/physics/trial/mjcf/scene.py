@@ -43,7 +43,7 @@ def unusable_because(robot: Robot, layout: Layout, servos: Sequence[str]) -> str
             mesh = robot.mesh_of(collision)
             if isinstance(mesh, MeshFault) and mesh.trouble in _UNSEEN:
                 uri = collision.geometry.uri
-                return f"the collision mesh {uri.value if uri else ''} {mesh.reason}"
+                return f"{uri.value if uri else 'a mesh'} {mesh.reason}"
     mounted = not layout.stands or layout.held
     if not any(layout.geoms.values()) and not (mounted and servos):
         return "the robot has no collision shape that can be used"
