@@ -116,8 +116,8 @@ def check(
 
 def _renaming_message(package: Package, use: Use) -> str:
     return (
-        f"{use.how}: {use.package_name} is not available, and {package.name} has all files that it "
-        f"uses of it: expected {package.name}, if it was renamed"
+        f"{use.package_name} is not available, and {package.name} has all files that are used of "
+        f"it: expected {package.name}, if it was renamed"
     )
 
 
