@@ -2,11 +2,12 @@
 
 URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
 it no friction, a `<gazebo>` tag inside a link loads no plugin, and `<joint_properties>` adds no
-damping. Elements that only other programs read, such as `<contact>` of Bullet, are not reported.
+damping. A `<geometry>` has one shape: urdfdom takes its first, MuJoCo a box before a mesh. Elements
+that only other programs read, such as `<contact>` of Bullet, are not reported.
 
 Fix: write the element where the message says.
-Source: urdfdom, link.cpp and joint.cpp; sdformat's parser_urdf.cc, which takes `<gazebo>` tags of
-`<robot>` alone (`urdf_spec.json`).
+Source: urdfdom, link.cpp and joint.cpp; MuJoCo, xml_urdf.cc; sdformat's parser_urdf.cc, which takes
+`<gazebo>` tags of `<robot>` alone (`urdf_spec.json`).
 """
 
 from checker.formats.urdf.description import UrdfDescription
@@ -41,6 +42,7 @@ def _lamp(link: str, joint: str = "") -> dict[str, str]:
 
 _MARK = "  <!-- ^ URD022 -->"
 _BOX = "<collision><geometry><box size='1 1 1'/></geometry>\n@</collision>"
+_TWO = f"<geometry><mesh filename='a.stl'/>\n<sphere radius='1'/>{_MARK}\n</geometry>"
 GOOD = [
     _lamp(_BOX.replace("@", '<material name="red"/>') + "<contact><lateral_friction/></contact>"),
     _lamp('<origin xyz="0 0 0"/><gravity>true</gravity>'),
@@ -52,5 +54,6 @@ BAD = [
     _lamp(f"<mu1>1</mu1>{_MARK}\n<pose>0 0 1 0 0 0</pose>{_MARK}"),
     _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
     _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
+    _lamp(f"<visual>{_TWO}</visual>"),
     _lamp("", f'<joint_properties damping="1"/>{_MARK}\n<stopErp>0.2</stopErp>{_MARK}'),
 ]

@@ -168,6 +168,20 @@ def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
             advice = None if child.tag in known else _advice(child, path, owner)
             if advice is not None and not _changes_nothing(child):
                 yield StrayPart(child, path, owner, advice)
+        if path in _GEOMETRIES:
+            yield from _further_shapes(element, path, owner)
+
+
+def _further_shapes(geometry: Element, path: str, owner: Element) -> Iterator[StrayPart]:
+    """Yield the shapes behind the first one, which urdfdom reads alone."""
+    order: list[str] = table("urdf_spec")["shapes_of_mujoco"]
+    shapes = [child for child in geometry.children if child.tag in order]
+    for shape in shapes[1:]:
+        first, own = shapes[0].tag, path.split("/")[1]
+        other = min((it.tag for it in shapes), key=order.index)
+        mujoco = f" (MuJoCo: <{other}>)" if other != first else ""
+        advice = f"they take the first shape, <{first}>{mujoco}; write a <{own}> for each shape"
+        yield StrayPart(shape, path, owner, advice)
 
 
 def _changes_nothing(part: Element) -> bool:
