@@ -2,19 +2,25 @@
 
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
-forgotten.
+forgotten. A file that is left to an argument of xacro is not checked where a launch file names that
+argument, or where there is no launch file.
 
 Fix: correct the path, and install the file: `$(find package)/config/controllers.yaml`.
 Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 """
 
+import re
+
 from checker.formats.xacro.files import ROOT
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.ros.ros2_control.robot_control import ParametersFile, RobotControl
+from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
+from checker.source.xml import XmlDocument
+
+_ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
 
 
 @rule("R2C006", "parameter-file-not-found", Severity.ERROR, Concern.INTERFACE)
@@ -30,12 +36,7 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
         yield unchecked(reason)
     for manager in control.managers:
         if not manager.files:
-            yield finding(
-                manager,
-                f"{manager.plugin.label} has no <parameters>: the controller manager that it "
-                "starts has no parameters",
-                severity=Severity.WARNING,
-            )
+            yield from _without_file(manager, package)
         for file in manager.files:
             if file.path is None and file.package:
                 yield from _elsewhere(file, package, papers)
@@ -48,6 +49,33 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
                 if left is not None:
                     message = f"{_label(file)} is not installed: {left.instead}"
                     yield finding(file.text, message, key=left.around)
+
+
+def _without_file(manager: GazeboManager, package: Package) -> Findings:
+    if name := _given_at_launch(manager, package):
+        yield unchecked(
+            f"{manager.plugin.label} gets its parameters by {name}, which is empty by default"
+        )
+        return
+    yield finding(
+        manager,
+        f"{manager.plugin.label} has no <parameters>: the controller manager that it starts has no "
+        "parameters",
+        severity=Severity.WARNING,
+    )
+
+
+def _given_at_launch(manager: GazeboManager, package: Package) -> str:
+    """Return what the xacro writes as the file, if a launch file may give it; else nothing."""
+    stated = manager.plugin.element.child("parameters")
+    document = package.xml(stated.span.source.file) if stated is not None else None
+    if stated is None or not isinstance(document, XmlDocument):
+        return ""
+    line = stated.span.place().line
+    written = (it.text.value for it in document.elements if it.span.place().line == line)
+    names = [match for match in map(_ARGUMENT.fullmatch, written) if match]
+    words = package.workspace.launch_words
+    return next((it[0] for it in names if not words or it[1] in words), "")
 
 
 def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
@@ -86,6 +114,35 @@ _BUILD = """project(acme_arm_description)
 install(DIRECTORY config/other urdf DESTINATION share/${PROJECT_NAME}/config)
 ament_package()
 """
+_GIVEN = """<robot xmlns:xacro="http://wiki.ros.org/xacro" name="arm">
+<xacro:arg name="control_file" default=""/>
+<link name="base_link"/>
+<gazebo>
+<plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">%
+<parameters>$(arg control_file)</parameters>
+</plugin>
+</gazebo>
+</robot>
+"""
+
+
+_LAUNCH = """<launch><node pkg="robot_state_publisher" exec="robot_state_publisher">
+<param name="robot_description"
+  value="$(command 'xacro $(find-pkg-share acme_arm_description)/urdf/arm.urdf.xacro %')"/>
+</node></launch>
+"""
+
+
+def given(argument: str, mark: str = "") -> dict[str, object]:
+    """Return an example whose launch file gives an argument of its xacro, or none."""
+    return {
+        "@urdf": "",
+        "urdf/arm.urdf": None,
+        "urdf/arm.urdf.xacro": _GIVEN.replace("%", mark),
+        "launch/arm.launch.xml": _LAUNCH.replace("%", argument),
+    }
+
+
 _MOVED = "install(DIRECTORY bringup/config urdf DESTINATION share/${PROJECT_NAME})"
 GOOD = [
     _arm(f"<parameters>{_HERE}</parameters>"),
@@ -96,6 +153,7 @@ GOOD = [
     },
 ]
 BAD = [
+    given("", _MARK),
     {
         **_arm(f"<parameters>{_HERE}</parameters>{_MARK}"),
         "CMakeLists.txt": _BUILD,
