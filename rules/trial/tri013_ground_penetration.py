@@ -31,7 +31,7 @@ def check(
     if deep is not None and rest_penetration_above < deep <= rest_penetration_up_to:
         yield finding(
             driven.robot,
-            f"at rest the robot presses {deep * 1000:.0f} mm into the ground, expected at most "
+            f"at rest the robot presses {deep * 1000:.3g} mm into the ground, expected at most "
             f"{rest_penetration_above * 1000:g} mm",
             key="rest_penetration",
         )
