@@ -28,7 +28,8 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
     """Report files that do not exist, and packages that nothing says to be needed.
 
     A package that package.xml does not name either is a warning; if the file is in this package
-    under the same path, it is an error. A plugin without `<parameters>` is a warning.
+    under the same path, it is an error. So is an absolute path. A plugin without `<parameters>` is
+    a warning.
     """
     for fault in control.faults:
         yield finding(fault.span, f"the parameter file cannot be read: {fault.message}")
@@ -38,17 +39,32 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
         if not manager.files:
             yield from _without_file(manager, package)
         for file in manager.files:
-            if file.path is None and file.package:
-                yield from _elsewhere(file, package, papers)
-            elif file.path is not None and not file.exists:
-                yield finding(file.text, f"{_label(file)} does not exist (looked for {file.path})")
-            elif file.path is not None and file.package:
-                holder, path = resolve_listed(package, file.path)
-                # Under another path than in the source it was found because it is installed there.
-                left = left_out(package, holder, path) if path == _path_below_share(file) else None
-                if left is not None:
-                    message = f"{_label(file)} is not installed: {left.instead}"
-                    yield finding(file.text, message, key=left.around)
+            yield from _file(file, package, papers)
+
+
+def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
+    if _is_on_one_machine(file.text.value):
+        yield finding(
+            file.text,
+            f"{file.text.value} is on its author's machine, and Gazebo finds it on no other: "
+            "expand a xacro file with $(find PACKAGE)/… at launch",
+        )
+    elif file.path is None and file.package:
+        yield from _elsewhere(file, package, papers)
+    elif file.path is not None and not file.exists:
+        yield finding(file.text, f"{_label(file)} does not exist (looked for {file.path})")
+    elif file.path is not None and file.package:
+        holder, path = resolve_listed(package, file.path)
+        # Under another path than in the source it was found because it is installed there.
+        left = left_out(package, holder, path) if path == _path_below_share(file) else None
+        if left is not None:
+            message = f"{_label(file)} is not installed: {left.instead}"
+            yield finding(file.text, message, key=left.around)
+
+
+def _is_on_one_machine(path: str) -> bool:
+    path = path.strip().removeprefix("file://")
+    return path.startswith("/") and not path.startswith((f"{ROOT}/", "/opt/ros/"))
 
 
 def _without_file(manager: GazeboManager, package: Package) -> Findings:
@@ -161,6 +177,7 @@ BAD = [
     },
     _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
+    _arm(f"<parameters>/home/ann/ws/install/share/arm/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),
     {
         **_arm("<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"),

@@ -162,7 +162,11 @@ class LaunchedControl(Record, eq=False, dict=True):
     @cached_property
     def _files(self) -> tuple[ControllerFile, ...] | None:
         """The files that the managers are given."""
-        files = [file for control in self.controls for file in control.files if control.managers]
+        in_gazebo = [control for control in self.controls if control.managers]
+        named = (file for it in in_gazebo for manager in it.managers for file in manager.files)
+        if any(file.path is None for file in named):
+            return None
+        files = [file for control in in_gazebo for file in control.files]
         for node in self.managers:
             if node.unread:
                 return None

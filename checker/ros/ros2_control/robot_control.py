@@ -25,6 +25,7 @@ from checker.model.ros_parameters import (
     refused_value,
 )
 from checker.package.package import Package
+from checker.package.uris import uri_of_installed
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
 from checker.source.text import Located, SourceText, Span
 
@@ -188,10 +189,9 @@ class ControlReader:
         return GazeboManager(plugin, files, namespace, node)
 
     def _parameters_file(self, text: Located[str]) -> ParametersFile:
-        path = _FIND.sub(rf"{ROOT}/\1", text.value.strip())
-        path = re.sub(r"\A(?:file|package)://(?=/?)", "", path)
-        if not path.startswith("/"):
-            path = f"{ROOT}/{path}" if text.value.startswith("package://") else path
+        stated = text.value.strip()
+        path = _FIND.sub(rf"{ROOT}/\1", uri_of_installed(stated) or stated)
+        path = re.sub(r"\Apackage://(?!/)", f"{ROOT}/", path).removeprefix("file://")
         local = local_path(self.package, path)
         exists = local is not None and self.package.exists(local)
         return ParametersFile(text, package_in(path), local, exists)
