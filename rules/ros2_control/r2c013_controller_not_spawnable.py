@@ -158,6 +158,13 @@ def generate_launch_description():
     }
 
 
+def _in_gazebo(controller: str, parameters: str, mark: str = "") -> object:
+    """Return an arm in Gazebo whose plugin names a file of parameters by another path."""
+    arm = _arm(_spawner(controller, mark=mark), _CREATE, gazebo=True)
+    urdf = str(arm["@urdf"]).replace("$(find acme_arm_description)", parameters)
+    return {**arm, "@urdf": urdf}
+
+
 def _in_classic(*nodes: str, more: str) -> object:
     """Return an arm in Gazebo Classic, whose own launch file starts no controller manager."""
     plugin = _GAZEBO.replace("gz_ros2_control-system", "libgazebo_ros2_control.so")
@@ -168,6 +175,7 @@ def _in_classic(*nodes: str, more: str) -> object:
 
 
 _MARK = "  # ^ R2C013"
+_INSTALLED = "/home/ann/ws/install/acme_arm_description/share/acme_arm_description"
 _BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
 GOOD = [
     _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
@@ -175,8 +183,11 @@ GOOD = [
     _arm(_NODE, _spawner("arm_controller")),
     _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
     _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
+    _in_gazebo("arm_controller", _INSTALLED),
+    _in_gazebo("arm_controler", "/home/ann/arm"),
 ]
 BAD = [
+    _in_gazebo("arm_controler", _INSTALLED, _MARK),
     _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
