@@ -405,6 +405,39 @@ _MOVEIT_FILES = {
 }
 
 
+def test_a_description_that_replaces_that_of_moveit(read: Read) -> None:
+    graph = read(
+        f"""{_MOVEIT}
+config.robot_description['robot_description'] = Command(['xacro ', 'a.xacro'])
+given = config.robot_description['robot_description']
+return LaunchDescription([
+    Node(package='p', executable='e', parameters=[{{'robot_description': given}}])])"""
+    )
+    parameter = graph.nodes[0].parameter("robot_description")
+    assert parameter is not None
+    assert "a.xacro" in str(parameter.value)
+    assert not graph.unread
+
+
+def test_imports_of_all_names(read: Read) -> None:
+    text = f"""
+from launch.substitutions import *
+from launch_ros.actions import *
+from os.path import *
+from {NAME}.parts import *
+
+def generate_launch_description():
+    words = [TextSubstitution(text=join('a', 'b'))]
+    return LaunchDescription([
+        LifecycleNode(package='p', executable=PROGRAM, name='n', namespace='', arguments=words)])
+"""
+    parts = {f"{NAME}/parts.py": "PROGRAM = 'e'\n_OWN = 1\n", f"{NAME}/__init__.py": ""}
+    graph = read(text, others=parts)
+    assert graph.nodes[0].executable.value == "e"
+    assert words(graph) == ["a/b"]
+    assert not graph.unread
+
+
 def test_the_stock_functions_of_moveit(read: Read) -> None:
     graph = read(f"{_MOVEIT}\nreturn generate_demo_launch(config)", others=_MOVEIT_FILES)
     assert [node.executable.value for node in graph.nodes] == ["ros2_control_node"]

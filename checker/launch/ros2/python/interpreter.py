@@ -211,6 +211,16 @@ class Interpreter:
                 return whole
         return Symbol(path)
 
+    def names_of(self, module: str, node: ast.AST) -> Iterable[str]:
+        """Return the names that `from module import *` binds, as far as they are known."""
+        if Symbol(module).root in ROOTS:
+            return CLASSES
+        with self.allowance:
+            own = self.world.module(module, self, node) if module.strip(".") else None
+        if own is not None:
+            return [name for name in own.values if not name.startswith("_")]
+        return [path.removeprefix(f"{module}.") for path in FUNCTIONS if path.startswith(module)]
+
     def attribute(self, owner: Value, name: str, node: ast.AST) -> Value:
         """Return what `owner.name` represents."""
         if isinstance(owner, Unknown):

@@ -47,12 +47,16 @@ def attribute(run: Interpreter, owner: Value, name: str, node: ast.AST) -> Value
 
 
 def _of_moveit(run: Interpreter, owner: Made, name: str, node: ast.AST) -> Value:
-    """Return parameters, which are methods as well until they are built."""
-    return (
-        Method(owner, name)
-        if "built" not in owner.values
-        else moveit.parameters(run, owner, name, node)
-    )
+    """Return parameters, which are methods as well until they are built.
+
+    They are always the same dictionary, since launch files put other values into it.
+    """
+    if "built" not in owner.values:
+        return Method(owner, name)
+    key = f"built {name}"
+    if key not in owner.values:
+        owner.values[key] = moveit.parameters(run, owner, name, node)
+    return owner.values[key]
 
 
 def _of_path(path: FilePath, name: str, run: Interpreter, node: ast.AST) -> Value:

@@ -279,9 +279,11 @@ def _import(run: Interpreter, node: ast.Import, scope: Scope) -> tuple[Flow, Val
 
 
 def _import_from(run: Interpreter, node: ast.ImportFrom, scope: Scope) -> tuple[Flow, Value]:
+    module = f"{'.' * node.level}{node.module or ''}"
     for alias in node.names:
-        path = f"{'.' * node.level}{node.module or ''}.{alias.name}"
-        scope.bind(alias.asname or alias.name, run.imported(path, node), by_argument=False)
+        for name in run.names_of(module, node) if alias.name == "*" else (alias.name,):
+            value = run.imported(f"{module}.{name}", node)
+            scope.bind(alias.asname or name, value, by_argument=False)
     return Flow.ON, None
 
 
