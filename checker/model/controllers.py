@@ -12,6 +12,8 @@ from checker.source.text import Located, Span
 _TYPE = re.compile(r"\w{1,200}/\w{1,200}\Z")
 _LISTED = ".type"
 _EVERY = "**"
+_TRAJECTORIES = "joint_trajectory_controller/JointTrajectoryController"
+_GAINS = ("p", "i", "d", "ff_velocity_scale")
 
 
 class Controller(Record, eq=False):
@@ -49,6 +51,25 @@ class Controller(Record, eq=False):
     def path(self) -> str:
         """A key that distinguishes it from other controllers of the robot."""
         return self.name
+
+    @property
+    def joints_without_gains(self) -> tuple[Located[str], ...]:
+        """Joints that a JointTrajectoryController commands by a PID all of whose gains are 0.
+
+        It has one for each joint if `velocity` or `effort` is its only command interface.
+        """
+        alone = [text.value for text in self.texts("command_interfaces")]
+        if self.type.value != _TRAJECTORIES or alone not in (["velocity"], ["effort"]):
+            return ()
+        if alone == ["velocity"] and self.flag("open_loop_control", default=False):
+            return ()
+        joints = self.texts("command_joints", "joints")
+        return tuple(joint for joint in joints if not self._has_gain(joint.value))
+
+    def _has_gain(self, joint: str) -> bool:
+        names = (f"gains.{joint}.{gain}" for gain in _GAINS)
+        stated = [self.parameters[name] for name in names if name in self.parameters]
+        return any(it.number is None or it.number.value for it in stated)
 
     def texts(self, *names: str) -> tuple[Located[str], ...]:
         """Return the texts of the first of these parameters that has any."""

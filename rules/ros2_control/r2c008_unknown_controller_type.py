@@ -118,6 +118,8 @@ def _arm(kind: str) -> dict[str, str]:
 arm_controller:
   ros__parameters:
     joints: [shoulder]
+    command_interfaces: [position]
+    state_interfaces: [position]
 """,
     }
 

@@ -4,9 +4,13 @@ A controller is not configured if a parameter without a default is missing, or i
 or wheel separation is 0. ROS does not convert the types of parameters: where a `double` is
 declared, `10` is an error and `10.0` is right.
 
+With `velocity` or `effort` as its only command interface, a `JointTrajectoryController` calculates
+commands by a PID whose gains are 0 by default: it starts, and no joint follows its trajectory.
+
 Fix: add the parameter to the controller's own block below `ros__parameters`, with a decimal point
-where it is a `double`.
-Source: parameter files of ros2_controllers, by branch; rclcpp, `InvalidParameterTypeException`.
+where it is a `double`; for joints without gains, a `p` that suits the robot.
+Source: parameter files of ros2_controllers, by branch; joint_trajectory_controller, `gains` in
+"Details about parameters"; rclcpp, `InvalidParameterTypeException`.
 """
 
 from collections.abc import Iterator, Mapping
@@ -41,8 +45,9 @@ _OF_ALL: Mapping[str, str] = {"update_rate": "int", "use_sim_time": "bool", "is_
 def check(control: RobotControl, context: Context, package: Package) -> Findings:
     """Report what keeps controllers of ros2_controllers from being configured.
 
-    A controller without any block may get its parameters from the spawner: it is a warning. One
-    whose package is in the workspace is not checked, since it may be a changed copy.
+    A controller without any block may get its parameters from the spawner: it is a warning, and so
+    are gains of a controller that no launch file starts. A controller whose package is in the
+    workspace is not checked, since it may be a changed copy.
     """
     distribution = distribution_of(context)
     for file in control.files:
@@ -61,6 +66,7 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             yield unchecked(f"{controller.label} is of a package in the workspace: it may differ")
             continue
         yield from _missing(controller, known, distribution, blocks)
+        yield from _gains(controller, package)
         for name in sorted(controller.own):
             declared = known.parameter(name)
             kind = declared.type if declared and known.known_in(name, distribution) else ""
@@ -71,13 +77,7 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
 def _missing(
     controller: Controller, known: ControllerType, distribution: str, blocks: Suggestions
 ) -> Iterator[Finding]:
-    needed = {*known.required, *known.params}
-    wanting = [
-        name
-        for name in sorted(needed)
-        if "<" not in name and known.requires(name, distribution)
-        if name not in controller.parameters
-    ]
+    wanting = known.lacking(controller.parameters, distribution)
     if not wanting:
         return
     own = controller.block is not None
@@ -89,7 +89,24 @@ def _missing(
         controller.span,
         f"{controller.label} {lacks}{'' if own else blocks.hint(controller.name)}",
         severity=None if own else Severity.WARNING,
+        covered_by=("R2C013",),
     )
+
+
+def _gains(controller: Controller, package: Package) -> Iterator[Finding]:
+    """Report joints that a JointTrajectoryController never moves, since its PID has no gain."""
+    for joint in controller.joints_without_gains:
+        name, interface = joint.value, controller.texts("command_interfaces")[0]
+        or_else = ", or ff_velocity_scale: 1.0" if interface.value == "velocity" else ""
+        started = controller.name in package.workspace.launch_words
+        yield finding(
+            joint,
+            f"gains of joint {name!r} of {controller.label} are all 0, so it commands "
+            f"{interface.value} 0 and the joint does not follow: write "
+            f"gains: {{{name}: {{p: …}}}}{or_else}",
+            severity=None if started else Severity.WARNING,
+            key=f"gains of {controller.name}",
+        )
 
 
 def _mistyped(parameter: Parameter, kind: str, owner: str) -> Iterator[Finding]:
@@ -123,9 +140,30 @@ _JOINTS = "    left_wheel_names: [shoulder]\n    right_wheel_names: [shoulder]\n
 _SIZES = "    wheel_radius: 0.1\n    wheel_separation: 0.5\n"
 _BLOCK = "\n  ros__parameters:\n"
 _MARK = "  # ^ R2C010"
+
+
+def _trajectories(parameters: str, interface: str = "velocity") -> object:
+    return {
+        "@urdf": ros2_control(SHOULDER.replace("position", interface)),
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    arm: {{type: joint_trajectory_controller/JointTrajectoryController}}
+arm:
+  ros__parameters:
+    command_interfaces: [{interface}]
+    state_interfaces: [position, velocity]
+    {parameters}
+""",
+    }
+
+
 GOOD = [
     _arm(_BLOCK + _JOINTS + _SIZES),
     _arm(_BLOCK + _JOINTS + _SIZES + "    cmd_vel_timeout: 5e-1\n    open_loop: true"),
+    _trajectories("joints: [shoulder]", "position"),
+    _trajectories("joints: [shoulder]\n    gains: {shoulder: {p: 2.0}}", "effort"),
+    _trajectories("joints: [shoulder]\n    gains: {shoulder: {ff_velocity_scale: 1.0}}"),
+    _trajectories("joints: [shoulder]\n    open_loop_control: true"),
     _arm(_BLOCK + _JOINTS + _SIZES + "    pose_covariance_diagonal: [0.0, 0.1, 1.0]"),
 ]
 BAD = [
@@ -140,6 +178,8 @@ grip:{_MARK}
 """,
     },
     _arm(_MARK + _BLOCK + _JOINTS),
+    _trajectories(f"joints: [shoulder]{_MARK}"),
+    _trajectories(f"joints: [shoulder]{_MARK}\n    gains: {{shoulder: {{p: 0.0}}}}", "effort"),
     _arm(f"{_BLOCK}{_JOINTS}    wheel_radius: 0.1\n    wheel_separation: 1{_MARK}"),
     _arm(_BLOCK + _JOINTS + _SIZES + f"    open_loop: 1{_MARK}"),
     _arm(_BLOCK + _JOINTS + _SIZES + f"    twist_covariance_diagonal: [0, 1, 2]{_MARK}"),

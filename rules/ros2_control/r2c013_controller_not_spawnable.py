@@ -2,7 +2,8 @@
 
 A spawner asks the controller manager to load controllers by their names. The manager must know the
 type of each: by `<name>: {type: …}` in its own parameters, or by the file that the spawner gets as
-`--param-file`. Otherwise the spawner ends with "The 'type' param was not defined".
+`--param-file`. Otherwise the spawner ends with "The 'type' param was not defined". A controller of
+ros2_controllers is not configured either if no file has parameters that it requires.
 
 Without a controller manager, spawners wait forever: either `ros2_control_node` runs it, or a plugin
 in Gazebo. Both together do not work: the node cannot load the hardware of Gazebo.
@@ -11,30 +12,35 @@ A joint state broadcaster that is configured, but not started with the other con
 warning: nothing publishes /joint_states, and no moving link has a transform.
 
 Fix: write the same name in the launch file, below `controller_manager` and as the key of the
-controller's block, state its `type`, and start one controller manager.
+controller's block, state its `type` and its parameters, and start one controller manager.
 Source: ros2_control, controller_manager/spawner.py and `ControllerManager::load_controller`.
 """
 
 from collections.abc import Iterator
 
-from checker.base.words import Suggestions
+from checker.base.words import Suggestions, and_list
 from checker.package.package import Package
-from checker.ros.ros2_control.distributions import is_of_gazebo
+from checker.ros.ros2_control.distributions import (
+    controller_types,
+    distribution_of,
+    is_of_gazebo,
+)
 from checker.ros.ros2_control.launched import LaunchedControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
 
 _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
 
 @rule("R2C013", "controller-not-spawnable", Severity.ERROR, Concern.INTERFACE)
-def check(launched: LaunchedControl, package: Package) -> Findings:
-    """Report controllers without a type, and launch files without a manager or with two.
+def check(launched: LaunchedControl, package: Package, context: Context) -> Findings:
+    """Report controllers without type or parameters, and launch files without or with two managers.
 
     Files that could not be read may say more: then nothing is reported of what they could hold. A
     launch file without a manager is a warning.
     """
     yield from _two_managers(launched)
     yield from _no_states(launched, package)
+    yield from _no_parameters(launched, package, distribution_of(context))
     in_gazebo = [control for control in launched.controls if control.managers]
     if not launched.managers and not in_gazebo:
         yield from _no_manager(launched)
@@ -88,6 +94,23 @@ def _no_states(launched: LaunchedControl, package: Package) -> Iterator[Finding]
         )
 
 
+def _no_parameters(
+    launched: LaunchedControl, package: Package, distribution: str
+) -> Iterator[Finding]:
+    for controller, spawned in launched.bare_controllers:
+        known = controller_types().get(controller.type.value)
+        if known is None or not known.exists_in(distribution):
+            continue
+        lacking = known.lacking({*controller.parameters, *launched.inline}, distribution)
+        if lacking and package.workspace.package(known.package) is None:
+            yield finding(
+                controller.span,
+                f"{controller.label} is spawned without parameters, so it is not configured: write "
+                f"{and_list(lacking)} below {controller.name}: ros__parameters:",
+                related=[(spawned, "the spawner")],
+            )
+
+
 def _no_manager(launched: LaunchedControl) -> Iterator[Finding]:
     described = any(node.package.value == "robot_state_publisher" for node in launched.nodes)
     if launched.controls and launched.is_complete and described:
@@ -118,6 +141,12 @@ _YAML = """controller_manager:
   ros__parameters:
     arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}
 """
+_ARM = """arm_controller:
+  ros__parameters:
+    joints: [shoulder]
+    command_interfaces: [position]
+    state_interfaces: [position]
+"""
 _OWN = """grip_controller:
   ros__parameters:
     type: forward_command_controller/ForwardCommandController
@@ -133,12 +162,12 @@ def _spawner(*words: str, mark: str = "") -> str:
     return f"Node(package='controller_manager', executable='spawner', arguments=[{inside}])"
 
 
-def _arm(*nodes: str, gazebo: bool = False, more: str = "") -> dict[str, object]:
+def _arm(*nodes: str, gazebo: bool = False, more: str = "", block: str = _ARM) -> dict[str, object]:
     hardware = "gz_ros2_control/GazeboSimSystem" if gazebo else "mock_components/GenericSystem"
     started = ",\n        ".join(nodes)
     return {
         "@urdf": _HARDWARE.replace("@", hardware) + (_GAZEBO if gazebo else ""),
-        "config/arm.yaml": _YAML + more + _OWN,
+        "config/arm.yaml": _YAML + more + block + _OWN,
         "launch/arm.launch.py": f"""import os
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
@@ -181,6 +210,7 @@ GOOD = [
     _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _arm(_NODE, _spawner("arm_controller")),
+    _arm(_NODE, _spawner("arm_controller", "--param-file", "config"), block=""),
     _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
     _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
     _in_gazebo("arm_controller", _INSTALLED),
@@ -191,6 +221,10 @@ BAD = [
     _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
+    {
+        **_arm(_NODE, _spawner("arm_controller"), block=""),
+        "config/arm.yaml": _YAML.replace("}\n", f"}}{_MARK}\n"),
+    },
     _arm(_NODE, _spawner("grip_controller", mark=_MARK)),
     _arm(_STATES, _spawner("arm_controller").replace("Node(", f"Node({_MARK}\n            ")),
     _arm(_NODE.replace("Node(", f"Node({_MARK}\n            "), _CREATE, gazebo=True),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.model.locomotion.commanded_joints import commanded_joints
 from checker.model.robot import Robot
 from checker.physics.trial.drivers.plans import plan_of
 from tests.model.robots import sdf, urdf
@@ -64,6 +65,15 @@ def test_a_body_whose_velocity_a_plugin_sets() -> None:
 )
 def test_controllers(tmp_path: Path, kind: str, reason: str) -> None:
     assert reason in why(robot(tmp_path, kind, "    joints: [rear_left]\n"))
+
+
+@pytest.mark.parametrize("interface", ["velocity", "effort"])
+def test_a_controller_whose_gains_are_0_moves_no_joint(tmp_path: Path, interface: str) -> None:
+    kind = "joint_trajectory_controller/JointTrajectoryController"
+    parameters = f"    joints: [rear_left]\n    command_interfaces: [{interface}]\n"
+    assert "has gains of 0" in why(robot(tmp_path / "bad", kind, parameters))
+    gains = "    gains: {rear_left: {p: 3.0}}\n"
+    assert commanded_joints(robot(tmp_path / "good", kind, parameters + gains))
 
 
 def test_a_controller_of_an_own_class_names_joints_by_its_own_parameters(tmp_path: Path) -> None:

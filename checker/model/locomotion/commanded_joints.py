@@ -65,8 +65,9 @@ def commanded_joints(robot: Robot) -> dict[str, Mover]:
         if controller.class_name not in DRIVING_CONTROLLERS:
             mover = Mover(controller.class_name, controller.name)
             parameters = _OF_GRIPPERS if controller.class_name == _GRIPPER else _JOINTS
+            still = {joint.value for joint in controller.joints_without_gains}
             for named in controller.texts(*parameters):
-                if named.value in robot.joints_by_name:
+                if named.value in robot.joints_by_name and named.value not in still:
                     commanded.setdefault(named.value, mover)
     for name, kind in _by_plugins(robot):
         commanded.setdefault(name, Mover(kind))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from typing import Any
 
@@ -132,6 +132,14 @@ class ControllerType(Record):
             return found
         matching = (known for known in self.params if "<" in known and _fits(known, name))
         return next((self.params[known] for known in matching), None)
+
+    def lacking(self, stated: Collection[str], distribution: str) -> list[str]:
+        """Return the parameters without which it cannot be configured and which are not stated."""
+        return [
+            name
+            for name in sorted({*self.required, *self.params})
+            if "<" not in name and name not in stated and self.requires(name, distribution)
+        ]
 
     def requires(self, name: str, distribution: str) -> bool:
         """Return whether it cannot be configured without a parameter."""

@@ -47,6 +47,11 @@ class Spawner(Record, eq=False):
         return (*self.options.get("-p", ()), *self.options.get("--param-file", ()), *own)
 
     @property
+    def gives_parameters(self) -> bool:
+        """True if its controllers may get parameters from it."""
+        return bool(self.param_files or "--controller-ros-args" in self.options)
+
+    @property
     def states_type(self) -> bool:
         """True if it states the type of its controllers itself."""
         return bool(self.options.keys() & {"-t", "--controller-type"})
@@ -145,14 +150,37 @@ class LaunchedControl(Record, eq=False, dict=True):
         """Controllers whose type the managers know; None if their file is not known."""
         if self._files is None:
             return None
-        inline = (
-            parameter.name.removesuffix(".type")
-            for node in self.managers
-            for parameter in node.parameters
-            if not isinstance(parameter, ParameterFile) and parameter.name.endswith(".type")
-        )
+        inline = (name.removesuffix(".type") for name in self.inline if name.endswith(".type"))
         listed = (each.name for each in self.controllers if each.listed)
         return frozenset((*inline, *listed))
+
+    @cached_property
+    def inline(self) -> frozenset[str]:
+        """Names of the parameters that the launch file itself gives to the managers."""
+        return frozenset(
+            parameter.name
+            for node in self.managers
+            for parameter in node.parameters
+            if not isinstance(parameter, ParameterFile)
+        )
+
+    @cached_property
+    def bare_controllers(self) -> tuple[tuple[Controller, Located[str]], ...]:
+        """Controllers without a block of their own, each with its name at the spawner.
+
+        Those that may get parameters from a spawner, or by `params_file`, are left out.
+        """
+        names = {name.value: name for spawner in self.spawners for name in spawner.names}
+        giving = [it for it in self.spawners if it.gives_parameters or not it.complete]
+        otherwise = {name.value for spawner in giving for name in spawner.names}
+        managers = [block for file in self._files or () for block in file.managers]
+        stated = {*self.inline, *(name for block in managers for name in block.parameters)}
+        return tuple(
+            (each, names[each.name])
+            for each in self.controllers
+            if each.block is None and each.name in names.keys() - otherwise
+            if f"{each.name}.params_file" not in stated
+        )
 
     @cached_property
     def controllers(self) -> tuple[Controller, ...]:

@@ -220,9 +220,10 @@ class ControlReader:
     def controllers_beside(self, control: RobotControl) -> tuple[Controller, ...]:
         """Return the controllers of a robot that one other package configures; none if several do.
 
-        A robot whose description names its file of parameters has those alone.
+        A robot whose description names its file of parameters has those alone, and so have robots
+        whose own package launches controllers.
         """
-        if self.package.only or any(manager.files for manager in control.managers):
+        if self.package.only or self.launched or any(manager.files for manager in control.managers):
             return ()
         names = control.components
         beside = (

@@ -59,7 +59,9 @@ def _reasons(robot: Robot, locomotion: Locomotion) -> Iterator[str]:
     """Yield the other reasons, the most certain one first."""
     if moving := moving_controllers(robot):
         what = "names no joint of the model that can be moved"
-        if has_own_joints(moving[0], robot):
+        if moving[0].joints_without_gains:
+            what = "has gains of 0 for its joints, so it moves none of them"
+        elif has_own_joints(moving[0], robot):
             what = "commands joints in a way that the trial does not know"
         yield f"the {moving[0].class_name} {moving[0].name!r} {what}"
     if robot.element.child("ros2_control") is not None:
