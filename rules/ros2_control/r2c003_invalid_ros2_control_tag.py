@@ -3,10 +3,13 @@
 The tag needs a `name`, a `type` of `system`, `actuator` or `sensor`, and `<hardware>` with a
 `<plugin>`. Its children are `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and
 `<properties>`; any other child ends the controller manager with "invalid tag name", including
-`<param>`: parameters of the hardware belong inside `<hardware>`.
+`<param>`: parameters of the hardware belong inside `<hardware>`. Each tag of a robot needs a name
+of its own: the controller manager refuses the second one of a name.
 
-Fix: move `<param>` into `<hardware>`, correct the tag's name, and state name, type and plugin.
-Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resource_from_xml`.
+Fix: move `<param>` into `<hardware>`, correct the tag's name, and state name, type and plugin; of
+two tags of a name, remove or rename one.
+Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resource_from_xml`;
+resource_manager.cpp, "is duplicated".
 """
 
 from collections.abc import Iterator
@@ -22,6 +25,7 @@ from checker.ros.ros2_control.hardware import (
 )
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 from checker.source.xml import Element
 
 
@@ -32,6 +36,7 @@ def check(control: RobotControl) -> Findings:
     A joint that occurs twice in a tag is a warning, and so is a plugin that a condition of xacro
     leaves out: the robot may be meant to be shown alone then.
     """
+    yield from _same_name(control)
     for hardware in control.hardware:
         yield from _missing(hardware)
         yield from _strange(hardware)
@@ -58,6 +63,22 @@ def _missing(hardware: Hardware) -> Iterator[Finding]:
             f"{called} has no {lacks}{where}, so no hardware is loaded",
             severity=Severity.WARNING if chosen else None,
         )
+
+
+def _same_name(control: RobotControl) -> Iterator[Finding]:
+    first: dict[str, Hardware] = {}
+    for hardware in control.hardware:
+        name = hardware.name
+        before = first.setdefault(name.value, hardware)
+        if before is not hardware and name.value:
+            yield finding(
+                name,
+                f"<ros2_control> {name.value!r} is there twice: the controller manager stops with "
+                f'"Hardware name {name.value} is duplicated", and nothing is controlled; remove '
+                "one, or give it another name",
+                key=f"duplicated {name.value}",
+                related=[(before, "the first one")],
+            )
 
 
 def _has_plugin_elsewhere(hardware: Element) -> bool:
@@ -135,9 +156,22 @@ def _conditional(mark: str) -> object:
     return {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": robot}
 
 
+_OTHER = f"""
+<ros2_control name="@" type="system">%
+  {_HARDWARE}
+  <joint name="elbow"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+
+
+def _two(name: str, mark: str = "") -> object:
+    return {"@urdf": ros2_control() + _OTHER.replace("@", name).replace("%", mark)}
+
+
 _SENSOR = '<sensor name="imu"><state_interface name="orientation.x"/></sensor>'
-GOOD = [_arm(), _arm(inside=_HARDWARE + _SENSOR)]
+GOOD = [_arm(), _two("hand"), _arm(inside=_HARDWARE + _SENSOR)]
 BAD = [
+    _two("arm", _MARK),
     _conditional(_MARK),
     _arm(_TYPED, mark=_MARK),
     _arm(_NAMED, mark=_MARK),

@@ -27,7 +27,8 @@ def check(control: RobotControl) -> Findings:
             before, its_joint = first.setdefault(joint.name.value, (hardware, joint))
             offered = {command.name.value for command in its_joint.commands}
             twice = [it.name.value for it in joint.commands if it.name.value in offered]
-            if before is not hardware and twice:
+            # Two tags of one name: R2C003.
+            if before.name.value != hardware.name.value and twice:
                 keys = and_list([f"{joint.name.value}/{name}" for name in dict.fromkeys(twice)])
                 yield finding(
                     joint,
@@ -44,5 +45,8 @@ def _second(inside: str) -> object:
     return {"@urdf": ros2_control() + f"{other}\n{inside}\n</ros2_control>"}
 
 
-GOOD = [_second('<joint name="shoulder"><state_interface name="position"/></joint>')]
+GOOD = [
+    _second('<joint name="shoulder"><state_interface name="position"/></joint>'),
+    {"@urdf": ros2_control() + ros2_control()},
+]
 BAD = [_second(f"{SHOULDER}  <!-- ^ R2C016 -->")]
