@@ -36,7 +36,7 @@ from checker.rule import (
     rename,
     rule,
 )
-from checker.rulebook.example_parts import ros2_control
+from checker.rulebook.example_parts import SHOULDER, ros2_control
 from checker.source.text import Located
 
 _OF_ROS_1 = {"joint_state_controller"}
@@ -108,9 +108,13 @@ def _another_package(
         )
 
 
-def _arm(kind: str) -> dict[str, str]:
+_STATE = '<state_interface name="position"/>'
+_POSITION = "    command_interfaces: [position]\n    state_interfaces: [position]\n"
+
+
+def _arm(kind: str, parameters: str = "") -> dict[str, str]:
     return {
-        "@urdf": ros2_control(),
+        "@urdf": ros2_control(SHOULDER.replace("</", f"{_STATE}</")),
         "config/arm.yaml": f"""controller_manager:
   ros__parameters:
     arm_controller:
@@ -118,9 +122,7 @@ def _arm(kind: str) -> dict[str, str]:
 arm_controller:
   ros__parameters:
     joints: [shoulder]
-    command_interfaces: [position]
-    state_interfaces: [position]
-""",
+{parameters}""",
     }
 
 
@@ -134,7 +136,7 @@ GOOD = [
     },
 ]
 BAD = [
-    _arm("joint_trajectory_controller/JointTrajectoryControler  # ^ R2C008"),
+    _arm("joint_trajectory_controller/JointTrajectoryControler  # ^ R2C008", _POSITION),
     _arm("effort_controllers/JointEffortController  # ^ R2C008"),
     _arm("joint_state_controller/JointStateController  # ^ R2C008"),
     _arm("joint_trajectory/JointTrajectoryController  # ^ R2C008"),
