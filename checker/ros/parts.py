@@ -21,6 +21,7 @@ from checker.ros.ros2_control.launched import LaunchedControl, launched_files
 from checker.ros.ros2_control.launched import launched_controls as read_launched_controls
 from checker.ros.ros2_control.robot_control import (
     ControlReader,
+    PluginFiles,
     RobotControl,
     may_be_controlled,
 )
@@ -58,6 +59,31 @@ def robot_controls(
 
 
 @part
+def plugin_files(
+    package: Package,
+    descriptions: tuple[UrdfDescription, ...] | NotAvailable,
+    plain: PlainRobots | NotAvailable,
+    launch: Ros2Launch | NotAvailable,
+    spawned: SpawnedReader,
+    reader: ControlReader,
+) -> tuple[PluginFiles, ...] | NotAvailable:
+    """Return the files of parameters of each robot whose plugins run a controller manager.
+
+    These are the robots of the package, and SDF models in it that its launch files spawn.
+    """
+    robots = [] if isinstance(descriptions, NotAvailable) else [it.robot for it in descriptions]
+    others = [] if isinstance(plain, NotAvailable) else [*plain.robots]
+    if not isinstance(launch, NotAvailable) and package.index.with_suffix(".sdf"):
+        others += spawned.models(launch.entries)
+    # Each SDF file once; one URDF file may describe several robots.
+    files = {robot.document.source.file: robot for robot in reversed(others)}
+    described = {robot.document.source.file for robot in robots}
+    robots += [robot for file, robot in files.items() if file not in described]
+    found = tuple(each for each in map(reader.plugin_files, robots) if each.managers)
+    return found or NotAvailable("no plugin runs a controller manager", applicable=False)
+
+
+@part
 def parameters(package: Package, entries: LaunchEntries) -> Parameters:
     """Return what configures controllers of ROS 1; each file is read once."""
     return loaded_parameters(package, entries)
@@ -91,11 +117,14 @@ def controlled_robots(
 
 @part
 def launched_controls(
-    launch: Ros2Launch, controls: tuple[RobotControl, ...] | NotAvailable, reader: ControlReader
+    launch: Ros2Launch,
+    controls: tuple[RobotControl, ...] | NotAvailable,
+    reader: ControlReader,
+    spawned: SpawnedReader,
 ) -> tuple[LaunchedControl, ...] | NotAvailable:
     """Return what each launch file of ROS 2 does for ros2_control."""
     known = () if isinstance(controls, NotAvailable) else controls
-    found = tuple(read_launched_controls(reader, launch.entries, known))
+    found = tuple(read_launched_controls(reader, launch.entries, known, spawned))
     return found or NotAvailable("no launch file spawns a controller", applicable=False)
 
 

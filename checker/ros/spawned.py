@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import pairwise
 
 from checker.base.record import Record
@@ -36,6 +36,7 @@ from checker.source.xml import XmlDocument
 
 SPAWNS = tuple((package, "create") for package in GAZEBO)
 CLASSIC_SPAWNS = ((CLASSIC_PACKAGE, "spawn_entity.py"),)
+EVERY_SPAWN = (*SPAWNS, *CLASSIC_SPAWNS)
 
 
 def may_spawn(graph: LaunchGraph) -> bool:
@@ -114,6 +115,15 @@ class SpawnedReader:
                     spawned = SpawnedRobot(read.robot, read.control, name, node, publisher)
                     robots.append(spawned)
         return robots, unknown
+
+    def models(self, graphs: Iterable[LaunchGraph]) -> list[Robot]:
+        """Return the SDF models of the package itself that launch files spawn."""
+        found = (each.robot for graph in graphs for each in self.robots(graph, EVERY_SPAWN)[0])
+        return [
+            robot
+            for robot in found
+            if robot.document.root.tag == "sdf" and not robot.document.source.file.startswith("../")
+        ]
 
     def published_robots(self, graph: LaunchGraph) -> Iterator[tuple[Node, Robot]]:
         """Yield the robot_state_publishers that start for certain, each with its robot if known."""

@@ -122,6 +122,19 @@ def gazebo_control(inside: str) -> str:
 """
 
 
+def model_beside(joint: str, plugin: str = gazebo_control("")) -> dict[str, str]:
+    """Return a package beside the arm's whose SDF model has a joint and plugins."""
+    plugins = plugin.replace("<gazebo>", "").replace("</gazebo>", "")
+    return {
+        "../acme_arm_model/package.xml": "<package><name>acme_arm_model</name></package>",
+        "../acme_arm_model/model.sdf": f"""<sdf version="1.9"><model name="arm">
+<link name="base_link"/><link name="upper_arm"/>
+<joint name="{joint}" type="revolute"><parent>base_link</parent><child>upper_arm</child></joint>
+{plugins}</model></sdf>
+""",
+    }
+
+
 DRIVEN_URDF = """<robot name="rover">
   <link name="base_link"/>
   <gazebo>

@@ -4,7 +4,8 @@ Hardware such as `gz_ros2_control/GazeboSimSystem` exists only in Gazebo, and a 
 starts the controller manager there: the robot needs both. With the plugin and other hardware, such
 as `mock_components/GenericSystem`, the controllers run and the simulated robot does not move.
 Without any `<ros2_control>` tag the plugin stops, and there is no controller manager. The plugin's
-`name` is the class that is loaded from the library; it cannot be chosen freely.
+`name` is the class that is loaded from the library; it cannot be chosen freely. An SDF model in the
+workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo.
 
 Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
 from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
@@ -16,10 +17,12 @@ Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branc
 
 from collections.abc import Iterator, Mapping
 
+from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
+from checker.ros.ros2_control.sdf_managers import managed_by_sdf
 from checker.rule import Concern, Finding, Findings, Severity, finding, rename, rule
-from checker.rulebook.example_parts import GAZEBO, MOCK, ros2_control
+from checker.rulebook.example_parts import GAZEBO, MOCK, model_beside, ros2_control
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {
     "gz_ros2_control-system": (
@@ -47,7 +50,7 @@ _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in name
 
 
 @rule("R2C005", "hardware-simulator-mismatch", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl) -> Findings:
+def check(control: RobotControl, package: Package) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
     Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings.
@@ -57,7 +60,7 @@ def check(control: RobotControl) -> Findings:
         yield from _another_library(control, manager)
     # With another value of an argument the robot may be the real one, and no Gazebo runs.
     if control.by_default:
-        yield from _disagreement(control)
+        yield from _disagreement(control, package)
 
 
 def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[Finding]:
@@ -88,7 +91,7 @@ def _names(manager: GazeboManager) -> Iterator[Finding]:
         )
 
 
-def _disagreement(control: RobotControl) -> Iterator[Finding]:
+def _disagreement(control: RobotControl, package: Package) -> Iterator[Finding]:
     simulated = [each for each in control.hardware if is_of_gazebo(each.plugin.value)]
     others = [each for each in control.hardware if each not in simulated and each.plugin.value]
     if control.managers and not control.hardware:
@@ -98,7 +101,7 @@ def _disagreement(control: RobotControl) -> Iterator[Finding]:
             "robot has no <ros2_control> tag",
             key="no tag",
         )
-    elif simulated and not control.managers:
+    elif simulated and not control.managers and not managed_by_sdf(package, control):
         missing = _plugin_for(simulated[0].plugin.value)
         yield finding(
             simulated[0].plugin,
@@ -136,7 +139,7 @@ def _hardware_for(manager: GazeboManager) -> str:
     return f": write {known}" if known else ""
 
 
-def _arm(plugin: str, hardware: str = GAZEBO) -> object:
+def _arm(plugin: str, hardware: str = GAZEBO) -> dict[str, str]:
     return {"@urdf": ros2_control(hardware=hardware) + plugin}
 
 
@@ -152,11 +155,14 @@ GOOD = [
     _arm(_plugin("libgz_ros2_control-system.so", _GZ[1])),
     _arm(_plugin("libacme_gz_ros2_control-system.so", "acme::Control")),
     _arm("", MOCK),
+    {**_arm("", GAZEBO), **model_beside("shoulder")},
 ]
 BAD = [
     _arm(_plugin(_GZ[0], "gz_ros2_control", _MARK)),
     _arm(_plugin("ign_ros2_control-system", "ros2_control", _MARK), _IGNITION),
     _arm("", GAZEBO + _MARK),
+    {**_arm("", GAZEBO + _MARK), **model_beside("elbow")},
+    {**_arm("", GAZEBO + _MARK), **model_beside("shoulder", "")},
     _arm(_plugin(*_GZ), MOCK + _MARK),
     _arm(_plugin("libgazebo_ros2_control.so", "gazebo_ros2_control", _MARK)),
     {"@urdf": _plugin(*_GZ, _MARK)},

@@ -3,7 +3,7 @@
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
 forgotten. A file that is left to an argument of xacro is not checked where a launch file names that
-argument, or where there is no launch file.
+argument, or where there is no launch file. Plugins in SDF models are checked too.
 
 Fix: correct the path, and install the file: `$(find package)/config/controllers.yaml`.
 Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
@@ -15,7 +15,7 @@ from checker.formats.xacro.files import ROOT
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, RobotControl
+from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 from checker.source.xml import XmlDocument
@@ -24,18 +24,18 @@ _ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
 
 
 @rule("R2C006", "parameter-file-not-found", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, package: Package, papers: Paperwork) -> Findings:
+def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
     """Report files that do not exist, and packages that nothing says to be needed.
 
     A package that package.xml does not name either is a warning; if the file is in this package
     under the same path, it is an error. So is an absolute path. A plugin without `<parameters>` is
     a warning.
     """
-    for fault in control.faults:
+    for fault in files.faults:
         yield finding(fault.span, f"the parameter file cannot be read: {fault.message}")
-    for reason in control.unread:
+    for reason in files.unread:
         yield unchecked(reason)
-    for manager in control.managers:
+    for manager in files.managers:
         if not manager.files:
             yield from _without_file(manager, package)
         for file in manager.files:
@@ -123,6 +123,11 @@ def _arm(parameters: str) -> dict[str, str]:
     return {"@urdf": ros2_control(hardware=GAZEBO) + gazebo_control(parameters)}
 
 
+def _model(parameters: str) -> dict[str, object]:
+    plugin = gazebo_control(parameters).replace("<gazebo>", "").replace("</gazebo>", "")
+    return {"@robot": "rover", "@change": {"</model>": f"{plugin}</model>"}}
+
+
 _MARK = "  <!-- ^ R2C006 -->"
 _HERE = "$(find acme_arm_description)/config/control.yaml"
 _SELDOM = "$(find other_arm)/config"
@@ -169,6 +174,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _model(f"<parameters>{_MARK}/home/ann/ws/src/arm/control.yaml\n    </parameters>"),
     given("", _MARK),
     {
         **_arm(f"<parameters>{_HERE}</parameters>{_MARK}"),

@@ -27,6 +27,7 @@ from checker.ros.ros2_control.distributions import (
 )
 from checker.ros.ros2_control.launched import LaunchedControl
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rulebook.example_parts import gazebo_control, model_beside
 
 _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
@@ -113,7 +114,8 @@ def _no_parameters(
 
 def _no_manager(launched: LaunchedControl) -> Iterator[Finding]:
     described = any(node.package.value == "robot_state_publisher" for node in launched.nodes)
-    if launched.controls and launched.is_complete and described:
+    whole = launched.is_complete and launched.spawns_manager is False
+    if launched.controls and whole and described:
         for spawner in launched.spawners:
             yield finding(
                 spawner.node,
@@ -194,6 +196,14 @@ def _in_gazebo(controller: str, parameters: str, mark: str = "") -> object:
     return {**arm, "@urdf": urdf}
 
 
+def _model_spawned(joint: str, plugin: str, mark: str = "") -> object:
+    """Return an arm that is spawned as the SDF model of another package."""
+    model = "get_package_share_directory('acme_arm_model') + '/model.sdf'"
+    create = f"Node(package='ros_gz_sim', executable='create', arguments=['-file', {model}])"
+    spawner = _spawner("arm_controller").replace("Node(", f"Node({mark}\n            ")
+    return {**_arm(_STATES, create, spawner), **model_beside(joint, plugin)}
+
+
 def _in_classic(*nodes: str, more: str) -> object:
     """Return an arm in Gazebo Classic, whose own launch file starts no controller manager."""
     plugin = _GAZEBO.replace("gz_ros2_control-system", "libgazebo_ros2_control.so")
@@ -207,6 +217,7 @@ _MARK = "  # ^ R2C013"
 _INSTALLED = "/home/ann/ws/install/acme_arm_description/share/acme_arm_description"
 _BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
 GOOD = [
+    _model_spawned("shoulder", gazebo_control("")),
     _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _arm(_NODE, _spawner("arm_controller")),
@@ -217,6 +228,7 @@ GOOD = [
     _in_gazebo("arm_controler", "/home/ann/arm"),
 ]
 BAD = [
+    _model_spawned("shoulder", "", _MARK),
     _in_gazebo("arm_controler", _INSTALLED, _MARK),
     _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),

@@ -11,7 +11,8 @@ from checker.launch.ros2.package_files import local_file
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
-from checker.ros.ros2_control.robot_control import ControlReader, RobotControl
+from checker.ros.ros2_control.robot_control import ControlReader, RobotControl, runs_manager
+from checker.ros.spawned import EVERY_SPAWN, SpawnedReader
 from checker.ros.unread import unread_parts
 from checker.source.text import Located, Span
 
@@ -109,11 +110,13 @@ class LaunchedControl(Record, eq=False, dict=True):
         graph: The graph of the launch file.
         controls: ros2_control of the robots of the package.
         reader: Reads files of parameters.
+        spawned: Reads the robots that launch files spawn.
     """
 
     graph: LaunchGraph
     controls: tuple[RobotControl, ...]
     reader: ControlReader
+    spawned: SpawnedReader
 
     @cached_property
     def nodes(self) -> tuple[Node, ...]:
@@ -138,6 +141,13 @@ class LaunchedControl(Record, eq=False, dict=True):
             node.package.value == "ros_gz_sim" and node.executable.value == "create"
             for node in self.nodes
         )
+
+    @cached_property
+    def spawns_manager(self) -> bool | None:
+        """Whether a plugin of what it spawns runs a controller manager; None if not known."""
+        robots, unknown = self.spawned.robots(self.graph, EVERY_SPAWN)
+        plugins = (plugin for spawned in robots for plugin in spawned.robot.plugins)
+        return any(map(runs_manager, plugins)) or (None if unknown else False)
 
     @property
     def is_complete(self) -> bool:
@@ -220,7 +230,10 @@ class LaunchedControl(Record, eq=False, dict=True):
 
 
 def launched_controls(
-    reader: ControlReader, graphs: Sequence[LaunchGraph], controls: tuple[RobotControl, ...]
+    reader: ControlReader,
+    graphs: Sequence[LaunchGraph],
+    controls: tuple[RobotControl, ...],
+    spawned: SpawnedReader,
 ) -> Iterator[LaunchedControl]:
     """Yield what launch files do for ros2_control; those that have nothing to do with it are none.
 
@@ -228,8 +241,9 @@ def launched_controls(
         reader: The reader of the files of the package being checked.
         graphs: The graphs of its launch files.
         controls: ros2_control of its robots.
+        spawned: The reader of the robots that they spawn.
     """
     for graph in graphs:
-        launched = LaunchedControl(graph, controls, reader)
+        launched = LaunchedControl(graph, controls, reader, spawned)
         if launched.spawners or launched.managers:
             yield launched

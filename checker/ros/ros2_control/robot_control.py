@@ -82,6 +82,22 @@ class GazeboManager(Record, eq=False):
         return library_stem(self.plugin.filename.value)
 
 
+class PluginFiles(Record, eq=False):
+    """Files of parameters that the Gazebo plugins of one robot name.
+
+    Attributes:
+        managers: Plugins that run a controller manager.
+        files: What of their files can be read.
+        faults: What is wrong with them as YAML.
+        unread: The reasons why parameters are not known, each the end of a sentence.
+    """
+
+    managers: tuple[GazeboManager, ...]
+    files: tuple[ControllerFile, ...]
+    faults: tuple[YamlFault, ...]
+    unread: tuple[str, ...]
+
+
 class RobotControl(Record, eq=False, dict=True):
     """ros2_control of one robot.
 
@@ -90,7 +106,6 @@ class RobotControl(Record, eq=False, dict=True):
         hardware: Its `<ros2_control>` tags.
         managers: Plugins of Gazebo that run a controller manager.
         files: Files of parameters that are about its controllers.
-        faults: What is wrong with them as YAML.
         unread: The reasons why parameters are not known, each the end of a sentence.
         by_default: Whether the robot is the one that its file makes without further values.
     """
@@ -99,7 +114,6 @@ class RobotControl(Record, eq=False, dict=True):
     hardware: tuple[Hardware, ...]
     managers: tuple[GazeboManager, ...] = ()
     files: tuple[ControllerFile, ...] = ()
-    faults: tuple[YamlFault, ...] = ()
     unread: tuple[str, ...] = ()
     by_default: bool = True
 
@@ -166,18 +180,24 @@ class ControlReader:
         """Return ros2_control of a robot; None if it has none."""
         robot = description.robot
         hardware = read_hardware(description.document.root)
-        managers = tuple(map(self._manager, filter(_runs_manager, robot.plugins)))
+        named = self.plugin_files(robot)
+        managers = named.managers
         if not hardware and not managers:
             return None
-        faults: list[YamlFault] = []
-        unread: list[str] = []
-        named = tuple(self._plugin_files(managers, faults, unread))
         mere = RobotControl(robot, hardware, managers)
         # A file that is named and not there is a fault of its own, and no other one replaces it.
         guesses = not any(manager.files for manager in managers)
-        files = self._likely(mere.components) if guesses else named
-        left = tuple(faults), tuple(unread)
-        return RobotControl(robot, hardware, managers, files, *left, not description.values)
+        files = self._likely(mere.components) if guesses else named.files
+        default = not description.values
+        return RobotControl(robot, hardware, managers, files, named.unread, default)
+
+    def plugin_files(self, robot: Robot) -> PluginFiles:
+        """Return the files of parameters that the Gazebo plugins of a robot name."""
+        managers = tuple(map(self._manager, filter(runs_manager, robot.plugins)))
+        faults: list[YamlFault] = []
+        unread: list[str] = []
+        files = tuple(self._plugin_files(managers, faults, unread))
+        return PluginFiles(managers, files, tuple(faults), tuple(unread))
 
     def _manager(self, plugin: Plugin) -> GazeboManager:
         files = tuple(self._parameters_file(text) for text in plugin.at("parameters"))
@@ -287,11 +307,12 @@ def may_be_controlled(description: UrdfDescription) -> bool:
     """Return whether a robot has a `<ros2_control>` tag, or a plugin that runs a manager."""
     root = description.document.root
     return root.child("ros2_control") is not None or any(
-        map(_runs_manager, description.robot.plugins)
+        map(runs_manager, description.robot.plugins)
     )
 
 
-def _runs_manager(plugin: Plugin) -> bool:
+def runs_manager(plugin: Plugin) -> bool:
+    """Return whether a plugin of Gazebo runs a controller manager."""
     return _LIBRARY in library_stem(plugin.filename.value)
 
 
