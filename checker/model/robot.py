@@ -48,6 +48,7 @@ from checker.source.xml import Element, XmlDocument
 
 EARTH_GRAVITY = 9.81
 """m/s², as Pinocchio and MuJoCo have it; Gazebo's default is 9.8."""
+_NEAR_EARTH = 0.05
 
 
 class Robot(Part, dict=True):
@@ -131,6 +132,12 @@ class Robot(Part, dict=True):
     def is_static(self) -> bool:
         """True if the model states that it is static."""
         return states_static(self.element)
+
+    @property
+    def other_gravity(self) -> str:
+        """A gravity that is not the Earth's, for behind a weight; empty for the Earth's."""
+        is_earth = abs(self.gravity - EARTH_GRAVITY) < _NEAR_EARTH
+        return "" if is_earth else f" at a gravity of {self.gravity:.4g} m/s²"
 
     @cached_property
     def is_prop(self) -> bool:

@@ -55,6 +55,7 @@ class EditJson(Record):
     end_line: Count
     end_column: Count
     replacement: str
+    snippet: Annotated[str, Meta(description="The text of the first line.")] = ""
 
 
 class FixJson(Record):

@@ -130,7 +130,7 @@ def _fix_json(fix: Fix) -> FixJson:
 def _edit_json(edit: Edit) -> EditJson:
     place = edit.place
     stretch = place.line, place.column, place.end_line, place.end_column
-    return EditJson(place.file, *stretch, edit.replacement)
+    return EditJson(place.file, *stretch, edit.replacement, place.snippet)
 
 
 def report_from_json(text: str) -> Report:
@@ -227,7 +227,8 @@ def _fix(read: FixJson) -> Fix:
 
 
 def _edit(read: EditJson) -> Edit:
-    place = Place(read.file, read.line, read.column, read.end_line, read.end_column)
+    stretch = read.line, read.column, read.end_line, read.end_column
+    place = Place(read.file, *stretch, snippet=read.snippet)
     return Edit(place, read.replacement, original="")
 
 

@@ -46,8 +46,8 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
             unit = "N" if joint.type.value == "prismatic" else "N·m"
             yield finding(
                 joint.axes[0].effort,
-                f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against "
-                f"gravity of {robot.gravity:.4g} m/s², but its effort limit is {limit:.3g} {unit}",
+                f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against gravity"
+                f"{robot.other_gravity}, but its effort limit is {limit:.3g} {unit}",
             )
 
 

@@ -42,20 +42,20 @@ def check(arms: ArmLoads, context: Context, *, warning_above: float = 1.5) -> Fi
             weak = load.effort > warning_above * limit.value
             yield finding(
                 limit,
-                _message(load, robot.gravity, arms.tool if payload else "", payload),
+                _message(load, robot.other_gravity, arms.tool if payload else "", payload),
                 severity=Severity.WARNING if weak else Severity.INFO,
                 covered_by=("INE010",),
             )
 
 
-def _message(load: JointLoad, gravity: float, tool: str, payload: float) -> str:
+def _message(load: JointLoad, gravity: str, tool: str, payload: float) -> str:
     joint = load.joint
     unit = "N" if joint.type.value == "prismatic" else "N·m"
     pose = ", ".join(f"{name} at {at:.3g}" for name, at in list(load.pose.items())[:_SHOWN])
     carried = f" with {payload:g} kg at {tool!r}" if tool else ""
     return (
-        f"joint {joint.name.value!r} has to hold {load.effort:.3g} {unit} against gravity of "
-        f"{gravity:.4g} m/s²{carried} in a pose that its limits allow ({pose}), but its effort "
+        f"joint {joint.name.value!r} has to hold {load.effort:.3g} {unit} against gravity"
+        f"{gravity}{carried} in a pose that its limits allow ({pose}), but its effort "
         f"limit is {joint.axes[0].effort.value:.3g} {unit}"
     )
 

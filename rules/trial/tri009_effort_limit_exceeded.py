@@ -60,8 +60,8 @@ def check(
             remedy = f": write {_ABOVE * torque.value:.3g} if its motor gives that" if path else ""
             yield finding(
                 driven.part(torque.part),
-                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit} at a gravity of "
-                f"{driven.robot.gravity:.4g} m/s²{path}, but its effort limit is "
+                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}"
+                f"{driven.robot.other_gravity}{path}, but its effort limit is "
                 f"{limit:.3g} {unit}{remedy}",
                 key="torque",
             )

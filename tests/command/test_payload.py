@@ -28,7 +28,7 @@ def test_what_is_too_heavy_is_reported(run: Run, tmp_path: Path) -> None:
     # The arm needs 4.9 N·m; 0.5 kg at 1 m as much again.
     assert "INE015" not in run(file, "--select", "INE015", "--payload", "0.5", "--info").stdout
     shown = run(file, "--select", "INE015", "--payload", "1.5", "--info").stdout
-    assert "has to hold 19.6 N·m against gravity of 9.81 m/s² with 1.5 kg at 'tool0'" in shown
+    assert "has to hold 19.6 N·m against gravity with 1.5 kg at 'tool0'" in shown
 
 
 def test_a_mass_is_a_number(run: Run, tmp_path: Path) -> None:

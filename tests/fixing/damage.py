@@ -96,8 +96,11 @@ def names(files: Files) -> set[str]:
 
 
 def lost(before: Files, after: Files) -> Iterator[str]:
-    """Yield names that nothing has any more and that a file still mentions as it did before."""
-    gone = names(before) - names(after)
+    """Yield names that nothing has any more and that a file still mentions as it did before.
+
+    `{name}` for `${name}` of xacro is no name that anything can mention.
+    """
+    gone = {name for name in names(before) - names(after) if _WORD.fullmatch(name)}
     for path, data in after.items() if gone else ():
         if data[:1000].count(0):
             continue

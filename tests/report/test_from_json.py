@@ -35,7 +35,7 @@ def in_json(finding: ReportedFinding) -> ReportedFinding:
 
 
 def _edit_in_json(edit: Edit) -> Edit:
-    place = replace(edit.place, element="", note="", snippet="")
+    place = replace(edit.place, element="", note="")
     return Edit(place, edit.replacement, "")
 
 

@@ -51,6 +51,8 @@ def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, S
     text = parameter.value if isinstance(parameter.value, str) else ""
     if text.startswith(_COMMAND) and _XACRO.search(parameter.span.source.text):
         yield "xacro", parameter.span, "command xacro"
+    for word in text.split() if text.startswith(_COMMAND) else ():
+        yield from _of_path(word.rstrip(")"), parameter.span)
 
 
 def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str]]:
