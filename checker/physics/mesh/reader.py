@@ -95,6 +95,10 @@ _READERS: dict[str, _Reader] = {
 }
 
 
+_OF_PROGRAMS = (TypeError, AttributeError, NameError, AssertionError, NotImplementedError)
+"""Errors that a program makes, whatever is in the file: they do not show that it is corrupt."""
+
+
 def load_libraries(names: Iterable[str]) -> None:
     """Import once what reads files of these names, before a process forks to read them."""
     suffixes = {name.rpartition(".")[2].lower() for name in names}
@@ -154,4 +158,7 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
         raise NoSurface("is nested too deeply", MeshTrouble.NOT_LOOKED_AT) from None
     except Exception as error:  # libraries raise anything on corrupt files
         words = str(error).strip().partition("\n")[0][:200]
+        if isinstance(error, _OF_PROGRAMS):
+            reason = f"is not read: its reader failed ({type(error).__name__}: {words})"
+            raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT) from error
         raise NoSurface(f"is corrupt: {words or type(error).__name__}") from error

@@ -39,7 +39,12 @@ def _pieces(parts: Iterable[Any]) -> Iterator[Piece]:
 
     for part in parts:
         if isinstance(part, trimesh.Trimesh) and len(part.faces):
-            look: Any = part.visual
-            colours = look.to_color() if look.kind == "texture" else look
-            red, green, blue, alpha = (float(value) / 255 for value in colours.main_color)
-            yield Piece(part.triangles, Material((red, green, blue, alpha)))
+            yield Piece(part.triangles, _material(part.visual))
+
+
+def _material(look: Any) -> Material:
+    """Return the most frequent colour; of a material without a picture, its own."""
+    main: Any = (look.to_color() if look.kind == "texture" else look).main_color
+    channels = main if main.ndim else look.material.main_color
+    red, green, blue, alpha = (float(value) / 255 for value in channels)
+    return Material((red, green, blue, alpha))
