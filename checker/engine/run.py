@@ -33,6 +33,7 @@ from checker.finding import (
     numbered,
     without_line_numbers,
 )
+from checker.formats.xacro.files import as_written
 from checker.report.report import Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
@@ -90,11 +91,12 @@ def run_rules(
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
         found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
-        said.append((rule, [judge.grade(rule, each) for each in found]))
+        said.append((rule, [judge.grade(rule, _with_written_paths(each)) for each in found]))
         reasons: dict[str, Severity | None] = {}
         for item in result:
             if isinstance(item, Unchecked):  # of loaded robots first: those count
-                reasons.setdefault(shortened(item.reason, TEXT_LIMIT), item.severity)
+                reason = shortened(as_written(item.reason), TEXT_LIMIT)
+                reasons.setdefault(reason, item.severity)
         not_checked += [
             NotChecked(rule.id, reason, Cause.NOT_AT_HAND, own or severity, rule.concern)
             for reason, own in reasons.items()
@@ -154,6 +156,12 @@ def _informing(finding: Finding, unloaded: Collection[str]) -> Finding:
     if finding.places[0].file in unloaded:
         return replace(finding, severity=Severity.INFO)
     return finding
+
+
+def _with_written_paths(finding: Finding) -> Finding:
+    """Return a finding whose message names files as xacro files do."""
+    message = as_written(finding.message)
+    return finding if message == finding.message else replace(finding, message=message)
 
 
 def _outcome(

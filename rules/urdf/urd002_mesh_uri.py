@@ -2,10 +2,11 @@
 
 Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
 only on the author's machine; elsewhere the part is invisible. `package:///` names no package: only
-Pinocchio reads it as `package://`. The simulation of a robot in SDF does not need the file, so this
+Pinocchio reads it as `package://`. `$(find <package>)/<path>` is right on every machine, but RViz
+loads it only behind `file://`. The simulation of a robot in SDF does not need the file, so this
 is a warning. A path with a drive letter of Windows to a file that the package has is an error.
 
-Fix: write `package://<package>/<path>`.
+Fix: write `package://<package>/<path>`, or `file://` before `$(find <package>)`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic
 reads `package://` as `model://`.
 """
@@ -16,6 +17,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from checker.formats.urdf.description import UrdfDescription
+from checker.formats.xacro.expanded import ExpandedText
 from checker.package.package import Package
 from checker.package.uris import own_path_on_machine, uri_of_installed
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
@@ -48,21 +50,9 @@ def check(package: Package, description: UrdfDescription) -> Findings:
         named = _PACKAGE.match(uri.value)
         if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
             continue
-        if uri.value.startswith(_NO_PACKAGE):
-            yield finding(
-                uri,
-                f"mesh {uri.value!r} names no package, so RViz and Gazebo do not find it: write "
-                "package:// with two slashes",
-                key="three slashes",
-            )
-        elif named is None:
-            meant = uri_of_installed(uri.value)
-            yield finding(
-                uri,
-                f"mesh {uri.value!r} does not start with package://, so it is "
-                "found only on the machine of its author" + (f": write {meant}" if meant else ""),
-                key="no package",
-            )
+        wrong = _of_other_scheme(uri)
+        if wrong is not None or named is None:
+            yield wrong or _without_package(uri)
         elif description.for_rviz:
             name, path = named.groups()
             folder = _folder(package, name)
@@ -71,6 +61,38 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             elif not package.exists(posixpath.normpath(folder + path)):
                 missing[uri.value].append(uri)
     yield from _missing(missing)
+
+
+def _of_other_scheme(uri: Located[str]) -> Finding | None:
+    """Report a URI of three slashes, and a path that xacro makes of `$(find p)/x`."""
+    if uri.value.startswith(_NO_PACKAGE):
+        return finding(
+            uri,
+            f"mesh {uri.value!r} names no package, so RViz and Gazebo do not find it: write "
+            "package:// with two slashes",
+            key="three slashes",
+        )
+    source = uri.span.source
+    if not isinstance(source, ExpandedText) or not source.states_bare_path(uri.value):
+        return None
+    name, _, path = uri.value.removeprefix("package://").partition("/")
+    written = f"$(find {name})/{path}"
+    return finding(
+        uri,
+        f"mesh {written!r} has no scheme, so it is visible in Gazebo and not in RViz: write "
+        f"file://{written}",
+        key="no scheme",
+    )
+
+
+def _without_package(uri: Located[str]) -> Finding:
+    meant = uri_of_installed(uri.value)
+    return finding(
+        uri,
+        f"mesh {uri.value!r} does not start with package://, so it is "
+        "found only on the machine of its author" + (f": write {meant}" if meant else ""),
+        key="no package",
+    )
 
 
 def _on_machine(
@@ -151,6 +173,7 @@ BAD = [
     _example(f"file:///home/me/wheel.dae{_MARK}"),
     _example(f"file:///home/me/ws/install/acme_arm/share/acme_arm/meshes/wheel.dae{_MARK}"),
     _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
+    _example(f"$(find acme_rover_sensor_config_1)/meshes/wheel.dae{_MARK}"),
     {"@urdf": True, _MESH: "<COLLADA/>", **_example(f"D:\\work\\rover/meshes/wheel.dae{_MARK}")},
     {
         "@urdf": True,

@@ -11,6 +11,7 @@ from checker.base.allowance import Allowance
 from checker.base.parts import NotAvailable
 from checker.engine.judge import Judge
 from checker.engine.run import run_rules
+from checker.formats.xacro.files import ROOT
 from checker.report.report import Cause, NotChecked
 from checker.rule import Concern, Context, Findings, Rule, Severity, finding, unchecked
 from checker.settings import Settings
@@ -40,6 +41,11 @@ def looking_away(wheel: Wheel) -> Findings:
     yield finding(wheel.place, "seen all the same")
 
 
+def showing_paths(wheel: Wheel) -> Findings:
+    yield unchecked(f"{ROOT}/rover/a.yaml is too large")
+    yield finding(wheel.place, f"mesh '{ROOT}/rover/meshes/a.stl' is not there")
+
+
 def with_options(wheel: Wheel, *, limit: float = 1.0, names: tuple[str, ...] = ()) -> Findings:
     yield finding(wheel.place, f"{type(limit).__name__} {limit}, {names!r}")
 
@@ -51,6 +57,13 @@ def test_a_rule_that_crashes_is_named_and_the_others_go_on(check: object, error:
     (crash,) = outcome.not_checked
     assert (crash.rule, crash.cause) == ("TST009", Cause.CRASHED)
     assert error in crash.reason
+
+
+def test_a_made_up_folder_is_not_shown() -> None:
+    outcome = run(rule_of(showing_paths))
+    (found,), (skipped,) = outcome.findings, outcome.not_checked
+    assert found.message == "mesh '$(find rover)/meshes/a.stl' is not there"
+    assert skipped.reason == "$(find rover)/a.yaml is too large"
 
 
 def without_disk(_: Wheel) -> Findings:

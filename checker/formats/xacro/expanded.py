@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -16,6 +17,8 @@ from checker.source.xml_positions import XmlFault
 _BLANKS = " \t\r\n"
 _PACKAGES = (f"file://{ROOT}/", f"file:///{ROOT}/")
 """Starts of the URI of a path: `file://$(find p)/`, also with a third slash."""
+_BARE = re.compile(rf'(<(?:mesh|texture)\b[^<>]*?\bfilename="){ROOT}/')
+"""A mesh or picture that is the path itself, `$(find p)/x`."""
 
 
 class ExpandedText(SourceText, dict=True, kw_only=True):
@@ -72,7 +75,12 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
     def states_path(self, uri: str) -> bool:
         """Return whether a `package://` URI represents the path of a file, `file://$(find p)/x`."""
         text, path = str(self.answer["xml"]), uri.removeprefix("package://")
-        return any(f"{start}{path}{end}" in text for start in _PACKAGES for end in ('"', "<"))
+        ends = (f"{start}{path}{end}" for start in _PACKAGES for end in ('"', "<"))
+        return self.states_bare_path(uri) or any(end in text for end in ends)
+
+    def states_bare_path(self, uri: str) -> bool:
+        """Return whether it represents a path without a scheme, `$(find p)/x`."""
+        return f'filename="{ROOT}/{uri.removeprefix("package://")}"' in str(self.answer["xml"])
 
     def place(self, start: int, end: int) -> Place:
         """Return the place in a written file of the characters from `start` to `end`."""
@@ -93,6 +101,7 @@ def expanded_document(
     text = str(answer["xml"])
     for start in _PACKAGES:
         text = text.replace(start, "package://")
+    text = _BARE.sub(r"\1package://", text)
     written = gathered.sources[file]
     plain = parse_xml(SourceText(written.file, text))
     if isinstance(plain, XmlFault) or len(plain.positions) != len(answer["origins"]):

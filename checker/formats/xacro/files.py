@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 ROOT = "/subt-check-packages"
+_FOUND = re.compile(rf"{ROOT}/([\w.-]{{1,200}})")
 
 
 def path_of(package: Package, path: str) -> str:
@@ -38,6 +39,11 @@ def package_in(path: str) -> str:
     if not path.startswith(f"{ROOT}/"):
         return ""
     return posixpath.normpath(path).removeprefix(f"{ROOT}/").partition("/")[0]
+
+
+def as_written(text: str) -> str:
+    """Return a text for people, with `$(find p)` for the folder that xacro sees."""
+    return _FOUND.sub(r"$(find \1)", text) if ROOT in text else text
 
 
 def local_path(package: Package, path: str) -> str | None:
