@@ -38,6 +38,7 @@ class Candidate(Record):
         missing: Arguments that a launch file leaves to the user, and that launch file.
         choices: The values that it allows for these, where it names them.
         offered: The values that it allows for arguments to which it gives one of them.
+        given: Arguments of each launch file that loads it, where all of them are known.
     """
 
     path: str
@@ -47,6 +48,7 @@ class Candidate(Record):
     missing: Mapping[str, str] = field(default_factory=dict)
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    given: tuple[Mapping[str, str], ...] = ()
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values of arguments that are not given.
@@ -100,13 +102,16 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
         if path is not None and not path.startswith("../") and package.exists(path):
             allowed = started.choices, started.offered
             counts, by_xacro = started.counts, load.by_xacro
-            candidate = Candidate(path, load.args, counts, by_xacro, missing, *allowed)
+            given = (load.args,) if counts and not missing else ()
+            candidate = Candidate(path, load.args, counts, by_xacro, missing, *allowed, given)
             before = chosen.get(path, candidate)
+            every = before.given if given and load.args in before.given else before.given + given
             # Of several ways to start it, one that is known counts before one that is not.
             known = before.missing and not missing
             runs = candidate.loaded and not before.loaded
             taken = candidate if known or runs else before
-            chosen[path] = replace(taken, loaded=before.loaded or candidate.loaded)
+            loaded = before.loaded or candidate.loaded
+            chosen[path] = replace(taken, loaded=loaded, given=every)
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]
         chosen |= {path: Candidate(path) for path in others}

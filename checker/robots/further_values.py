@@ -48,7 +48,7 @@ def further_values(
     """
     documents = [*documents]
     elements = [e for document in documents for e in document.elements if _is_xacro(e)]
-    values = {**_defaults(elements), **chosen}
+    values = {**defaults(documents), **chosen}
     aliases = {name: name for name in values} | _aliases(elements)
     listed = [(name, value) for name, options in allowed.items() for value in options]
     found = [
@@ -66,6 +66,7 @@ def compared_texts(documents: Iterable[XmlDocument], name: str) -> list[str]:
 
     A default, which counts only behind its declaration, is the first; then the simulator's texts.
     """
+    documents = [*documents]
     elements = [e for document in documents for e in document.elements if _is_xacro(e)]
     aliases = {name: name} | _aliases(elements)
     found = (
@@ -77,7 +78,7 @@ def compared_texts(documents: Iterable[XmlDocument], name: str) -> list[str]:
         )
         if aliases.get(named) == name
     )
-    default = _defaults(elements).get(name, "")
+    default = defaults(documents).get(name, "")
     texts = dict.fromkeys((default, *found) if default else found)
     return sorted(texts, key=lambda text: (text != default, _SIMULATOR.match(text) is None))
 
@@ -99,8 +100,9 @@ def _is_xacro(element: Element) -> bool:
     return element.tag.startswith("xacro:")
 
 
-def _defaults(elements: Iterable[Element]) -> dict[str, str]:
-    args = (element for element in elements if element.tag == "xacro:arg")
+def defaults(documents: Iterable[XmlDocument]) -> dict[str, str]:
+    """Return the arguments that files declare, with their defaults."""
+    args = (it for document in documents for it in document.elements if it.tag == "xacro:arg")
     return {arg.get("name") or "": arg.get("default") or "" for arg in args}
 
 

@@ -12,7 +12,7 @@ from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.expansion import Expander, Expansions, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.package.package import Package
-from checker.robots.further_values import alternatives, further_values
+from checker.robots.further_values import alternatives, defaults, further_values
 from checker.source.xml import XmlDocument
 
 TRIED_LIMIT = 8
@@ -32,12 +32,14 @@ class Made(Record, eq=False):
         document: The result.
         allowed: Values that a launch file allows for arguments, by name.
         loaded: Whether a launch file loads it.
+        launched: What other launch files make of the file.
     """
 
     wish: Wanted
     document: XmlDocument
     allowed: Mapping[str, tuple[str, ...]]
     loaded: bool = False
+    launched: Sequence[Wanted] = ()
 
     @property
     def read(self) -> Sequence[XmlDocument]:
@@ -55,6 +57,16 @@ class Made(Record, eq=False):
         }
         return replace(self.wish, args={**kept, name: value})
 
+    def values_of(self, wish: Wanted) -> dict[str, str]:
+        """Return the arguments of which another wish has another value."""
+        own, other = ({**defaults(self.read), **each.args} for each in (self.wish, wish))
+        return {name: value for name, value in other.items() if own.get(name) != value}
+
+    def is_launched(self, name: str, value: str) -> bool:
+        """Return whether another launch file gives a value, or leaves it as the default."""
+        given = (self.values_of(wish).get(name, "") for wish in self.launched)
+        return value.lower() in map(str.lower, given)
+
     def unloaded(self, name: str, value: str) -> str:
         """Return that no launch file gives a value, as a clause; empty if one may."""
         if not self.loaded or value in self.allowed.get(name, ()):
@@ -65,7 +77,9 @@ class Made(Record, eq=False):
 def other_robots(
     package: Package, expander: Expander, made: Sequence[Made], given: Collection[str]
 ) -> Iterator[UrdfDescription | XacroFault]:
-    """Yield the robots that another value of one argument makes, and the faults that it meets.
+    """Yield the robots that other values make, and the faults that they meet.
+
+    Those that launch files give come first, then those of one argument each.
 
     Args:
         package: The package being checked.
@@ -73,12 +87,19 @@ def other_robots(
         made: The robots that are judged.
         given: Names of the arguments that the user gives: these have one value.
     """
-    tried = [
+    by_launch = [
+        (wish, _in_words(others), "")
+        for robot in made
+        for wish in robot.launched
+        if (others := robot.values_of(wish)) and others.keys().isdisjoint(given)
+    ]
+    single = [
         (robot.with_value(name, value), f"{name}:={value}", robot.unloaded(name, value))
         for robot in sorted(made, key=_importance)
         for name, value in _further_values(package, robot)
-        if name not in given
-    ][:TRIED_LIMIT]
+        if name not in given and not robot.is_launched(name, value)
+    ]
+    tried = [*by_launch, *single][:TRIED_LIMIT]
     wanted = [wish for wish, *_ in tried]
     outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
     known = {(robot.wish.path, robot.document.source.text) for robot in made}
@@ -92,6 +113,10 @@ def other_robots(
             known.add(key)
             read = read_description(outcome, wish.path, for_rviz=False)
             yield replace(read, values=values, unloaded=unloaded)
+
+
+def _in_words(values: Mapping[str, str]) -> str:
+    return " ".join(f"{name}:={value}" for name, value in values.items())
 
 
 def _importance(robot: Made) -> tuple[bool, bool]:

@@ -30,6 +30,7 @@ from checker.robots.candidates import (
 )
 from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
+from checker.robots.fullest import fullest
 from checker.robots.leftovers import leftovers
 from checker.robots.other_robots import Made, other_robots
 from checker.robots.shown_only import shown_only
@@ -43,6 +44,8 @@ from checker.source.xml_positions import XmlFault
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
 _CHOICES_LIMIT = 10
 """Choices for an argument that are tried."""
+_WAYS_LIMIT = 8
+"""Launch files with arguments of their own that are tried of one robot."""
 _CALLS_LIMIT = 20
 """Macros that are called though no file does so."""
 _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
@@ -108,6 +111,7 @@ class PackageDescriptions:
         unread, assumed = self._choose(expanded)
         assumed |= self._compare(expanded)
         old = self._expand_as_melodic(expanded)
+        self._take_fullest(expanded)
         needed = self._needed(expanded)
         descriptions, faults, fragments = [], [], []
         for candidate in self._candidates:
@@ -185,7 +189,7 @@ class PackageDescriptions:
         allowed = {it.path: {**it.choices, **it.offered} for it in self._candidates}
         loaded = {it.path for it in self._candidates if it.loaded}
         made = [
-            Made(self._taken[path], outcome, allowed[path], path in loaded)
+            Made(self._taken[path], outcome, allowed[path], path in loaded, self._launched(path))
             for path, outcome in expanded.items()
             if isinstance(outcome, XmlDocument) and outcome.root.tag == "robot"
         ]
@@ -296,6 +300,24 @@ class PackageDescriptions:
                 self._taken[path], expanded[path], values = found
                 assumed[path] = _in_words(values)
         return assumed
+
+    def _take_fullest(self, expanded: dict[str, Outcome]) -> None:
+        """Take, of the robots that launch files make of one file, the one with most plugins."""
+        for path, outcome in expanded.items():
+            if isinstance(outcome, XmlDocument) and (wishes := self._launched(path)):
+                made = self._taken[path], outcome
+                found = fullest(self._package, self._expander, made, wishes)
+                self._taken[path], expanded[path] = found
+
+    def _launched(self, path: str) -> list[Wanted]:
+        """Return what launch files make of a file, without what is taken of it."""
+        taken = self._taken[path]
+        candidate = next(it for it in self._candidates if it.path == path)
+        wishes = (
+            self._wish(replace(candidate, args=args)) for args in candidate.given[:_WAYS_LIMIT]
+        )
+        same = (replace(wish, as_melodic=taken.as_melodic) for wish in wishes)
+        return [wish for wish in same if wish != taken]
 
     def _needed(self, expanded: Mapping[str, Outcome]) -> dict[str, list[str]]:
         """Return, by path, the arguments without which a file does not expand.

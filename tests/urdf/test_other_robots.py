@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.robots.other_robots import TRIED_LIMIT
@@ -183,3 +184,52 @@ def test_a_default_behind_its_use_is_taken(tmp_path: Path) -> None:
     late = '<link name="$(arg via)"/><xacro:arg name="via" default="cable"/>'
     test = "<xacro:if value=\"${'$(arg via)' == 'gz'}\"/>"
     assert judged(tmp_path, late + test).facts["assumed"] == "via:=cable"
+
+
+FAULTY = """<xacro:if value="$(arg tool)"><link name="hand"/>
+  <joint name="wrist" type="fixed"><parent link="base_link"/><child link="hadn"/></joint>
+</xacro:if>"""
+MOTORS = """<xacro:if value="$(arg tool)">
+  <ros2_control name="m" type="system"><hardware><plugin>mock/Motors</plugin></hardware>
+    <joint name="lift"><command_interface name="speed"/></joint></ros2_control>
+</xacro:if>"""
+BY_COMMAND = LAUNCH.replace("'none', choices=['none', 'hand']", "'false'")
+BY_MAPPINGS = """
+import os
+import xacro
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    file = os.path.join(get_package_share_directory('acme_description'), 'urdf', 'r.urdf.xacro')
+    text = xacro.process_file(file, mappings={'tool': 'true'}).toxml()
+    return LaunchDescription([
+        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': text}]),
+    ])
+"""
+
+
+def launched(folder: Path, body: str, default: str) -> PackageReport:
+    """Judge a robot that two launch files load: `default` without the tool, another with it."""
+    files = (f"launch/{default}.launch.py", BY_COMMAND), ("launch/lift.launch.py", BY_MAPPINGS)
+    declared = '<xacro:arg name="tool" default="false"/>'
+    return judged(folder, f"{declared}{body}", *files)
+
+
+@pytest.mark.parametrize("default", ["a_show", "z_show"])
+def test_what_any_launch_file_gives_is_given(default: str, tmp_path: Path) -> None:
+    """The names of the launch files do not decide on it."""
+    report = launched(tmp_path, FAULTY, default)
+    (found,) = (it for it in report.findings if it.rule == "KIN001")
+    assert found.severity is Severity.ERROR
+    assert found.message.endswith("not exist (with tool:=true)") is (default == "a_show")
+    assert not [it for it in report.findings if "no launch file" in it.message]
+
+
+@pytest.mark.parametrize("default", ["a_show", "z_show"])
+def test_a_robot_that_only_one_launch_file_controls_is_judged(default: str, tmp_path: Path) -> None:
+    report = launched(tmp_path, MOTORS, default)
+    assert ["'lift'" in message for message in messages(report, "R2C001")] == [True]
+    assert not [it for it in report.not_checked if "no robot is controlled" in it.reason]
