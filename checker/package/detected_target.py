@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.source.text import SourceText, blank_markup
@@ -66,14 +68,42 @@ class DetectedTarget(Record):
 
 
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
-    """Read what a package is made for.
-
-    Gazebo Classic is detected by a launch file, a plugin or a dependency that only Classic has,
-    where nothing is of later ones: a package for both is judged for the later one.
+    """Read what a package is made for; where it does not show that, what launches it is made for.
 
     Args:
         package: A package of ROS 2.
         distro: The distribution that the user names; it overrides the content.
+    """
+    own = _shown_target(package, distro)
+    if own.reason:
+        return own
+    found: dict[tuple[bool, str], DetectedTarget] = {}
+    for other in _launching(package):
+        target = _shown_target(other, distro)
+        if target.reason:
+            reason = f"{target.reason} in {other.name}, which launches it"
+            found.setdefault((target.is_classic, target.distro), replace(target, reason=reason))
+    if len(found) != 1:
+        return own
+    (target,) = found.values()
+    # A description with plugins of a later Gazebo is not for Classic, whatever else launches it.
+    return own if target.is_classic and {*package.simulator_signs} - {CLASSIC} else target
+
+
+def _launching(package: Package) -> Iterator[Package]:
+    """Yield the other packages whose launch files name a package."""
+    name = package.declared_name
+    for other in () if package.only else package.other_packages:
+        texts = other.launch_texts.values()
+        if any(name in text and name in _WORD.findall(text) for text in texts):
+            yield other
+
+
+def _shown_target(package: Package, distro: str) -> DetectedTarget:
+    """Return what the content of a package shows.
+
+    Gazebo Classic is detected by a launch file, a plugin or a dependency that only Classic has,
+    where nothing is of later ones: a package for both is judged for the later one.
     """
     named = None if distro else package.distribution_sign
     distro = distro or (named.distro if named else "")
@@ -130,6 +160,7 @@ def _in_files(
                 yield target, f"{source.where(match.start())} names {match.group().strip()}"
 
 
+_WORD = re.compile(r"[\w-]+")
 _LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
 
 

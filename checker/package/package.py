@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -65,6 +66,7 @@ from checker.source.xml_positions import XmlFault
 if TYPE_CHECKING:
     from checker.package.workspace import Workspace
 
+_LAUNCH_FILE = re.compile(r"(?:^|/)launch/.*\.(?:py|xml|ya?ml|sh)$|[._]launch(?:\.\w+)?$")
 BYTES_LIMIT = 200_000_000
 DOCUMENTS_FOR_ALL = 4
 """Documents with as many elements as one may have that a package may have; the largest real package
@@ -186,6 +188,13 @@ class Package(Record, eq=False, dict=True):
     def simulator_signs(self) -> Mapping[str, str]:
         """Simulators that its files name, each with the first place."""
         return simulator_signs(self)
+
+    @cached_property
+    def launch_texts(self) -> dict[str, str]:
+        """The launch files of the package, comments included, by path."""
+        paths = (it.path for it in self.index.files if _LAUNCH_FILE.search(it.path))
+        texts = {path: self.read(path) for path in paths}
+        return {path: it.text for path, it in texts.items() if isinstance(it, SourceText)}
 
     @cached_property
     def distribution_sign(self) -> DistributionSign | None:

@@ -25,7 +25,6 @@ MANIFEST_LIMIT = 1_000_000
 LEVELS_ABOVE = 2
 """Folders above a workspace in which packages of the challenge are looked for."""
 THUMBNAILS = "thumbnails"
-_LAUNCH_FILE = re.compile(r"(?:^|/)launch/.*\.(?:py|xml|ya?ml|sh)$|[._]launch(?:\.\w+)?$")
 _WORD = re.compile(r"\w+")
 _GAZEBO = frozenset({"gazebo", "gazebo_ros", "gz", "gzserver", "ros_gz_sim", "ros_ign_gazebo"})
 """Words of launch files that start Gazebo or spawn into it."""
@@ -126,13 +125,11 @@ class Workspace(Record, eq=False, dict=True):
     @cached_property
     def launch_texts(self) -> dict[str, str]:
         """The launch files of all available packages, comments included, by package and path."""
-        texts = {
-            f"{package.name}/{file.path}": package.read(file.path)
+        return {
+            f"{package.name}/{path}": text
             for package in self.packages.values()
-            for file in package.index.files
-            if _LAUNCH_FILE.search(file.path)
+            for path, text in package.launch_texts.items()
         }
-        return {name: it.text for name, it in texts.items() if not isinstance(it, NotReadable)}
 
     @cached_property
     def launch_words(self) -> frozenset[str]:

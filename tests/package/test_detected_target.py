@@ -81,6 +81,48 @@ def test_the_repository_around_tells(tmp_path: Path) -> None:
     assert judged(tmp_path, {"@ros2": True}) == ("ros2", "humble")
 
 
+AMENT = """<package format="3">
+  <name>{}</name><version>1.0.0</version><description>A lift</description>
+  <maintainer email="a@example.org">A</maintainer><license>BSD</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+SHARE = "share = get_package_share_directory('{}')\n"
+
+
+@pytest.mark.parametrize(
+    ("launches", "own", "expected"),
+    [
+        ({"bringup": "lift '/opt/ros/humble'"}, "", ("ros2", "humble")),
+        ({"bringup": "lift 0"}, "", ("ros2", "")),
+        ({"bringup": "lift 'ign gazebo'"}, "", ("ros2", "humble")),
+        ({"bringup": "lift 'gzserver'"}, "", ("ros2-classic", "humble")),
+        ({"bringup": "lift 'gzserver'"}, GZ_PLUGIN, ("ros2", "")),
+        ({"bringup": "lift '/opt/ros/humble'"}, GZ_PLUGIN, ("ros2", "humble")),
+        ({"bringup": "lift 'gzserver'"}, MESH.format("iron"), ("ros2", "iron")),
+        ({"bringup": "lift_gui 'gzserver'"}, "", ("ros2", "")),
+        ({"old": "lift 'gzserver'", "new": "lift '/opt/ros/jazzy'"}, "", ("ros2", "")),
+        ({"a": "lift '/opt/ros/jazzy'", "b": "lift '/opt/ros/jazzy'"}, "", ("ros2", "jazzy")),
+    ],
+)
+def test_what_launches_a_description_tells(
+    launches: Mapping[str, str], own: str, expected: tuple[str, str], tmp_path: Path
+) -> None:
+    texts = {"lift": ("urdf/lift.urdf", f"<robot name='lift'>{own}</robot>")}
+    for name, words in launches.items():
+        launched, _, rest = words.partition(" ")
+        texts[name] = ("launch/lift.launch.py", f"{SHARE.format(launched)}words = {rest}\n")
+    for name, (path, text) in texts.items():
+        file = tmp_path / name / path
+        file.parent.mkdir(parents=True)
+        file.write_text(text)
+        (tmp_path / name / "package.xml").write_text(AMENT.format(name))
+    settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
+    assert (settings.profile, settings.distro) == expected
+    assert ("which launches it" in settings.target_reason) is (expected[1] not in ("", "iron"))
+
+
 CONTROL = '<ros2_control name="arm" type="system"/>'
 
 
