@@ -79,7 +79,7 @@ def _of_other_scheme(uri: Located[str]) -> Finding | None:
     written = f"$(find {name})/{path}"
     return finding(
         uri,
-        f"mesh {written!r} has no scheme, so it is visible in Gazebo and not in RViz: write "
+        f"mesh {written!r} has no scheme, which RViz needs and Gazebo does not: write "
         f"file://{written}",
         key="no scheme",
     )
