@@ -82,6 +82,7 @@ def _top(path: str) -> Span:
 GOOD = [
     {"test/drive.launch": "#! /usr/bin/env python3\nimport launch\n"},
     {"worlds/example.sdf": "<sdf version='1.6'><world name='w'/></sdf>"},
+    {"rviz/rviz.config": "Panels:\n  - Class: rviz_common/Displays\n"},
 ]
 BAD = [
     {
