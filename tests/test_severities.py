@@ -53,6 +53,11 @@ def friction(inside: str) -> str:
 """
 
 
+BRIDGE = """- topic_name: /model/{}/odometry
+  ros_type_name: {}
+  gz_type_name: gz.msgs.{}
+  direction: GZ_TO_ROS
+"""
 TOOL = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>'
 LEFTOVER = f"""<link name="tool"/>{TOOL}
 <transmission name="t"><type>transmission_interface/SimpleTransmission</type>
@@ -118,6 +123,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
     ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
     ("R2C003", CHOSEN, "warning"),
+    ("BRG004", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/Odometry", "Odometry")}, "warning"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
     ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),
@@ -176,6 +182,13 @@ def test_severity_depends_on_the_case(
     assert [str(finding.severity) for finding in report.findings] == [severity], [
         finding.message for finding in report.findings
     ]
+
+
+def test_bridges_that_reach_nothing_of_the_robot_are_errors(tmp_path: Path) -> None:
+    odometry = BRIDGE.format("other", "nav_msgs/msg/Odometry", "Odometry")
+    package = write_example({"@bridge": odometry + odometry.replace("other", "none")}, tmp_path)
+    (report,) = check_package(package, Settings(select=("BRG004",))).packages
+    assert [str(finding.severity) for finding in report.findings] == ["error", "error"]
 
 
 @pytest.mark.parametrize(("gravity", "severity"), [("0.0 0.0 -9.8", "warning"), ("0 0 0", "error")])

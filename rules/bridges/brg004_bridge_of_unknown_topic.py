@@ -26,37 +26,43 @@ from checker.source.xml import XmlDocument
 
 _OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
 _FILES_LIMIT = 100
+_SEVERAL = 2
 _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
 """Messages that windows of Gazebo publish too, on topics that the user chooses."""
 
 
 @rule("BRG004", "bridge-of-unknown-topic", Severity.WARNING, Concern.INTERFACE)
 def check(package: Package, simulations: Simulations) -> Findings:
-    """Report topics that no robot, model or world has, if all of them are known."""
+    """Report topics that no robot, model or world has, if all of them are known.
+
+    It is an error if several bridges, and no other ones, are for the robot's topics.
+    """
     for simulation in simulations.launched:
         if not simulation.topics or simulation.unknown_topics:
             continue
-        for entry in simulation.entries:
-            unknown = not entry.gz_topic or not entry.counts
-            if unknown or _OF_THE_WORLD.match(entry.gz_topic):
-                continue
-            behind = simulation.topics_of(entry)
-            if (
-                not behind
-                and not _may_be_of_user(entry)
-                and not _is_written(package, simulation, entry)
-            ):
-                hint = _instead(simulation, entry)
-                whole = simulation.is_whole and simulation.knows_systems
-                if hint or (simulation.robots and whole):
-                    yield finding(
-                        entry.passed.gz_topic,
-                        f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}",
-                    )
-            elif (
-                behind and simulation.is_whole and (fault := _other_name(simulation, entry, behind))
-            ):
-                yield finding(entry.passed.gz_topic, f"{entry.gz_topic}: {fault}")
+        entries = [it for it in simulation.entries if it.gz_topic and it.counts]
+        own = [it for it in entries if not _OF_THE_WORLD.match(it.gz_topic)]
+        faults = [(it, fault) for it in own if (fault := _fault(package, simulation, it))]
+        in_vain = len(faults) == len(own) >= _SEVERAL
+        for entry, fault in faults:
+            yield finding(
+                entry.passed.gz_topic, fault, severity=Severity.ERROR if in_vain else None
+            )
+
+
+def _fault(package: Package, simulation: Simulation, entry: BridgeEntry) -> str:
+    """Return what is wrong with the topic of a bridge; empty if that is nothing, or not known."""
+    behind = simulation.topics_of(entry)
+    if behind:
+        fault = _other_name(simulation, entry, behind) if simulation.is_whole else ""
+        return f"{entry.gz_topic}: {fault}" if fault else ""
+    if _may_be_of_user(entry) or _is_written(package, simulation, entry):
+        return ""
+    hint = _instead(simulation, entry)
+    whole = simulation.is_whole and simulation.knows_systems
+    if not hint and not (simulation.robots and whole):
+        return ""
+    return f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}"
 
 
 def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:
