@@ -16,7 +16,8 @@ from checker.robots.further_values import alternatives, defaults, further_values
 from checker.source.xml import XmlDocument
 
 TRIED_LIMIT = 8
-"""Values that are tried of one package: they take as long as the robots of the defaults."""
+"""Values of launch files that are tried of one package, and others; each takes as long as the
+robot of the defaults."""
 _OF_THE_USER = (
     *(XacroFaultKind.ARGUMENT, XacroFaultKind.ENVIRONMENT),
     *(XacroFaultKind.RECURSION, XacroFaultKind.LIMIT),
@@ -91,7 +92,7 @@ def other_robots(
         (wish, _in_words(others), "")
         for robot in made
         for wish in robot.launched
-        if (others := robot.values_of(wish)) and others.keys().isdisjoint(given)
+        if (others := robot.values_of(wish))
     ]
     single = [
         (robot.with_value(name, value), f"{name}:={value}", robot.unloaded(name, value))
@@ -99,7 +100,7 @@ def other_robots(
         for name, value in _further_values(package, robot)
         if name not in given and not robot.is_launched(name, value)
     ]
-    tried = [*by_launch, *single][:TRIED_LIMIT]
+    tried = [*by_launch[:TRIED_LIMIT], *single[:TRIED_LIMIT]]
     wanted = [wish for wish, *_ in tried]
     outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
     known = {(robot.wish.path, robot.document.source.text) for robot in made}

@@ -50,12 +50,21 @@ def spawned_reader(package: Package, expander: Expander, control: ControlReader)
 
 @part
 def robot_controls(
-    descriptions: tuple[UrdfDescription, ...], reader: ControlReader
+    descriptions: tuple[UrdfDescription, ...], files: UrdfFiles, reader: ControlReader
 ) -> tuple[RobotControl, ...] | NotAvailable:
     """Return ros2_control of each robot that has it."""
     found = map(reader.control, descriptions) if any(map(may_be_controlled, descriptions)) else ()
     controls = tuple(control for control in found if control is not None)
-    return controls or NotAvailable("no robot is controlled by ros2_control", applicable=False)
+    return controls or NotAvailable(_without_control(files), applicable=False)
+
+
+def _without_control(files: UrdfFiles) -> str:
+    """Return that no robot is controlled, or the values of arguments with which one is."""
+    values = next((it.values for it in files.others if may_be_controlled(it)), "")
+    if not values:
+        return "no robot is controlled by ros2_control"
+    options = " ".join(f"--xacro-arg {value}" for value in values.split())
+    return f"a robot is controlled by ros2_control only with {values}: check it with {options}"
 
 
 @part

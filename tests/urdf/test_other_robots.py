@@ -233,3 +233,12 @@ def test_a_robot_that_only_one_launch_file_controls_is_judged(default: str, tmp_
     report = launched(tmp_path, MOTORS, default)
     assert ["'lift'" in message for message in messages(report, "R2C001")] == [True]
     assert not [it for it in report.not_checked if "no robot is controlled" in it.reason]
+
+
+def test_control_that_no_launch_file_chooses_is_named(tmp_path: Path) -> None:
+    declared = '<xacro:arg name="tool" default="false"/>'
+    report = judged(tmp_path, f"{declared}{MOTORS}", ("launch/show.launch.py", BY_COMMAND))
+    assert (
+        "a robot is controlled by ros2_control only with tool:=true: check it with --xacro-arg"
+        " tool:=true" in {it.reason for it in report.not_checked}
+    )
