@@ -4,24 +4,26 @@ libsdformat copies unknown elements with a warning, and nothing reads them, so t
 effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the name
 resembles a known one, or if it would change how the part moves; an element that only changes the
 look of a part, and one that resembles an element that the target does not read (such as
-`<always_on>`), is a warning. A file of an older version is read as one of the newest version:
-elements of that version are known, too. Elements below `<plugin>` and elements with a namespace
-prefix are ignored. SDF008 reports a known element in the wrong place, SEN028 those that name the
-frame of a sensor.
+`<always_on>`), is a warning, and so is a parameter of a plugin of Gazebo Classic. A file of an
+older version is read as one of the newest version: elements of that version are known, too.
+Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008 reports a known
+element in the wrong place, SEN028 those that name the frame of a sensor.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.
 """
 
 from collections.abc import Iterator
+from functools import cache
 
+from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
 from checker.formats.sdf.schema import all_tags
 from checker.formats.sdf.unread import is_appearance, is_unread
 from checker.model.sensing.kind import frame_ids
-from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
@@ -43,6 +45,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     there = {parent: {child.tag for child in parent.children} for parent in parents}
     for element, siblings in _with_known_siblings(sdf, unknown):
         sure = siblings.correction(element.tag)
+        if element.tag in _plugin_parameters() and not sure:
+            yield _of_plugin(element, element.parent or sdf.root)
+            continue
         near = siblings.closest(element.tag) or anywhere.closest(element.tag)
         parent = element.parent or sdf.root
         meant = near is not None and not is_unread(near, context.release)
@@ -56,6 +61,22 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             key=f"{parent.tag}/{element.tag}",
             fix=_renaming_fix(element, sure) if sure and sure not in there[parent] else None,
         )
+
+
+@cache
+def _plugin_parameters() -> frozenset[str]:
+    """Return the parameters of the plugins of Gazebo Classic for ROS 1."""
+    libraries = table("gazebo_classic_ros2")["ros_1"]["libraries"].values()
+    return frozenset(name for library in libraries for name in library.get("params", ()))
+
+
+def _of_plugin(element: Element, parent: Element) -> Finding:
+    return finding(
+        element,
+        f"<{element.tag}> in <{parent.tag}> is a parameter of plugins of Gazebo Classic, and "
+        "nothing reads it there: remove it",
+        key=f"{parent.tag} parameters",
+    )
 
 
 def _with_known_siblings(
@@ -95,5 +116,10 @@ BAD = [
     <weight>3</weight>  <!-- ^ SDF003 -->
   </inertial>
 </link>
+""",
+    """
+<sensor name="eye" type="camera">
+  <distortionK1>0</distortionK1>  <!-- ^ SDF003 -->
+</sensor>
 """,
 ]
