@@ -1,7 +1,8 @@
 """A launch file that does not load, or not with its own defaults.
 
 It is not valid Python, XML or YAML, defines no `generate_launch_description`, uses a name that is
-neither defined nor imported, includes itself, or has a default that is not among its choices.
+neither defined nor imported, or that its function assigns only further down, includes itself, or
+has a default that is not among its choices.
 
 Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` shows the same error.
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
@@ -37,8 +38,32 @@ def check(launch: Ros2Launch) -> Findings:
 
 _ARGUMENT = "        DeclareLaunchArgument('x', choices=['a', 'b'], default_value='@'),"
 
-GOOD = [{"@ros2": True}, {"@ros2": _ARGUMENT.replace("@", "a")}]
+
+def _python(statements: str) -> dict[str, object]:
+    return {
+        "@ros2": True,
+        "launch/more.launch.py": f"""from launch import LaunchDescription
+
+
+def generate_launch_description():
+    text = str(1)
+{statements}
+    return LaunchDescription([])
+""",
+    }
+
+
+GOOD = [
+    {"@ros2": True},
+    {"@ros2": _ARGUMENT.replace("@", "a")},
+    _python("    for c in text:\n        if c == 'b':\n            print(a)\n        a = c"),
+    _python("    print([n for n in text if n])\n    n = 1\n    n = n + 1"),
+    _python("    def later():\n        return n\n    n = 1\n    print(later())"),
+    _python("    try:\n        print(n)\n    except NameError:\n        n = 1"),
+]
 BAD = [
+    _python("    if text:\n        nodes.append(text)  # ^ LCH011\n    nodes = [text]"),
+    _python("    nodes += [text]  # ^ LCH011"),
     {"@ros2": f"{_ARGUMENT.replace('@', 'c')}  # ^ LCH011"},
     {"@ros2": True, "launch/view.launch.xml": "<launch><node></launch> <!-- ^ LCH011 -->"},
     {

@@ -46,8 +46,14 @@ def read_python(source: SourceText, allowance: Allowance, world: World, found: G
         return Unknown(message, source.whole())
     run = Interpreter(source, allowance, world)
     for name in undefined_names(tree, ENTRY):
-        message = f"name {name.id!r} is not defined; define or import it"
-        found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, run.span(name), message))
+        message = f"name {name.use.id!r} is not defined; define or import it"
+        if name.bound_in_line:
+            message = (
+                f"{name.use.id!r} is used before it is assigned in line {name.bound_in_line}: "
+                "move the assignment above"
+            )
+        span = run.span(name.use)
+        found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, span, message))
     scope = run.module_scope(tree)
     function = scope.values.get(ENTRY)
     if not isinstance(function, LocalFunction):

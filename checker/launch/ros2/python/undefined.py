@@ -6,6 +6,8 @@ import ast
 import builtins
 from collections.abc import Iterator
 
+from checker.launch.ros2.python.unbound import UnboundName, unbound_names
+
 _GIVEN = frozenset({*dir(builtins), "__file__", "__path__"})
 """Names that every module has."""
 _ANY_NAME = frozenset({"exec", "globals", "locals", "vars", "setattr"})
@@ -13,31 +15,32 @@ _ANY_NAME = frozenset({"exec", "globals", "locals", "vars", "setattr"})
 _Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
-def undefined_names(tree: ast.Module, entry: str) -> list[ast.Name]:
+def undefined_names(tree: ast.Module, entry: str) -> list[UnboundName]:
     """Return the first use of each name that Python cannot find when the file is launched.
 
-    A name that is bound anywhere in the file counts as defined, whatever the order. What is in
-    a `try`, and functions that nothing names, are not read.
+    A name that is bound anywhere in the file counts as defined, whatever the order, except a local
+    name in its function. What is in a `try`, and functions that nothing names, are not read.
 
     Args:
         tree: The tree of the file.
         entry: Name of the function that launch calls.
     """
     bound = {*_GIVEN, *_bound(tree)}
-    if "*" in bound:
-        return []
+    late: list[UnboundName] = []
     functions = {node.name: node for node in ast.walk(tree) if isinstance(node, _Function)}
     first: dict[str, ast.Name] = {}
     waiting: list[ast.AST] = [tree, *filter(None, [functions.pop(entry, None)])]
     while waiting:
-        for name in _used(waiting.pop()):
+        node = waiting.pop()
+        late += unbound_names(node)
+        for name in _used(node):
             if name.id in _ANY_NAME:
                 return []
-            if name.id not in bound:
+            if name.id not in bound and "*" not in bound:
                 first.setdefault(name.id, name)
             elif name.id in functions:
                 waiting.append(functions.pop(name.id))
-    return [*first.values()]
+    return [*map(UnboundName, first.values()), *late]
 
 
 def _used(node: ast.AST) -> Iterator[ast.Name]:
