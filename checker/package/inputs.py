@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.errors import UnreadableInput
 from checker.base.record import Record
-from checker.base.words import Suggestions
+from checker.base.words import Suggestions, count
 from checker.package.formats import single_file_suffixes
 from checker.package.kind import (
     enclosing_package,
@@ -179,13 +179,22 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     advice = f"give the package folder {enclosing}" if enclosing else WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     if found.ignored:
-        missing = f"contains no package except those that {found.ignored[0]} excludes"
+        missing, advice = _ignored_packages(path, folder, found.ignored)
     elif models := models_of(folder):
         missing, advice = f"contains no package; {models}", CHECKED_FORMATS
     elif not enclosing and (instead := content_of(folder)) is not None:
         missing = f"contains no package, but {instead.kind} ({instead.name})"
         advice = instead.advice
     raise UnreadableInput(path, missing, advice)
+
+
+def _ignored_packages(path: Path, folder: Path, marks: Sequence[Path]) -> tuple[str, str]:
+    """Return what is there instead of packages, and what to do, if marks exclude the others."""
+    below = {mark: units_below(mark.parent).units for mark in marks}
+    mark = next((mark for mark, units in below.items() if units), marks[0])
+    number, where = count(len(below[mark]), "package"), mark.relative_to(folder)
+    missing = f"contains no package except {number} that {where.as_posix()} excludes"
+    return missing, f"give {path / where.parent}"
 
 
 def _opened(

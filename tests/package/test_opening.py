@@ -93,7 +93,11 @@ def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> Non
 def test_a_folder_that_is_named_is_opened_although_it_is_ignored(write: Write) -> None:
     space = write({"rover/COLCON_IGNORE": "", **ROVER})
     assert names(space / "rover") == ["rover"]
-    assert "COLCON_IGNORE excludes" in complaint(space).reason
+    refused = complaint(space)
+    assert (
+        refused.reason == "contains no package except 1 package that rover/COLCON_IGNORE excludes"
+    )
+    assert refused.advice == f"give {space / 'rover'}"
 
 
 def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:
