@@ -39,6 +39,15 @@ class ReleasedNames:
         own = [name for name, having in _released().items() if self._distro in having]
         return Suggestions(sorted({*own, *_system()}))
 
+    @cached_property
+    def _by_words(self) -> Mapping[tuple[str, ...], list[str]]:
+        """The packages of the distribution by the words of their names."""
+        found: dict[tuple[str, ...], list[str]] = {}
+        for name, having in _released().items():
+            if self._distro in having:
+                found.setdefault(_words(name), []).append(name)
+        return found
+
     def _has(self, name: str) -> bool:
         return self._distro in distributions_with(name) or is_of_system(name)
 
@@ -46,14 +55,24 @@ class ReleasedNames:
         """Return the name of which another is a misspelling; None if it may be its own.
 
         Names of packages that are not available are near to others by chance: one letter may be
-        wrong, missing, too many or in the place of its neighbour, or `-` and `_` are confused.
+        wrong, missing, too many or in the place of its neighbour, or `-` and `_` are confused. The
+        words may be in another order, and some names are known to be taken for those of packages.
         """
+        instead = table("removed_packages")["names"].get(name, {}).get("instead", "")
+        if self._has(instead):
+            return str(instead)
         for spelled in (name.replace("-", "_"), name.replace("_", "-")):
             if spelled != name and self._has(spelled):
                 return spelled
+        if len(same := self._by_words.get(_words(name), [])) == 1:
+            return same[0]
         near = self._suggestions.correction(name) if len(name) >= _SHORTEST else None
         alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)
         return near if alike else None
+
+
+def _words(name: str) -> tuple[str, ...]:
+    return tuple(sorted(name.split("_")))
 
 
 def _shared(one: str, other: str) -> int:

@@ -73,6 +73,7 @@ GOOD = [
     _node("acme_state_publisher", "state_publisher"),
 ]
 BAD = [
+    _node("publisher_robot_state", "robot_state_publisher", _MARK),
     _node("robot_state_publsher", "robot_state_publisher", _MARK),
     _node("controller_manager", "spawner.py", _MARK),
     _node("gazebo_ros", "spawn_entity.py", _MARK),

@@ -8,8 +8,9 @@ and `package://` in robot descriptions, and for messages and a few modules of RO
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. Dependencies of a
 declared metapackage such as ros_gz count as declared. The same happens if package.xml misspells the
 package of a team or plugin: it is reported if a package of a similar name is available, and the
-misspelt one is not. If a package is not available, and this package has every file that it uses of
-it, the name is taken as the former name of this package.
+misspelt one is not. A name that no ROS distribution has is to be corrected, not declared, if it is
+near to one of them. If a package is not available, and this package has every file that
+it uses of it, the name is taken as the former name of this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
 package's own name instead of its former one.
@@ -34,6 +35,7 @@ from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwor
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.references import PROVIDED
+from checker.package.released import ReleasedNames, distributions_with, is_of_system
 from checker.package.submissions import is_slip_for, robot_of
 from checker.package.teams import teams
 from checker.rule import (
@@ -106,6 +108,7 @@ def check(
             others.setdefault(name, use)
     # Packages with another name on the target must be renamed first: ROS011.
     renamed = table("renamed_packages")["releases"].get(context.release, {})
+    yield from _no_such_package(others, context.distro)
     lacking = [name for name in sorted(others) if name not in renamed]
     fix = _declaration_fix(package, manifest, *lacking) if lacking else None
     place = manifest if ament else package.folder_place()
@@ -160,6 +163,18 @@ def _distribution(
             related=[(use.place, f"{name} is used here") for name, use in sorted(uses.items())],
             fix=fix,
         )
+
+
+def _no_such_package(uses: dict[str, Use], distro: str) -> Iterator[Finding]:
+    """Report, and take out, misspelt names of packages: rosdep would not find what is declared."""
+    names = ReleasedNames(distro)
+    for name, use in [*uses.items()] if distro else ():
+        known = distributions_with(name) or is_of_system(name)
+        meant = None if known else names.correction_of(name)
+        if meant is not None:
+            del uses[name]
+            message = f"there is no package {name!r}; did you mean {meant!r}?"
+            yield finding(use.place, message, key=name, covered_by=("LCH015",))
 
 
 def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
@@ -303,6 +318,11 @@ BAD = [
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6", "  <!-- ^ PKG007 -->"),
         "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),
+    },
+    {
+        "@ros2": "        Node(package='bridge_ros_gz', executable='a'),  # ^ PKG007",
+        "package.xml": _arm("ros_gz"),
+        "@profile": "ros2",
     },
     {"launch/vehicle_topics.launch": _launch("subt_ros"), "@reported": [".:1"]},
     # Its own former name.

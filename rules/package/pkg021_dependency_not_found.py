@@ -104,6 +104,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _package(f"<exec_depend>forward_position_controller</exec_depend>{_MARK}"),
     _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
     _package(f"<exec_depend>acme_drivers</exec_depend>{_MARK}\n<depend>acme_tools</depend>"),

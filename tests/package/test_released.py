@@ -22,6 +22,8 @@ def test_who_has_a_package() -> None:
         ("robot_state_publihser", "robot_state_publisher"),
         ("pcl-ros", "pcl_ros"),
         ("nav2_bringups", "nav2_bringup"),
+        ("publisher_robot_state", "robot_state_publisher"),
+        ("forward_position_controller", "forward_command_controller"),
         # Packages of a team's own are near to others by chance.
         ("arx_msgs", None),
         ("tb_msgs", None),
