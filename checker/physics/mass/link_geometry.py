@@ -68,15 +68,12 @@ _PLACEHOLDER = 0.002
 
 
 def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
-    """Return the shapes that take room, without placeholders."""
-    return [
-        shape
-        for shape in shapes
-        if shape.geometry.shape not in _NOTHING and not _is_placeholder(shape.geometry)
-    ]
+    """Return the shapes that take room."""
+    return [shape for shape in shapes if shape.geometry.shape not in _NOTHING]
 
 
-def _is_placeholder(geometry: Geometry) -> bool:
+def _is_placeholder(shape: _Shape) -> bool:
+    geometry = shape.geometry
     sizes = [number.value for values in geometry.sizes.values() for number in values]
     return geometry.shape in _PLAIN and 0.0 < max(sizes, default=0.0) <= _PLACEHOLDER
 
@@ -118,8 +115,12 @@ def displacement(robot: Robot, link: Link, centre: Vector) -> float:
 
 
 def known_box(robot: Robot, link: Link) -> Box | None:
-    """Return the box around the shapes of a link that are known, in the robot's frame."""
-    boxes = [robot.box_of_shape(link, shape) for shape, _ in _placed(robot, link)]
+    """Return the box around the shapes of a link that are known, in the robot's frame.
+
+    Placeholders do not count.
+    """
+    placed = (shape for shape, _ in _placed(robot, link) if not _is_placeholder(shape))
+    boxes = [robot.box_of_shape(link, shape) for shape in placed]
     known = [box for box in boxes if box is not None]
     return union(known) if len(known) == len(boxes) else None
 
@@ -146,10 +147,11 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
 def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float] | None:
     """Return the least and the greatest volume that shapes fill together, m³.
 
-    They may be in one another: the largest alone, and all side by side. None without shapes, and
-    where one is not known.
+    They may be in one another: the largest alone, and all side by side. None without shapes other
+    than placeholders, and where one is not known.
     """
-    solids = [solid_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]
+    counted = (shape for shape in solid(shapes) if not _is_placeholder(shape))
+    solids = [solid_of(shape.geometry, robot.scaled_meshes) for shape in counted]
     known = [each.amount for each in solids if each is not None]
     if not known or len(known) < len(solids):
         return None
