@@ -138,6 +138,7 @@ BAD = [
     },
     {
         **_CLASSIC,
-        "@fragment": f'<plugin filename="libgazebo_ros_control.so" name="control"/>{_MARK}',
+        "@fragment": f'<plugin filename="libgazebo_ros_control.so" name="control">{_MARK}\n'
+        "<parameters>/opt/ros/control.yaml</parameters></plugin>",
     },
 ]
