@@ -118,7 +118,10 @@ _PLUGIN = '<gazebo><plugin name="p" filename="libgazebo_ros_control.so"/></gazeb
 def test_without_launch_files_what_only_gazebo_reads_is_an_info(
     tmp_path: Path, more: str, severities: set[Severity]
 ) -> None:
-    (tmp_path / "foot.urdf").write_text(f'<robot name="foot">{_FOR_SOLVER}{more}</robot>')
+    # Not beside the folders of other tests, whose launch files would count.
+    folder = tmp_path / "models"
+    folder.mkdir()
+    (folder / "foot.urdf").write_text(f'<robot name="foot">{_FOR_SOLVER}{more}</robot>')
     settings = Settings(select=("URD006", "URD007", "URD008", "GEO002"))
-    report = check_package(tmp_path, settings).packages[0]
+    report = check_package(folder, settings).packages[0]
     assert {found.severity for found in report.findings} == severities
