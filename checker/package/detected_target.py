@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.package.mentions import has_word
 from checker.source.text import SourceText, blank_markup
 
 if TYPE_CHECKING:
@@ -94,8 +95,7 @@ def _launching(package: Package) -> Iterator[Package]:
     """Yield the other packages whose launch files name a package."""
     name = package.declared_name
     for other in () if package.only else package.other_packages:
-        texts = other.launch_texts.values()
-        if any(name in text and name in _WORD.findall(text) for text in texts):
+        if any(has_word(text, name) for text in other.launch_texts.values()):
             yield other
 
 
@@ -160,7 +160,6 @@ def _in_files(
                 yield target, f"{source.where(match.start())} names {match.group().strip()}"
 
 
-_WORD = re.compile(r"[\w-]+")
 _LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
 
 

@@ -31,7 +31,13 @@ _ENDING = re.compile(
     rb"|png|jpe?g|tga|tiff?|bmp|gif|dds|hdr)(?![\w.-])",
     re.IGNORECASE,
 )
+_WORD = re.compile(r"[\w-]+")
 _DELIMITER = re.compile(rb"[\x00-\x1f/\\\"'<>=()\[\]{},;:|&?#*]")
+
+
+def has_word(text: str, name: str) -> bool:
+    """Return whether a name, as that of a package, is a whole word of a text."""
+    return name in text and name in _WORD.findall(text)
 
 
 def mentioned_names(package: Package) -> frozenset[str]:

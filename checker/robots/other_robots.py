@@ -89,7 +89,7 @@ def other_robots(
         given: Names of the arguments that the user gives: these have one value.
     """
     by_launch = [
-        (wish, _in_words(others), "")
+        (wish, in_words(others), "")
         for robot in made
         for wish in robot.launched
         if (others := robot.values_of(wish))
@@ -116,7 +116,8 @@ def other_robots(
             yield replace(read, values=values, unloaded=unloaded)
 
 
-def _in_words(values: Mapping[str, str]) -> str:
+def in_words(values: Mapping[str, str]) -> str:
+    """Return values of arguments as a command line has them."""
     return " ".join(f"{name}:={value}" for name, value in values.items())
 
 

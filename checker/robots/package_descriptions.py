@@ -32,7 +32,7 @@ from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.robots.fullest import fullest
 from checker.robots.leftovers import leftovers
-from checker.robots.other_robots import Made, other_robots
+from checker.robots.other_robots import Made, in_words, other_robots
 from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
 from checker.robots.unloaded import may_be_loaded
@@ -266,7 +266,7 @@ class PackageDescriptions:
         what is assumed, by path.
         """
         assuming = [each for each in self._candidates if each.assumed_values(0, self._args)]
-        assumed = {each.path: _in_words(each.assumed_values(0, self._args)) for each in assuming}
+        assumed = {each.path: in_words(each.assumed_values(0, self._args)) for each in assuming}
         misfits = {each.path: _misfit(expanded.get(each.path), each.path) for each in assuming}
         unfit = [each for each in assuming if misfits[each.path]]
         tried = [(each, number) for each in unfit for number in _further(each)]
@@ -277,7 +277,7 @@ class PackageDescriptions:
             if isinstance(outcome, XmlDocument) and (why := misfits.pop(candidate.path, "")):
                 expanded[candidate.path] = outcome
                 self._taken[candidate.path] = self._wish(candidate, number)
-                taken = _in_words(candidate.assumed_values(number, self._args))
+                taken = in_words(candidate.assumed_values(number, self._args))
                 unread.append((candidate, f"{why}; {taken} is used instead"))
                 assumed[candidate.path] = taken
         return unread, assumed
@@ -298,7 +298,7 @@ class PackageDescriptions:
             )
             if found is not None:
                 self._taken[path], expanded[path], values = found
-                assumed[path] = _in_words(values)
+                assumed[path] = in_words(values)
         return assumed
 
     def _take_fullest(self, expanded: dict[str, Outcome]) -> None:
@@ -401,10 +401,6 @@ def _left(document: XmlDocument, candidate: Candidate) -> Iterator[str]:
 def _further(candidate: Candidate) -> range:
     """Return the numbers of the choices behind the first one."""
     return range(1, min(max(map(len, candidate.choices.values())), _CHOICES_LIMIT))
-
-
-def _in_words(args: Mapping[str, str]) -> str:
-    return " ".join(f"{name}:={value}" for name, value in args.items())
 
 
 def _needs_xacro(package: Package, candidate: Candidate) -> bool:

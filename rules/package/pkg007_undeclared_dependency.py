@@ -27,8 +27,8 @@ from checker.base.words import and_list
 from checker.finding import Fix, Place
 from checker.launch.ros2.graph import Ros2Launch
 from checker.launch.ros2.package_launch import built_by_ament
-from checker.launch.ros2.used_packages import used_packages
-from checker.package.dependencies import Use, duplicate_files, former_names, uses_in_ros2, uses_of
+from checker.launch.ros2.used_packages import every_use
+from checker.package.dependencies import Use, duplicate_files, former_names
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
@@ -83,11 +83,7 @@ def check(
         return
     others: dict[str, Use] = {}
     ament = built_by_ament(package)
-    uses = [
-        *uses_of(package, of_ros_1=not ament),
-        *(used_packages(launch) if launch is not None else ()),
-    ]
-    uses += uses_in_ros2(package) if ament else ()
+    uses = [*every_use(package, launch)]
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:

@@ -9,9 +9,7 @@ Source: REP 149, name; ament_index_python, `get_package_share_directory`; rospkg
 """
 
 from checker.launch.ros2.graph import Ros2Launch
-from checker.launch.ros2.package_launch import built_by_ament
-from checker.launch.ros2.used_packages import used_packages
-from checker.package.dependencies import uses_in_ros2, uses_of
+from checker.launch.ros2.used_packages import every_use
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -24,12 +22,7 @@ def check(package: Package, papers: Paperwork, launch: Ros2Launch | None) -> Fin
     """Report uses of the folder names of available packages, if no package has that name."""
     if papers.manifest is None:
         return
-    ament = built_by_ament(package)
-    for use in (
-        *uses_of(package, of_ros_1=not ament),
-        *(used_packages(launch) if launch is not None else ()),
-        *(uses_in_ros2(package) if ament else ()),
-    ):
+    for use in every_use(package, launch):
         name = use.package_name
         holder = package.named(name)
         if holder is None or holder.declared_name == name or holder.root.name != name:

@@ -11,6 +11,7 @@ Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 
 import re
 
+from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.files import ROOT
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
@@ -18,7 +19,6 @@ from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
-from checker.source.xml import XmlDocument
 
 _ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
 
@@ -84,14 +84,9 @@ def _without_file(manager: GazeboManager, package: Package) -> Findings:
 def _given_at_launch(manager: GazeboManager, package: Package) -> str:
     """Return what the xacro writes as the file, if a launch file may give it; else nothing."""
     stated = manager.plugin.element.child("parameters")
-    document = package.xml(stated.span.source.file) if stated is not None else None
-    if stated is None or not isinstance(document, XmlDocument):
-        return ""
-    line = stated.span.place().line
-    written = (it.text.value for it in document.elements if it.span.place().line == line)
-    names = [match for match in map(_ARGUMENT.fullmatch, written) if match]
-    words = package.workspace.launch_words
-    return next((it[0] for it in names if not words or it[1] in words), "")
+    written = written_element(stated).text.value if stated is not None else ""
+    named, words = _ARGUMENT.fullmatch(written), package.workspace.launch_words
+    return written if named and (not words or named[1] in words) else ""
 
 
 def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:

@@ -106,28 +106,22 @@ def _without_effect(
     return finding(parameter.key, message)
 
 
-def _arm(parameter: str) -> object:
+def _controller(kind: str, *parameters: str) -> object:
+    lines = "\n    ".join((f"type: {kind}", *parameters))
     return {
         "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
-        "config/arm.yaml": f"""drive_controller:
-  ros__parameters:
-    type: diff_drive_controller/DiffDriveController
-    left_wheel_names: [shoulder]
-    {parameter}
-""",
+        "config/arm.yaml": f"arm_controller:\n  ros__parameters:\n    {lines}\n",
     }
+
+
+def _arm(parameter: str) -> object:
+    kind = "diff_drive_controller/DiffDriveController"
+    return _controller(kind, "left_wheel_names: [shoulder]", parameter)
 
 
 def _group(interface: str, mark: str = "") -> object:
-    return {
-        "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
-        "config/arm.yaml": f"""arm_controller:
-  ros__parameters:
-    type: velocity_controllers/JointGroupVelocityController
-    joints: [shoulder]
-    interface_name: {interface}{mark}
-""",
-    }
+    kind = "velocity_controllers/JointGroupVelocityController"
+    return _controller(kind, "joints: [shoulder]", f"interface_name: {interface}{mark}")
 
 
 _MARK = "  # ^ R2C011"

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.parts import NotAvailable
 from checker.launch.ros2.graph import LaunchFaultKind, LaunchGraph, Ros2Launch
+from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -18,7 +19,6 @@ _PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 _YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
 _ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
 _ROS_2 = re.compile(r"""\$\((?:find-pkg-share|var)\s|<node\b[^>]{0,1000}\sexec\s{0,8}=""")
-_WORD = re.compile(r"[\w-]+")
 _CATKIN = re.compile(r"\bcatkin\b")
 _BUILT_BY_AMENT = re.compile(r"\bament_(?:cmake|python)\b|<build_type>\s{0,20}(?:ament_|cmake)")
 
@@ -74,10 +74,8 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
 
 
 def _names(holder: Package, file: str, package: Package) -> bool:
-    source, name = holder.read(file), package.declared_name
-    if not isinstance(source, SourceText) or name not in source.text:
-        return False
-    return name in _WORD.findall(source.text)
+    source = holder.read(file)
+    return isinstance(source, SourceText) and has_word(source.text, package.declared_name)
 
 
 def launch_files(package: Package) -> Iterator[str]:

@@ -14,12 +14,24 @@ from checker.launch.ros2.graph import (
     is_known,
     share_path,
 )
-from checker.package.dependencies import Use
+from checker.launch.ros2.package_launch import built_by_ament
+from checker.package.dependencies import Use, uses_in_ros2, uses_of
+from checker.package.package import Package
 from checker.source.text import Span
 
 _COMMAND = "$(command xacro "
 _XACRO = re.compile(r"(?<![.\w])xacro\b")
 """The program, and no suffix: what reads a MoveIt configuration runs xacro by itself."""
+
+
+def every_use(package: Package, launch: Ros2Launch | None) -> Iterator[Use]:
+    """Yield all packages that a package uses, whether it is of ROS 1 or of ROS 2."""
+    ament = built_by_ament(package)
+    yield from uses_of(package, of_ros_1=not ament)
+    if launch is not None:
+        yield from used_packages(launch)
+    if ament:
+        yield from uses_in_ros2(package)
 
 
 def used_packages(launch: Ros2Launch) -> Iterator[Use]:

@@ -172,8 +172,8 @@ class CompiledModel(Record, eq=False, dict=True):
         deepest: dict[tuple[int, int], float] = {}
         for contact in () if self.compiled.lacks_meshes else self.compiled.contacts:
             first, second = sorted(contact.bodies)
-            depth = max(-contact.distance, deepest.get((first, second), 0.0))
-            deepest[first, second] = depth
+            before = deepest.get((first, second), 0.0)
+            deepest[first, second] = max(-contact.distance, before)
         return deepest
 
 

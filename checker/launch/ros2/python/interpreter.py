@@ -219,7 +219,8 @@ class Interpreter:
             own = self.world.module(module, self, node) if module.strip(".") else None
         if own is not None:
             return [name for name in own.values if not name.startswith("_")]
-        return [path.removeprefix(f"{module}.") for path in FUNCTIONS if path.startswith(module)]
+        inside = f"{module}."
+        return [path.removeprefix(inside) for path in FUNCTIONS if path.startswith(inside)]
 
     def attribute(self, owner: Value, name: str, node: ast.AST) -> Value:
         """Return what `owner.name` represents."""
