@@ -97,7 +97,7 @@ def _get_others(package: Package, graphs: Sequence[LaunchGraph], path: str) -> b
     for graph, own in zip(graphs, files, strict=True):
         if graph.unread or any(_SPAWNS & {w.value for w in it.words} for it in graph.processes):
             return False
-        if any(_may_get(node, own.get(id(node)), path) for node in graph.nodes):
+        if any(_may_get(node, own.get(id(node)), path) for node in graph.nodes_and_spawns):
             return False
     return True
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from itertools import pairwise
 
 from checker.base.record import Record
 from checker.formats.sdf.includes import ModelIncludes
@@ -41,7 +40,7 @@ EVERY_SPAWN = (*SPAWNS, *CLASSIC_SPAWNS)
 
 def may_spawn(graph: LaunchGraph) -> bool:
     """Return whether a launch file spawns something into Gazebo, or includes Gazebo's own."""
-    programs = ((node.package.value, node.executable.value) for node in graph.nodes)
+    programs = ((node.package.value, node.executable.value) for node in graph.nodes_and_spawns)
     return any(map(is_gazebo_include, graph.includes)) or any(it in SPAWNS for it in programs)
 
 
@@ -98,7 +97,7 @@ class SpawnedReader:
         loaded = [*loaded_descriptions(self._package, graph)]
         robots: list[SpawnedRobot] = []
         unknown: list[str] = [*_spawned_otherwise(graph)]
-        for node in graph.nodes:
+        for node in graph.nodes_and_spawns:
             if (node.package.value, node.executable.value) not in spawns:
                 continue
             if node.starts is False:
@@ -161,15 +160,11 @@ class SpawnedReader:
 
 
 def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
-    """Yield what spawns robots of which nothing is known: launch files of Gazebo's, commands."""
+    """Yield launch files of Gazebo's that spawn robots of which nothing is known."""
     for include in graph.includes:
         target = share_path(include.target.value)
         if target and target.package in GAZEBO and not is_gazebo_include(include):
             yield f"what {target} spawns is not known"
-    for process in graph.processes:
-        words = [word.value for word in process.words]
-        if any(pair in SPAWNS for pair in pairwise(words)):
-            yield "what a command spawns is not known"
 
 
 def _descriptions_of(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:

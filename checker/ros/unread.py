@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from checker.launch.ros2.graph import Include, LaunchGraph, Process, display_path, share_path
 from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
 
-_QUIET_COMMANDS = tuple(
-    ("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")
+_QUIET_COMMANDS = (
+    *(("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")),
+    ("gz", "service"),
+    ("ign", "service"),
 )
 """Beginnings of commands that start no node and publish nothing."""
 

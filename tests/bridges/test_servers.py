@@ -121,15 +121,40 @@ def test_services_are_read(tmp_path: Path) -> None:
     assert not found.entries
 
 
-@pytest.mark.parametrize(
-    "action",
-    [
-        included("ros_gz_spawn_model.launch.py", '("topic", "robot_description")'),
-        'ExecuteProcess(cmd=["ros2", "run", "ros_gz_sim", "create", "-file", URDF])',
-    ],
-)
-def test_robots_that_are_spawned_otherwise_are_not_known(action: str, tmp_path: Path) -> None:
+def test_robots_that_a_launch_file_of_gazebo_spawns_are_not_known(tmp_path: Path) -> None:
+    action = included("ros_gz_spawn_model.launch.py", '("topic", "robot_description")')
     found = started(f"{GAZEBO} {action}", tmp_path)
 
     assert len(found.robots) == 1
     assert "spawns is not known" in found.unknown_robots[0]
+
+
+SERVICE = """"-s", "/world/empty/create", "--reqtype", "gz.msgs.EntityFactory", "--req" """
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        'cmd=["ros2", "run", "ros_gz_sim", "create", "-file", URDF, "-name", "second"]',
+        f"""cmd=["gz", "service", {SERVICE}, f'name: "second", sdf_filename: "{{URDF}}"']""",
+        f"""cmd=["ign", "service", {SERVICE}, ["sdf_filename: '", URDF, "' name: 'second'"]]""",
+        f"""cmd=["gz", "service", {SERVICE}, 'name: "second" sdf: "' + description + '"']""",
+        """cmd=["bash", "-c", "sleep 5; gz service -s /world/empty/create --req "
+            "'sdf_filename: \\"" + URDF + "\\", name: \\"second\\"'"]""",
+        """cmd=["gz service -s /world/empty/create --req 'sdf_filename: \\"" + URDF +
+            "\\" name: \\"second\\"'"], shell=True""",
+    ],
+)
+def test_robots_that_commands_spawn(command: str, tmp_path: Path) -> None:
+    found = started(f"{GAZEBO} ExecuteProcess({command})", tmp_path)
+
+    assert [each.name for each in found.robots] == ["rover", "second"]
+    assert not found.unknown_robots
+
+
+@pytest.mark.parametrize("asked", ["""'sdf_filename: "elsewhere.sdf"'""", """'sdf: "<sdf/>"'"""])
+def test_commands_that_spawn_what_is_not_known(asked: str, tmp_path: Path) -> None:
+    command = f'ExecuteProcess(cmd=["gz", "service", {SERVICE}, {asked}])'
+    found = started(f"{GAZEBO} {command}", tmp_path)
+
+    assert found.unknown_robots == ("what create spawns is not known",)

@@ -54,7 +54,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
     """
     allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}
     defaults = {a.name: a for a in graph.arguments if a.choices and a.default is not None}
-    for node in sorted(graph.nodes, key=lambda node: _RANKS[node.starts]):
+    for node in sorted(graph.nodes_and_spawns, key=lambda node: _RANKS[node.starts]):
         for text, parameter, span in _texts(node):
             for load, given in _described(package, text):
                 choices = {

@@ -276,9 +276,11 @@ class Process(Started, eq=False, kw_only=True):
 
     Attributes:
         words: The command line, taken apart as a shell does; a word may contain `$(`.
+        spawns: The node that puts the same model into Gazebo, if the command puts one there.
     """
 
     words: tuple[Located[str], ...]
+    spawns: Node | None = None
 
 
 class Include(Started, eq=False, kw_only=True):
@@ -361,6 +363,11 @@ class LaunchGraph(Record, eq=False, dict=True):
     used: frozenset[str] = frozenset()
     faults: tuple[LaunchFault, ...] = ()
     unread: tuple[Unread, ...] = ()
+
+    @property
+    def nodes_and_spawns(self) -> tuple[Node, ...]:
+        """The nodes, and those that do what commands do which put a model into Gazebo."""
+        return (*self.nodes, *(it.spawns for it in self.processes if it.spawns is not None))
 
 
 class Ros2Launch(Record, eq=False):

@@ -139,7 +139,8 @@ class LaunchedControl(Record, eq=False, dict=True):
         """True if it puts a robot into Gazebo."""
         return any(
             node.package.value == "ros_gz_sim" and node.executable.value == "create"
-            for node in self.nodes
+            for node in self.graph.nodes_and_spawns
+            if node.starts
         )
 
     @cached_property

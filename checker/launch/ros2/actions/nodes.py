@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from checker.launch.ros2.actions.conditions import read_conditions
 from checker.launch.ros2.actions.node_parameters import MOVEIT
 from checker.launch.ros2.actions.parts import (
@@ -16,6 +18,7 @@ from checker.launch.ros2.actions.parts import (
     texts_of,
     words_of,
 )
+from checker.launch.ros2.actions.spawn_commands import spawning_node
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import (
     LaunchFaultKind,
@@ -86,14 +89,11 @@ def process(visitor: Visitor, made: Made, context: Context) -> None:
     """Gather a command."""
     unread: list[Unread] = []
     words = tuple(words_of(made.values.get("cmd"), context, made.span, unread))
-    visitor.found.processes.append(
-        Process(
-            words=words,
-            conditions=context.conditions,
-            after=context.after,
-            span=made.span,
-        )
+    command = Process(
+        words=words, conditions=context.conditions, after=context.after, span=made.span
     )
+    spawns = spawning_node(command, as_line=made.values.get("shell") in (True, "true"))
+    visitor.found.processes.append(replace(command, spawns=spawns))
     visitor.found.unread += unread
     visitor.later_events(made, context)
 
