@@ -10,9 +10,11 @@ Source: Model Migration Guide, example spawner. No accepted package that we chec
 
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.launch.spawner.reader import Spawner
 from checker.launch.spawner.scope import Function
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
+from checker.source.text import Span
 
 EXPECTED = {
     "spawner": ["_name", "_modelURI", "_worldName", "_x", "_y", "_z", "_roll", "_pitch", "_yaw"],
@@ -48,11 +50,25 @@ def _judge(function: Function, expected: list[str]) -> Iterator[Finding]:
     call = f"the launcher calls {function.name!r} with {passed} arguments"
     if takes is not None and takes < passed:
         missing = ", ".join(expected[takes:])
-        yield finding(function, f"{call}, but it takes {takes}: {missing} is missing")
+        yield finding(
+            function,
+            f"{call}, but it takes {takes}: {missing} is missing",
+            fix=_completed(function, expected),
+        )
     elif function.required > passed:
         yield finding(
             function, f"{call}, but it requires {function.required}: the last ones need defaults"
         )
+
+
+def _completed(function: Function, expected: list[str]) -> Fix | None:
+    """Return the fix that appends parameters, where those that are there have the usual names."""
+    names, span = [parameter.name for parameter in function.parameters], function.span
+    if not names or names != expected[: len(names)] or len(names) != function.required:
+        return None
+    end = span.end - span.text.endswith(")")
+    more = "".join(f", {name}" for name in expected[len(names) :])
+    return Fix(Safety.UNSAFE, (Span(span.source, end, end).replacement(more),))
 
 
 _TEXTS = "  ''\nend\n"

@@ -11,9 +11,10 @@ Source: Model Migration Guide, example spawner.
 
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.launch.spawner.reader import Spawner
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
@@ -46,6 +47,7 @@ def _judge(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Iterator[Fi
             f"the spawn pose does not use {', '.join(missing)}: add "
             + " ".join(f"#{{{name}}}" for name in missing),
             key="missing",
+            fix=_completed(pose, wanted, spawned),
         )
         return
     words = [spawned.parameters_of(word) for word in spawned.words_of(pose.text_span)]
@@ -59,6 +61,19 @@ def _judge(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Iterator[Fi
                 key="order",
             )
             return
+
+
+def _completed(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Fix | None:
+    """Return the fix that writes coordinates over constants, the others being in their place."""
+    words = spawned.words_of(pose.text_span)
+    used = [spawned.parameters_of(word) for word in words]
+    if len(words) != len(wanted) or any(
+        word and name not in word for name, word in zip(wanted, used, strict=True)
+    ):
+        return None
+    pairs = zip(wanted, words, used, strict=True)
+    edits = [word.replacement(f"#{{{name}}}") for name, word, of in pairs if not of]
+    return Fix(Safety.UNSAFE, tuple(edits))
 
 
 def _spawner(pose: str) -> str:

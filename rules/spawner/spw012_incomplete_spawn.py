@@ -12,14 +12,18 @@ Source: Model Migration Guide, example spawner. No accepted package that we chec
 
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.launch.spawner.emitted_xml import SpawnedXml, models_of
 from checker.launch.spawner.launcher import WORLD as LAUNCHED_WORLD
 from checker.launch.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
+from checker.source.xml_insertion import insert_behind, insert_into
 
 FLAGS = {"is_performer": True, "allow_renaming": False}
 SEVERITY = {"is_performer": Severity.ERROR, "allow_renaming": Severity.WARNING}
+ORDER = ("name", "allow_renaming", "pose", "world", "is_performer")
+"""The entries of `<spawn>` in front of the robot, as the guide orders them."""
 WORLD = 2
 """Position of the world's name among the parameters of `spawner`."""
 
@@ -40,7 +44,12 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
                 yield finding(model, f"<{model.tag}> is not inside <sdf>, so nothing is spawned")
         world = spawn.child("world")
         if world is None or not world.text.stated:
-            yield finding(world or spawn, "<spawn> names no <world>")
+            entry = f"#{{{names[WORLD]}}}" if len(names) > WORLD and world is None else ""
+            yield finding(
+                world or spawn,
+                "<spawn> names no <world>",
+                fix=_with_entry(spawn, "world", entry) if entry else None,
+            )
         elif len(names) > WORLD and spawned.parameters_of(world.text.span).isdisjoint(
             {names[WORLD], LAUNCHED_WORLD}
         ):
@@ -57,7 +66,8 @@ def _judge_flags(spawn: Element) -> Iterator[Finding]:
         flag = spawn.child(tag)
         if flag is None:
             message = f"<spawn> has no <{tag}>{expected}</{tag}>"
-            yield finding(spawn, message, severity=SEVERITY[tag])
+            fix = _with_entry(spawn, tag, expected)
+            yield finding(spawn, message, severity=SEVERITY[tag], fix=fix)
         elif _TRUTH.get(flag.text.value.lower()) is not wanted:
             yield finding(
                 flag.text,
@@ -65,6 +75,14 @@ def _judge_flags(spawn: Element) -> Iterator[Finding]:
                 severity=SEVERITY[tag],
                 fix=replace_text(flag.text, expected, Safety.UNSAFE) if flag.text.stated else None,
             )
+
+
+def _with_entry(spawn: Element, tag: str, value: str) -> Fix:
+    """Return the fix that adds an entry behind those that come before it."""
+    line = f"<{tag}>{value}</{tag}>"
+    earlier = [child for child in spawn.children if child.tag in ORDER[: ORDER.index(tag)]]
+    edit = insert_behind(earlier[-1], [line]) if earlier else insert_into(spawn, [line])
+    return Fix(Safety.UNSAFE, (edit,))
 
 
 def _spawner(inside: str, mark: str = "") -> str:

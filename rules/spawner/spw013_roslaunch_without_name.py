@@ -7,12 +7,15 @@ Fix: append `world_name:=#{_worldName} name:=#{_name}` to the command.
 Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
+from collections.abc import Sequence
 from itertools import zip_longest
 
+from checker.finding import Fix
 from checker.launch.ros1.launch_file import LaunchCommand
 from checker.launch.spawner.emitted_xml import StartedXml
 from checker.launch.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.source.text import Span
 
 ARGUMENTS = (
     ("name", "_name", Severity.ERROR),
@@ -30,6 +33,7 @@ def check(spawner: Spawner, started: StartedXml) -> Findings:
         command = LaunchCommand.parse(element.text.value)
         if command is None:
             continue
+        words = started.words_of(element.text.span)
         what = f"roslaunch {command.package} {command.file}".replace("  ", " ")
         for (argument, usual, severity), sample, wanted in zip_longest(
             ARGUMENTS, EXECUTABLES_ARGUMENTS, parameters[: len(ARGUMENTS)]
@@ -42,7 +46,22 @@ def check(spawner: Spawner, started: StartedXml) -> Findings:
                 element.text,
                 f"{what} {had} {argument}:=#{{{wanted or usual}}}",
                 severity=severity,
+                fix=_passing(words, command, argument, wanted) if wanted else None,
             )
+
+
+def _passing(
+    words: Sequence[Span], command: LaunchCommand, argument: str, parameter: str
+) -> Fix | None:
+    """Return the fix that passes a parameter: over the constant, else behind the file."""
+    value = f"{argument}:=#{{{parameter}}}"
+    for word in words:
+        if word.text.startswith(f"{argument}:="):
+            return Fix(Safety.UNSAFE, (word.replacement(value),))
+        if word.text == command.file and argument not in command.arguments:
+            end = Span(word.source, word.end, word.end)
+            return Fix(Safety.UNSAFE, (end.replacement(f" {value}"),))
+    return None
 
 
 def _spawner(arguments: str) -> str:
