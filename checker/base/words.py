@@ -17,7 +17,8 @@ SLIP = 2
 """Characters that a misspelling adds, leaves out or changes; two change places."""
 
 
-def _is_slip(word: str, known: str) -> bool:
+def is_slip(word: str, known: str) -> bool:
+    """Return whether a word may be a misspelling of a known one."""
     if word.casefold() == known.casefold():
         return True
     changes = [
@@ -53,7 +54,7 @@ class Suggestions:
         """
         if word not in self._sure and self.closest(word) is not None:
             matches = get_close_matches(word[:200], self._known, n=len(self._known), cutoff=0.8)
-            slips = [known for known in matches if _is_slip(word, known)]
+            slips = [known for known in matches if is_slip(word, known)]
             self._sure[word] = slips[0] if len(slips) == 1 else None
         return self._sure.get(word)
 

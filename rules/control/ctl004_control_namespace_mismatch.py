@@ -11,8 +11,12 @@ a controller of type `joint_state_controller/JointStateController`.
 Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`; controller_manager, `spawner`.
 """
 
+from checker.finding import Fix, Safety
+from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import ControlSystem
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.ros.control.nodes import Spawned
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule, unchecked
+from checker.source.xml import Element
 
 
 @rule("CTL004", "control-namespace-mismatch", Severity.ERROR, Concern.INTERFACE)
@@ -41,7 +45,17 @@ def _parameters_elsewhere(control: ControlSystem) -> Findings:
             severity=Severity.WARNING if control.unread else None,
             key=f"{spawned.namespace} {configured.namespace}",
             related=[(configured, f"loaded in namespace {configured.namespace!r}")],
+            fix=_moved(spawned, configured.namespace),
         )
+
+
+def _moved(spawned: Spawned, namespace: str) -> Fix | None:
+    """Return the fix that starts a spawner in a namespace, where the node states its own."""
+    node = spawned.node.span.holder
+    stated = node.attribute("ns") if isinstance(node, Element) else None
+    if stated is None or resolve_name(stated.value, "/") != spawned.namespace:
+        return None
+    return replace_text(stated, namespace, Safety.UNSAFE)
 
 
 def _manager_elsewhere(control: ControlSystem) -> Findings:

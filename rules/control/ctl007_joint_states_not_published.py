@@ -12,9 +12,13 @@ Source: robot_state_publisher (subscribes to `joint_states`); joint_state_contro
 
 from collections.abc import Iterable
 
+from checker.finding import Fix, Safety
 from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import ControlLaunch, ControlSystem
+from checker.ros.control.nodes import StateListener
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.xml import Element
+from checker.source.xml_insertion import append_to, with_attributes
 
 
 @rule("CTL007", "joint-states-not-published", Severity.ERROR, Concern.INTERFACE)
@@ -34,7 +38,20 @@ def check(control: ControlSystem) -> Findings:
                 listener,
                 f"{listener.node.type} {listener.node.name!r} listens to {listener.topic}, but "
                 f"the joint states are published on {', '.join(sorted(topics))}",
+                fix=_remapped(listener, *topics) if len(topics) == 1 else None,
             )
+
+
+def _remapped(listener: StateListener, topic: str) -> Fix | None:
+    """Return the fix that lets a node listen to a topic: in its remap, else in a new one."""
+    element = listener.span.holder
+    if not isinstance(element, Element):
+        return None
+    if element.tag == "remap":
+        edits = [each.edit for each in with_attributes(element, {"to": topic})]
+        return Fix(Safety.UNSAFE, tuple(edits))
+    line = f'<remap from="joint_states" to="{topic}"/>'
+    return Fix(Safety.UNSAFE, (append_to(element, [line]),))
 
 
 def _topics(control: ControlSystem, launches: Iterable[ControlLaunch]) -> frozenset[str]:

@@ -16,6 +16,7 @@ from checker.finding import Fix
 from checker.ros.control.controllers import ControlSystem
 from checker.ros.control.nodes import SpawnedModel
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
+from checker.source.text import Span
 
 FORMATS = ("-urdf", "-sdf")
 SOURCES = ("-param", "-file", "-database", "-stdin")
@@ -31,20 +32,31 @@ def check(control: ControlSystem) -> Findings:
         if not model.is_known:
             yield unchecked(f"what node {model.node.name} spawns is known only at launch")
             continue
-        yield from _incomplete(model)
+        yield from _incomplete(control, model)
         yield from _without_parameter(control, model)
         yield from _misspelt_names(control, model)
         yield from _elsewhere(control, model)
 
 
-def _incomplete(model: SpawnedModel) -> Findings:
+def _incomplete(control: ControlSystem, model: SpawnedModel) -> Findings:
     needs = (("-model <name>", ("-model",)), (" or ".join(FORMATS), FORMATS))
     for words, options in (*needs, (" or ".join(SOURCES[:2]), SOURCES)):
         if not any(option in model.options for option in options):
             yield finding(
                 model,
                 f"node {model.node.name!r} calls spawn_model without {words}, so it spawns nothing",
+                fix=_named(control, model) if options == ("-model",) else None,
             )
+
+
+def _named(control: ControlSystem, model: SpawnedModel) -> Fix | None:
+    """Return the fix that calls the model like the only robot, unless another one is."""
+    robots = {robot.value for robot in control.robots} - {each.model for each in control.models}
+    source = model.options.get("-param") or model.options.get("-file")
+    if source is None or len(robots) != 1 or len(control.robots) != 1:
+        return None
+    end = Span(source.span.source, source.span.end, source.span.end)
+    return Fix(Safety.UNSAFE, (end.replacement(f" -model {robots.pop()}"),))
 
 
 def _without_parameter(control: ControlSystem, model: SpawnedModel) -> Findings:

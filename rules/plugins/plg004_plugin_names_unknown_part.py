@@ -13,7 +13,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, misspelt, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, misspelt, rename, rule, unchecked
 
 
 @rule("PLG004", "plugin-names-unknown-part", Severity.ERROR, Concern.INTERFACE)
@@ -32,12 +32,16 @@ def check(robot: Robot) -> Findings:
             for named in plugin.at(path):
                 if _exists(robot, plugin, named.value, parts[kind]):
                     continue
-                yield misspelt(
-                    named,
+                message = (
                     f"{plugin.class_name} names {kind} {named.value!r}, "
-                    f"which {robot.name.value!r} does not have",
-                    suggestions[kind],
+                    f"which {robot.name.value!r} does not have"
                 )
+                joints = _joints_of(robot, named.value) if kind == "joint" else []
+                if len(joints) == 1:
+                    message += f": it is a link, whose joint is {joints[0]!r}"
+                    yield finding(named, message, fix=rename(named, joints[0]))
+                else:
+                    yield misspelt(named, message, suggestions[kind])
 
 
 def _exists(robot: Robot, plugin: Plugin, name: str, names: frozenset[str]) -> bool:
@@ -45,6 +49,11 @@ def _exists(robot: Robot, plugin: Plugin, name: str, names: frozenset[str]) -> b
     if scope + name in names or name in names:
         return True
     return "::" in name and bool(robot.unresolved_includes)
+
+
+def _joints_of(robot: Robot, link: str) -> list[str]:
+    """Return the joints that carry a link."""
+    return [joint.name.value for joint in robot.joints if joint.child.value == link]
 
 
 GOOD = [
@@ -62,6 +71,14 @@ BAD = [
 <plugin filename="libignition-gazebo-diff-drive-system.so"
         name="ignition::gazebo::systems::DiffDrive">
   <left_joint>left_wheel</left_joint>  <!-- ^ PLG004 -->
+</plugin>
+""",
+    """
+<link name="wheel"/>
+<joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
+<plugin filename="libignition-gazebo-diff-drive-system.so"
+        name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>wheel</left_joint>  <!-- ^ PLG004 -->
 </plugin>
 """,
     """

@@ -7,6 +7,7 @@ Fix: start the topic with `/model/#{_name}/`.
 Source: Model Migration Guide, example spawner. No accepted package that we checked has this fault.
 """
 
+import re
 from collections.abc import Iterator
 
 from checker.launch.spawner.emitted_xml import SpawnedXml
@@ -14,7 +15,7 @@ from checker.launch.spawner.reader import Spawner
 from checker.model.components import Plugin
 from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 _TOPICS = (
@@ -29,6 +30,9 @@ _TOPICS = (
     "robot_base_twist_topic",
 )
 _OTHERS = ("LinearBatteryPlugin", "Breadcrumbs", "MulticopterMotorModel", "GasDetector")
+
+
+_FIXED_NAME = re.compile(r"\A/model/[^/]+(?=/)")
 
 
 @rule("PLG008", "topic-without-robot-name", Severity.ERROR, Concern.INTERFACE)
@@ -46,6 +50,13 @@ def check(robot: Robot, spawner: Spawner, spawned: SpawnedXml) -> Findings:
                     topic,
                     f"topic {topic.value!r} of {plugin.class_name} does not contain the robot's "
                     f"name, so two robots share it",
+                    fix=replace_text(
+                        topic,
+                        _FIXED_NAME.sub(f"/model/#{{{name}}}", topic.value),
+                        Safety.UNSAFE,
+                    )
+                    if emitted and _FIXED_NAME.match(topic.value)
+                    else None,
                 )
 
 

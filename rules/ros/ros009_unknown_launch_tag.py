@@ -12,7 +12,7 @@ that end before their attributes.
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.base.words import Suggestions
+from checker.base.words import Suggestions, is_slip
 from checker.launch.ros1.attributes import LaunchTag, launch_tags, left_outside
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
@@ -82,6 +82,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
         near, sure = names.closest(name), names.correction(name)
         if near is None and len(missing) == 1:
             near = missing[0]
+            sure = near if is_slip(name, near) else None
         missing = [attribute for attribute in missing if attribute != near]
         span = element.attribute_name_span(name)
         yield finding(
