@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
 from xml.parsers import expat
 
+from checker.finding import Edit
 from checker.source.text import SourceText, Span
 from checker.source.xml_positions import XmlFault
 
@@ -162,6 +163,8 @@ _CLOSING = re.compile(r"[^\s>/<]{1,100}")
 _CLOSED_EARLY = re.compile(
     r"<[A-Za-z_][\w:.-]{0,100}\s*>\s{0,100}[\w:.-]{1,100}\s{0,9}=\s{0,9}[\"']"
 )
+_ALONE = re.compile(r"(?P<tag><[^<>]{1,1000}>)\s*(?P<content>[^<>]{0,1000}?)\s*")
+"""A start tag, and text up to the next tag."""
 _NEAR = 200
 """Characters around a fault in which its cause is looked for."""
 
@@ -203,7 +206,20 @@ def _mismatched(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
     opened = still_open[-1]
     message = f"</{name}> is here while <{names[-1]}> of line {_line(source, opened)} is still open"
     hint = _never_closed(source, opened, at)
-    return XmlFault(span, message, hint or _wrong_name(name, names))
+    edit = _bracket(source, opened, at) if hint else _closing(source, names, still_open, at)
+    return XmlFault(span, message, hint or _wrong_name(name, names), edit)
+
+
+def _closing(source: SourceText, names: list[str], opened: list[int], at: int) -> Edit | None:
+    """Return the edit of a misspelt end tag, or of an element without others that has none."""
+    name, text = source.text[at : source.text.find(">", at)].rstrip(), source.text[: at - len("</")]
+    if name not in names and get_close_matches(name, names[-1:]):
+        return Span(source, at, at + len(name)).replacement(names[-1])
+    alone = _ALONE.fullmatch(text, opened[-1])
+    if alone is None or names[-2:-1] != [name]:
+        return None
+    end = alone.end("content") if alone["content"] else alone.end("tag") - 1
+    return Span(source, end, end).replacement(f"</{names[-1]}>" if alone["content"] else "/")
 
 
 def _wrong_name(name: str, names: list[str]) -> str:
@@ -230,10 +246,21 @@ def _never_closed(source: SourceText, opened: int, at: int) -> str:
     name = _name(source, opened)
     if _CLOSED_EARLY.match(source.text, opened):
         return f"<{name}> is closed before its attributes"
-    lost = re.compile(rf"(?<!<)/{re.escape(name)}>").search(source.text, opened, at)
+    lost = _lost_end_tag(source, opened, at)
     if lost is None:
         return ""
     return f"write </{name}> for {lost.group()} in line {_line(source, lost.start())}"
+
+
+def _bracket(source: SourceText, opened: int, at: int) -> Edit | None:
+    """Return the edit that gives an end tag its `<`."""
+    lost = _lost_end_tag(source, opened, at)
+    return Span(source, lost.start(), lost.start()).replacement("<") if lost else None
+
+
+def _lost_end_tag(source: SourceText, opened: int, at: int) -> re.Match[str] | None:
+    name = re.escape(_name(source, opened))
+    return re.compile(rf"(?<!<)/{name}>").search(source.text, opened, at)
 
 
 def _name(source: SourceText, opened: int) -> str:

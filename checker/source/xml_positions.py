@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from checker.base.record import Record
+from checker.finding import Edit
 from checker.source.text import Span
 
 
@@ -31,11 +32,15 @@ class TagPosition:
 
 
 class XmlFault(Record, eq=False):
-    """Reason and place of a fault for which a text is not well-formed XML."""
+    """Reason and place of a fault for which a text is not well-formed XML.
+
+    `edit` corrects it, where only one correction is possible.
+    """
 
     span: Span
     message: str
     hint: str = ""
+    edit: Edit | None = None
 
 
 class LocatedTags(Record):

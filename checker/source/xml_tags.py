@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from checker.base.record import Record
+from checker.finding import Edit
 from checker.source.text import SourceText, Span
 from checker.source.xml_errors import (
     explain,
@@ -58,7 +59,14 @@ def namespace_faults(document: XmlDocument) -> Iterator[XmlFault]:
                 span,
                 f"the prefix {prefix!r} is not declared",
                 f'add xmlns:{prefix}="{uri}" to the root element',
+                _declaring(document.root, prefix) if prefix in _KNOWN else None,
             )
+
+
+def _declaring(root: Element, prefix: str) -> Edit:
+    """Return the edit that declares a prefix behind the attributes of the root element."""
+    end = root.position.start + len(root.span.text.rstrip("/>").rstrip())
+    return Span(root.source, end, end).replacement(f' xmlns:{prefix}="{_KNOWN[prefix]}"')
 
 
 def _names(element: Element) -> Iterator[tuple[str, Span]]:

@@ -17,6 +17,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.files import NotReadable, TooLarge
+from checker.finding import Fix, Safety
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -47,7 +48,8 @@ def check(package: Package) -> Findings:
             yield from _unread_encoding(path, document.source)
             for fault in document.tolerated:
                 severity = Severity.INFO if is_lenient(document.source) else None
-                yield finding(fault.span, _message(path, fault), severity=severity)
+                fix = Fix(Safety.UNSAFE, (fault.edit,)) if fault.edit else None
+                yield finding(fault.span, _message(path, fault), severity=severity, fix=fix)
 
 
 def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
@@ -66,7 +68,8 @@ def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
-        yield finding(fault.span, _message(path, fault))
+        fix = Fix(Safety.UNSAFE, (fault.edit,)) if fault.edit else None
+        yield finding(fault.span, _message(path, fault), fix=fix)
 
 
 def _message(path: str, fault: XmlFault) -> str:
@@ -92,6 +95,28 @@ BAD = [
   </world>  <!-- ^ SDF001 -->
 </sdf>
 """
+    },
+    {"worlds/example.sdf": "<sdf version='1.6'>\n<world>\n</wrld><!-- ^ SDF001 -->\n</sdf>\n"},
+    {
+        "launch/view.launch": """<launch>
+  <node name="rviz" pkg="rviz" type="rviz">
+</launch>  <!-- ^ SDF001 -->
+"""
+    },
+    {
+        "worlds/example.sdf": """<sdf version="1.6">
+  <world name="w">
+    <gravity>0 0 -9.8
+  </world>  <!-- ^ SDF001 -->
+</sdf>
+"""
+    },
+    {
+        "@urdf": True,
+        "urdf/a.urdf.xacro": """<robot name="a">
+  <xacro:property name="b" value="1"/>  <!-- ^ SDF001 -->
+</robot>
+""",
     },
     {
         "launch/description.launch": """<launch>

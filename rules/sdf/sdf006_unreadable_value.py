@@ -25,7 +25,18 @@ from checker.formats.sdf.document import (
 )
 from checker.formats.sdf.poses import in_degrees
 from checker.formats.sdf.schema import ElementType, type_of
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.model.values import parse_number
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+)
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -33,6 +44,10 @@ _Attributes = Mapping[str, Sequence[str]]
 """Attribute name → type, default, required, as the schema has them."""
 _COMMA = re.compile(r"(?<=[\d.]),(?=\s|\Z)")
 """What `std::stod`, with which libsdformat reads each word of a pose since 12, leaves out."""
+
+
+_LOOKALIKES = str.maketrans("OoIl", "0011")
+"""Letters that look like digits."""
 
 
 @rule("SDF006", "unreadable-value", Severity.ERROR, Concern.ROBOT)
@@ -93,7 +108,10 @@ def _text(
     for fault in faults:
         lossy = is_taken if by_word else fault.lossy
         severity = Severity.WARNING if lossy else None
-        yield finding(fault.span, f"<{element.tag}> {fault.problem}", severity=severity)
+        digits = fault.span.text.translate(_LOOKALIKES)
+        is_mistyped = digits != fault.span.text and parse_number(digits) is not None
+        fix = replace_text(fault.span, digits, Safety.UNSAFE) if is_mistyped else None
+        yield finding(fault.span, f"<{element.tag}> {fault.problem}", severity=severity, fix=fix)
 
 
 def _attributes(

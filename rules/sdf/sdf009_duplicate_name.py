@@ -18,11 +18,13 @@ Source: SDFormat specification 1.7, "unique sibling names" and "reserved names";
 
 import re
 from collections.abc import Iterator
+from itertools import count
 
+from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument, sdf_version
 from checker.formats.sdf.names import KINDS, UNIQUE_SINCE, renames_of
 from checker.formats.sdf.schema import ElementType
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -84,7 +86,15 @@ def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Fin
             message,
             severity=None if _is_refused(parent, child, twin, version) else Severity.WARNING,
             related=[(_name(twin) or twin, "the first with this name")],
+            fix=_numbered(parent, name) if child.tag == twin.tag == "visual" else None,
         )
+
+
+def _numbered(parent: Element, name: Located[str]) -> Fix | None:
+    """Return the fix that puts a number behind the name of a visual, to which nothing refers."""
+    taken = {child.get("name") for child in parent.children}
+    free = (new for number in count(2) if (new := f"{name.value}_{number}") not in taken)
+    return rename(name, next(free))
 
 
 def _is_refused(parent: Element, child: Element, twin: Element, version: Version) -> bool:
@@ -135,6 +145,14 @@ BAD = [
 <link name="hinge"/>
 <joint name="hinge" type="fixed"><parent>base_link</parent><child>hinge</child></joint>  <!-- ^ SDF009 -->
 """,  # noqa: E501
+    """
+<link name="arm">
+  <visual name="body"><geometry><sphere><radius>0.1</radius></sphere></geometry></visual>
+  <visual name="body">  <!-- ^ SDF009 -->
+    <geometry><sphere><radius>0.2</radius></sphere></geometry>
+  </visual>
+</link>
+""",
     '<link name="__model__"/>  <!-- ^ SDF009 -->',
     '<link name="arm::wrist"/>  <!-- ^ SDF009 -->',
     {

@@ -8,16 +8,29 @@ a world; let `placement_frame` name a frame of the model.
 Source: SDFormat specification 1.7, "Pose frame semantics", and 1.8, model/@placement_frame.
 """
 
+from checker.finding import Fix, Safety
 from checker.formats.sdf.document import SdfDocument
 from checker.formats.sdf.frame_faults import world_frame_faults
+from checker.model.faults import Fault
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.xml import Element
 
 
 @rule("SDF017", "unknown-frame-of-world", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report unknown frames, and frames that refer to each other in a circle."""
     for fault in world_frame_faults(sdf.document):
-        yield finding(fault.span, fault.message)
+        yield finding(fault.span, fault.message, fix=_without_frame(fault))
+
+
+def _without_frame(fault: Fault) -> Fix | None:
+    """Return the fix that takes the frame from the pose of an outermost model."""
+    pose = fault.span.holder
+    if not isinstance(pose, Element) or pose.path.count("/") != 2 or pose.tag != "pose":
+        return None
+    names = (name for name in pose.attributes if name in ("frame", "relative_to"))
+    spans = (pose.whole_attribute_span(name) for name in names)
+    return Fix(Safety.UNSAFE, tuple(span.replacement("") for span in spans))
 
 
 def _world(content: str) -> str:

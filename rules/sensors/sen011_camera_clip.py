@@ -16,6 +16,7 @@ RgbdCameraSensor: both pictures are drawn within `<clip>`, then depth is cut at 
 
 from collections.abc import Iterator
 
+from checker.formats.corrections import rewrite
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.camera import Camera, Clip
@@ -68,6 +69,7 @@ def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
             f"camera {sensor.name.value!r} {what} from {near.value:g} m to {far.value:g} m, an "
             "empty range; expected near below far",
             severity=Severity.ERROR,
+            fix=rewrite([(near, far.value), (far, near.value)]) if far.value > 0.0 else None,
         )
         return
 

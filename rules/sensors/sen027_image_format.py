@@ -14,7 +14,17 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    respelling,
+    rule,
+)
 
 _SHOWN = 40
 
@@ -41,6 +51,8 @@ def check(robot: Robot, context: Context) -> Findings:
             continue
         message = f"camera {sensor.name.value!r} has format {format_name[:_SHOWN]!r}{fault}"
         fix = respelling(camera.format, suggestions) if format_name not in names else None
+        if sensor.kind is SensorType.CAMERA and len(rendered) == 1:
+            fix = replace_text(camera.format, _format_list(rendered, names), Safety.UNSAFE)
         yield finding(camera.format, message, severity=severity, key=format_name, fix=fix)
 
 
