@@ -35,6 +35,10 @@ def begin(subject: Subject, kinds: Set[str]) -> None:
     if PHYSICS.is_installed:
         if kinds & _WITH_MESHES:
             _begin_meshes(subject)
+        if type_name(MassProperties) in kinds:
+            # Pinocchio is loaded while the meshes are read, which the next parts wait for.
+            with suppress(Exception):
+                subject.one(MassProperties)
         if kinds & TRIALS:
             trials = subject.one(RobotTrials)
             if isinstance(trials, RobotTrials):

@@ -45,8 +45,8 @@ def _without_kept(line: Corrected) -> Corrected:
     return replace(line, before="", after=line.after.removeprefix(line.before).strip())
 
 
-_ELEMENTS = re.compile(r"<.*(?:/>|</[^<>]*>)")
-"""A line of whole elements: it does not say into what the added lines go."""
+_ELEMENTS = re.compile(r"(?:<.*)?(?:/>|</[^<>]*>)")
+"""A line that ends an element: it does not say into what the added lines go."""
 
 
 def _after(edits: Sequence[Edit]) -> str | None:

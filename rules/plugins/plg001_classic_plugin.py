@@ -63,7 +63,8 @@ def check(
     )
     for plugin, known in found:
         needless = host.robot is None and known.get("action") == "remove"
-        advice = _advice(known) if context.is_subt else _later_advice(known)
+        entry = _for_its_sensor(plugin, known)
+        advice = _advice(entry) if context.is_subt else _later_advice(entry)
         yield finding(
             plugin.filename,
             f"{plugin.filename.value} is a plugin of Gazebo {_whose(context)}: {advice}",
@@ -87,6 +88,15 @@ def _is_loaded(
     spawned = {each.robot.document.source.file for it in starting for each in it.robots}
     unknown = not spawned or any(it.unknown_robots for it in starting)
     return unknown or robot.document.source.file in spawned
+
+
+def _for_its_sensor(plugin: Plugin, entry: dict[str, Any]) -> dict[str, Any]:
+    """Return the entry of a plugin; one for cameras publishes points of a depth camera, too."""
+    sensor, instead = plugin.element.parent, entry.get("replacement") or {}
+    is_depth = sensor is not None and (sensor.get("type") or "").startswith("depth")
+    if not is_depth or instead.get("sensor_type") != "camera":
+        return entry
+    return {**entry, "replacement": {**instead, "sensor_type": "rgbd_camera"}}
 
 
 def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:

@@ -21,7 +21,7 @@ from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
-from checker.rule import Concern, Finding, Findings, Severity, finding, rename, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 from checker.rulebook.example_parts import GAZEBO, MOCK, model_beside, ros2_control
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {
@@ -31,7 +31,7 @@ _CLASSES: Mapping[str, tuple[str, ...]] = {
     ),
     "ign_ros2_control-system": ("ign_ros2_control::IgnitionROS2ControlPlugin",),
 }
-"""The names that a plugin of a library may have."""
+"""The names that a plugin of a library may have; the last one is that of Fortress."""
 _PACKAGES: Mapping[str, tuple[str, ...]] = {
     "gz_ros2_control-system": ("gz_ros2_control", "ign_ros2_control"),
     "ign_ros2_control-system": ("ign_ros2_control",),
@@ -50,13 +50,13 @@ _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in name
 
 
 @rule("R2C005", "hardware-simulator-mismatch", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, package: Package) -> Findings:
+def check(control: RobotControl, package: Package, context: Context) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
     Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings.
     """
     for manager in control.managers:
-        yield from _names(manager)
+        yield from _names(manager, context.release)
         yield from _another_library(control, manager)
     # With another value of an argument the robot may be the real one, and no Gazebo runs.
     if control.by_default:
@@ -80,14 +80,15 @@ def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[
             )
 
 
-def _names(manager: GazeboManager) -> Iterator[Finding]:
+def _names(manager: GazeboManager, release: str) -> Iterator[Finding]:
     name, classes = manager.plugin.name, _CLASSES.get(manager.library)
     if classes is not None and name.value not in classes:
+        meant = classes[-1 if release == "fortress" else 0]
         yield finding(
             name,
             f"plugin of {manager.plugin.filename.value} is named {name.value!r}, which is not a "
-            f"class of it: expected {classes[0]}",
-            fix=rename(name, classes[0]),
+            f"class of it: expected {meant}",
+            fix=rename(name, meant),
         )
 
 

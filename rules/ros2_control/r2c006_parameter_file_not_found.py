@@ -47,7 +47,7 @@ def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings
         yield finding(
             file.text,
             f"{file.text.value} is on its author's machine, and Gazebo finds it on no other: "
-            "expand a xacro file with $(find PACKAGE)/… at launch",
+            "write $(find PACKAGE)/… in a xacro file, and expand that at launch",
         )
     elif file.path is None and file.package:
         yield from _elsewhere(file, package, papers)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from checker.physics.mass.arm_loads import arm_loads, load_bounds
+from checker.physics.mass.arm_loads import ArmLoads, arm_loads, load_bounds
 from checker.physics.mass.robot_mass import weigh
 from tests.model.robots import sdf
 
@@ -19,7 +19,18 @@ UPPER, LOWER = 1.2, 0.25
 def loads(
     elbow: str = "", payload: float = 0.0, kind: str = "revolute", axis: str = "0 1 0"
 ) -> Mapping[str, float]:
-    """Return the largest loads of an arm that hangs down at 0; all motors are weak."""
+    """Return the largest loads of the joints."""
+    arms = _arms(elbow, kind, axis)
+    assert not arms.unknown
+    assert arms.tool == "hand"
+    found = list(arms.loads(payload))
+    bounds = load_bounds(arms.masses, arms.tool, payload)
+    assert all(load.effort <= bounds[load.joint] * (1 + 1e-9) for load in found)
+    return {load.joint.name.value: load.effort for load in found}
+
+
+def _arms(elbow: str, kind: str, axis: str) -> ArmLoads:
+    """Return an arm that hangs down at 0; all motors are weak."""
     robot = sdf(
         f"""
 <link name="base"><inertial><mass>50</mass></inertial>
@@ -35,13 +46,7 @@ def loads(
   <axis><xyz>{axis}</xyz><limit>{elbow}<effort>0.01</effort></limit></axis></joint>
 <joint name="wrist" type="fixed"><parent>lower</parent><child>hand</child></joint>"""
     )
-    arms = arm_loads(weigh(robot))
-    assert not arms.unknown
-    assert arms.tool == "hand"
-    found = list(arms.loads(payload))
-    bounds = load_bounds(arms.masses, arms.tool, payload)
-    assert all(load.effort <= bounds[load.joint] * (1 + 1e-9) for load in found)
-    return {load.joint.name.value: load.effort for load in found}
+    return arm_loads(weigh(robot))
 
 
 def test_an_arm_is_stretched_out() -> None:
@@ -68,6 +73,11 @@ def test_a_slide_reaches_out() -> None:
     reach = math.hypot(UPPER + LOWER, 0.5)
     assert found["shoulder"] == pytest.approx(G * reach, rel=1e-4)
     assert found["elbow"] == pytest.approx(G, rel=1e-4)
+
+
+def test_angles_of_endless_joints_are_the_nearest_to_zero() -> None:
+    poses = [load.pose for load in _arms("", "continuous", "0 1 0").loads()]
+    assert max(abs(angle) for pose in poses for angle in pose.values()) <= math.pi + 1e-9
 
 
 _FREE = {"x": "prismatic", "y": "prismatic", "z": "prismatic", "rx": "revolute", "ry": "revolute"}

@@ -151,9 +151,9 @@ def _candidates(each: _Coordinate, load: Callable[[float], float]) -> Iterator[f
         # load(x) = c + a·cos x + b·sin x
         cosine, sine = (2 * first - second - third) / 3, (second - third) / math.sqrt(3)
         peak = math.atan2(sine, cosine)
-        for turns in range(-2, 3):
-            if each.low <= (extreme := peak + math.pi * turns) <= each.high:
-                yield extreme
+        extremes = (peak + math.pi * turns for turns in range(-2, 3))
+        # Nearest to 0 first: of equal loads, the first is kept.
+        yield from (it for it in sorted(extremes, key=abs) if each.low <= it <= each.high)
 
 
 def _coordinates(robot: Robot, built: PinModel) -> Iterator[_Coordinate]:
