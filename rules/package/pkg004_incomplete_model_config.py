@@ -4,8 +4,8 @@ Gazebo opens the file that `<sdf>` names; of several, the one with the newest ve
 supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
 missing, it is a warning. Fuel shows the other entries, including the contact of the author.
 
-Fix: name the model file in `<sdf version="1.6">model.sdf</sdf>`, and add name, version, author with
-name and email, and description.
+Fix: add what is missing of name, version, author with name and email, description, and
+`<sdf version="…">model.sdf</sdf>` with the version that the model file states, for SubT 1.6.
 Source: Gazebo, "Model structure and requirements"; Model Migration Guide, step 5.
 """
 
@@ -97,15 +97,19 @@ def _missing_files(
         )
 
 
-def _model_file_fix(package: Package, version: str) -> Fix | None:
-    """Return the fix that writes the package's model file."""
-    document, model = package.xml("model.config"), own_model(package)
-    if len(package.index.with_suffix(".sdf")) != 1:
+def _model_file_fix(package: Package, expected: str) -> Fix | None:
+    """Return the fix that writes the package's model file, with its version."""
+    config, path = package.xml("model.config"), own_model(package)
+    if path is None or len(package.index.with_suffix(".sdf")) != 1:
         return None
-    if model is None or not version or not isinstance(document, XmlDocument):
+    model = package.xml(path)
+    if not (isinstance(config, XmlDocument) and isinstance(model, XmlDocument)):
         return None
-    line = f'<sdf version="{version}">{escape(model, quote=False)}</sdf>'
-    return Fix(Safety.UNSAFE, (append_to(document.root, [line]),))
+    version = expected or model.root.get("version")
+    if not version:
+        return None
+    line = f'<sdf version="{version}">{escape(path, quote=False)}</sdf>'
+    return Fix(Safety.UNSAFE, (append_to(config.root, [line]),))
 
 
 def _missing_parts(config: ModelConfig) -> Iterator[str]:
@@ -127,6 +131,7 @@ _REST = f"<name>Rover</name><version>1.0</version>{_AUTHOR}<description>A rover<
 GOOD = [{"model.config": f'<model>{_REST}<sdf version="1.6">model.sdf</sdf></model>'}]
 BAD = [
     {"model.config": f"{_START}{_REST}</model>"},
+    {"@profile": "gazebo-harmonic", "model.config": f"{_START}{_REST}</model>"},
     {
         "model.config": f"""<model>{_REST.replace("@", "@x.").replace("<name>A", "<name>TODO")}
 <sdf version="1.6">model.sdf</sdf></model>
