@@ -17,7 +17,7 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, place_shapes, union
 from checker.model.robot import Robot
-from checker.model.tree import WORLD, LinkTree, link_tree
+from checker.model.tree import WORLD, LinkTree
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _EQUAL = 1e-6
@@ -92,7 +92,7 @@ def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> l
 
 def _stands_alone(robot: Robot, group: Sequence[Placed]) -> bool:
     """Return whether a group is a mechanism on a base of its own, such as one of two arms."""
-    tree, links = link_tree(robot), {piece.link.scoped_name for piece in group}
+    tree, links = robot.tree, {piece.link.scoped_name for piece in group}
     wheels = {wheel.scoped_name for wheel in robot.wheels}
     roots = _roots_without_shapes(tree)
     ties = [tie for tie in tree.ties if tie.child in links]
