@@ -54,18 +54,19 @@ def usual_profile(package: Package) -> str:
 def ros_2_package(package: Package) -> Package | None:
     """Return the package of ROS 2 that a package is, or that a model or file is in."""
     manifest = None if package.only else package.xml("package.xml")
-    around = None if isinstance(manifest, XmlDocument) else _enclosing(package)
+    around = None if isinstance(manifest, XmlDocument) else package_around(package)
     holders = (around, package)
     return next((each for each in holders if each and usual_profile(each) == ROS_2), None)
 
 
 def _usual_around(package: Package) -> str:
     """Return the profile of the package that a model or file is in; empty without one."""
-    whole = _enclosing(package)
+    whole = package_around(package)
     return usual_profile(whole) if whole is not None else ""
 
 
-def _enclosing(package: Package) -> Package | None:
+def package_around(package: Package) -> Package | None:
+    """Return the available package that a model folder, or a single file, is in."""
     folder = package.root if package.only else package.root.parent
     around = enclosing_package(folder, _LEVELS)
     whole = package.workspace.package(around.name) if around else None

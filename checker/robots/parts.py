@@ -27,6 +27,7 @@ from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.robots.driven_elsewhere import driving_file
 from checker.robots.expanded_sdf import expanded_model
+from checker.robots.unspawned import unspawned
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
@@ -38,9 +39,15 @@ _WITHOUT_ROBOT = {
 
 
 class ModelFile(Record, eq=False):
-    """The model file; of a package whose robots URDF files describe, the first of these."""
+    """The model file; of a package whose robots URDF files describe, the first of these.
+
+    Attributes:
+        document: Its XML.
+        unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
+    """
 
     document: XmlDocument
+    unloaded: str = ""
 
     @property
     def format(self) -> Format:
@@ -79,7 +86,7 @@ def model_file(package: Package, expander: Expander, ask: Ask) -> ModelFile | No
     document = _document(package, path.path, expander)
     if isinstance(document, NotAvailable):
         return document
-    model = ModelFile(document)
+    model = ModelFile(document, unspawned(package, path.path))
     alone = model.format.is_grouped and package.only
     return _first_description(ask) if alone else model
 
@@ -117,7 +124,9 @@ def sdf(model: ModelFile) -> SdfDocument | NotAvailable:
     if model.format.name != "sdf":
         reason = f"the model is a {model.format.name.upper()} file"
         return NotAvailable(reason, applicable=False)
-    return SdfDocument(model.document, (model.document.root.get("version") or "").strip())
+    return SdfDocument(
+        model.document, (model.document.root.get("version") or "").strip(), model.unloaded
+    )
 
 
 @part
@@ -154,7 +163,10 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
         robots = robots[:1]
     if robots:
         spawned = ask.one(SpawnedXml)
-        return PlainRobots((_with_spawned_plugins(robots[0], spawned), *robots[1:]))
+        first = _with_spawned_plugins(robots[0], spawned)
+        return PlainRobots(
+            tuple(replace(it, unloaded=model.unloaded) for it in (first, *robots[1:]))
+        )
     kind = "model that moves" if read.worlds else "model"
     reason = read.missing or f"{model.document.source.file} contains no {kind}"
     return NotAvailable(reason, applicable=not read.worlds)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from checker.formats.xacro.files import local_path
 from checker.launch.ros2.descriptions import loaded_descriptions
-from checker.launch.ros2.graph import LaunchGraph, Node
+from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
 from checker.package.package import Package
 from checker.source.text import SourceText
@@ -27,7 +27,7 @@ _CLOCK = re.compile(
 _SIMULATED = frozenset({"plugin", "sensor"})
 """Children of a `<gazebo>` that no other program reads."""
 _FOR_RVIZ = re.compile(r"<!--[^<>]{0,300}\bfor rviz\b", re.IGNORECASE)
-_SPAWNS = frozenset({"create", "spawn_entity.py", "spawn_entity", "spawn_model"})
+SPAWNS = frozenset({"create", "spawn_entity.py", "spawn_entity", "spawn_model"})
 _FROM_ROS = frozenset({"-topic", "-param", "-string"})
 """Options by which a spawner gets what other nodes are given, or what is not known."""
 
@@ -89,22 +89,32 @@ def _starting(launch: Mapping[str, str], name: str) -> list[str]:
 
 
 def _get_others(package: Package, graphs: Sequence[LaunchGraph], path: str) -> bool:
+    """Return whether a launch file loads the description of a file, and none spawns it."""
+    loaded = (each for graph in graphs for each in loaded_descriptions(package, graph))
+    named = any(local_path(package, each.load.path) == path for each in loaded)
+    return named and spawns_others(package, graphs, path)
+
+
+def spawns_others(package: Package, graphs: Iterable[LaunchGraph], path: str) -> bool:
     """Return whether all that is spawned is known, and none of it is the description of a file."""
-    loaded = [[*loaded_descriptions(package, graph)] for graph in graphs]
-    files = [{id(each.node): local_path(package, each.load.path) for each in own} for own in loaded]
-    if not any(path in own.values() for own in files):
-        return False
-    for graph, own in zip(graphs, files, strict=True):
-        if graph.unread or any(_SPAWNS & {w.value for w in it.words} for it in graph.processes):
+    for graph in graphs:
+        if graph.unread or any(_is_unknown(process) for process in graph.processes):
             return False
+        loaded = loaded_descriptions(package, graph)
+        own = {id(each.node): local_path(package, each.load.path) for each in loaded}
         if any(_may_get(node, own.get(id(node)), path) for node in graph.nodes_and_spawns):
             return False
     return True
 
 
+def _is_unknown(process: Process) -> bool:
+    """Return whether a command may spawn, though not as a node that is known does."""
+    return process.spawns is None and any(word.value in SPAWNS for word in process.words)
+
+
 def _may_get(node: Node, given: str | None, path: str) -> bool:
     """Return whether a node spawns a description, or may: nothing else is among its arguments."""
-    if node.executable.value not in _SPAWNS:
+    if node.executable.value not in SPAWNS:
         return False
     if given is not None:
         return given == path

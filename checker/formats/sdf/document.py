@@ -179,10 +179,12 @@ class SdfDocument(Record, eq=False, dict=True):
     Attributes:
         document: Its XML.
         version: The version that `<sdf>` states; empty if it states none.
+        unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
     """
 
     document: XmlDocument
     version: str
+    unloaded: str = ""
 
     @property
     def root(self) -> Element:

@@ -58,6 +58,13 @@ def _outermost(graphs: Mapping[str, LaunchGraph]) -> list[LaunchGraph]:
     return [graphs[file] for file in graphs if file not in included] or [*graphs.values()]
 
 
+def launch_graphs(package: Package) -> list[LaunchGraph]:
+    """Return what the launch files of a package start, and those of others that name it."""
+    own = ros2_launch(package)
+    entries = () if isinstance(own, NotAvailable) else own.entries
+    return [*entries, *(graph for _, graph in launches_naming(package))]
+
+
 def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
     """Yield the launch files of other available packages that name a package, each with its own.
 

@@ -1,0 +1,61 @@
+"""SDF models in a package of ROS 2 that nothing names, and whose launch files spawn others."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
+from checker.launch.ros2.graph import LaunchGraph
+from checker.launch.ros2.package_launch import launch_graphs
+from checker.package.package import Package
+from checker.package.target import package_around
+from checker.robots.shown_only import SPAWNS, spawns_others
+from checker.source.text import SourceText
+
+_NAMING = (
+    *(".py", ".launch", ".xml", ".sdf", ".world", ".xacro", ".urdf", ".yaml", ".yml", ".json"),
+    *(".md", ".rst", ".sh", ".cpp", ".cc", ".hpp", ".h", ".rb", ".erb", ".config"),
+)
+
+
+def unspawned(package: Package, path: str) -> str:
+    """Return the clause that no launch file loads a model, where one spawns another; else empty.
+
+    Args:
+        package: The folder of the model, or the model as a single file.
+        path: The file of the model, as that package lists it.
+    """
+    around = package_around(package)
+    if around is None or package.exists("package.xml"):
+        return ""
+    folder = package.root.relative_to(around.root).as_posix()
+    file = posixpath.normpath(posixpath.join(folder, path))
+    stem = posixpath.basename(path).partition(".")[0]
+    own, name = (file, stem) if package.only else (f"{folder}/", package.root.name)
+    if any(name in text for text in _texts(around, own)):
+        return ""
+    graphs = launch_graphs(around)
+    loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
+    if not any(it.node.executable.value in SPAWNS for _, it in loaded):
+        return ""
+    if any(_may_load_others(*pair) for pair in loaded) or not spawns_others(around, graphs, file):
+        return ""
+    return f"only in {file}, which no launch file loads"
+
+
+def _may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:
+    """Return whether an argument of the launch file chooses the file that is loaded."""
+    values = (it.default.value for it in graph.arguments if it.default is not None)
+    return any(value and value in loaded.load.path for value in values)
+
+
+def _texts(around: Package, own: str) -> Iterator[str]:
+    """Yield the texts of a package and of those next to it, without those of the model itself."""
+    beside = around.workspace.packages.values()
+    for package in (around, *(it for it in beside if not it.root.is_relative_to(around.root))):
+        for entry in package.index.with_suffix(*_NAMING):
+            of_around = package is around and entry.path.startswith(own)
+            source = None if of_around else package.read(entry.path)
+            if isinstance(source, SourceText):
+                yield source.text

@@ -1,0 +1,53 @@
+"""Findings in SDF models that no launch file spawns, in a package whose launch files spawn one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_paths
+from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
+
+_MODEL = """<sdf version="1.9"><model name="@"><link name="body"><inertial><mass>1</mass>
+<inertia><ixx>-1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link></model></sdf>"""
+_LAUNCH = f"""
+share = get_package_share_directory('{NAME}')
+model = @
+return LaunchDescription([%Node(package='ros_gz_sim', executable='create',
+    arguments=['-file', model])])
+"""
+_WRITTEN = "os.path.join(share, 'models', 'rover', 'model.sdf')"
+_CHOSEN = "PathJoinSubstitution([share, 'models', LaunchConfiguration('robot'), 'model.sdf'])"
+_WORLD = '<sdf version="1.9"><world name="hall"><include><uri>model://trike</uri></include></world></sdf>'
+
+
+@pytest.mark.parametrize(
+    ("model", "first", "more", "severity"),
+    [
+        (_WRITTEN, "", {}, Severity.WARNING),
+        (_WRITTEN, "", {"worlds/hall.sdf": _WORLD}, Severity.ERROR),
+        (_WRITTEN, "", {"README.md": "Drag `trike` into the scene."}, Severity.ERROR),
+        (_CHOSEN, "DeclareLaunchArgument('robot', default_value='rover'), ", {}, Severity.ERROR),
+        ("os.environ['MODEL']", "", {}, Severity.ERROR),
+    ],
+)
+def test_a_model_that_nothing_names(
+    model: str, first: str, more: dict[str, str], severity: Severity, tmp_path: Path
+) -> None:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/spawn.launch.py": python(_LAUNCH.replace("@", model).replace("%", first)),
+        **{f"models/{name}/model.sdf": _MODEL.replace("@", name) for name in ("rover", "trike")},
+        **more,
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    report = check_paths([tmp_path], {"select": ("INE002",), "trial": False, "cache": False})
+
+    found = {it.name: it.findings[0].severity for it in report.packages if it.findings}
+    assert found == {"rover": Severity.ERROR, "trike": severity}
