@@ -117,9 +117,18 @@ _WRITTEN = """        Node(package='p', executable='e', parameters=[{
             'rate': 5}]),"""
 _SAVED = _WRITTEN.replace("output.file", "map").replace("'a.pcd'),", "'a.pcd'),  # ^ LCH001")
 
+_VIEW = "os.path.join(get_package_share_directory('acme_arm_bringup'), 'rviz', 'view.rviz')"
+_IF_THERE = f"""        Node(package='rviz2', executable='rviz2',
+             arguments=['-d', {_VIEW}] if os.path.exists({_VIEW}) else []),
+        Node(package='rviz2', executable='rviz2', name='second',
+             arguments=['-d', {_VIEW}] if os.access({_VIEW}, os.R_OK) else []),
+        Node(package='rviz2', executable='rviz2', name='third', arguments=['-d', {_VIEW}],
+             condition=IfCondition(str(os.path.isfile({_VIEW})))),"""
+
 GOOD = [
     {"@ros2": True},
     {"@ros2": _WRITTEN},
+    {"@ros2": _IF_THERE},
     # MoveIt takes the robot from a topic where its usual file is missing.
     {"@ros2": True, "launch/move_group.launch.py": _MOVEIT},
     {"@ros2": _STATE},

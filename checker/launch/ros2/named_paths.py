@@ -51,20 +51,30 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
     """Yield the files in share folders that a launch file names; what has no suffix is none."""
     for use in graph.files:
         yield from _paths(use.text.value, use.text.span, needed=use.certain)
-    for include in graph.includes:
+    for include in filter(_may_start, graph.includes):
         needed = include.starts is True
         yield from _paths(include.target.value, include.target.span, needed=needed, include=True)
         if include.reason:
             yield from _handed_over(include)
-    for node in graph.nodes:
+    for node in filter(_may_start, graph.nodes):
         starts = node.starts is True
         shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
         yield from _in_words(node.arguments, needed=starts and not shows)
         saves = any(isinstance(it, Parameter) and _SAVES.search(it.name) for it in node.parameters)
         for parameter in node.parameters:
             yield from _in_parameter(parameter, needed=starts, saves=saves)
-    for process in graph.processes:
+    for process in filter(_may_start, graph.processes):
         yield from _in_words(process.words, needed=_starts(process))
+
+
+def _may_start(started: Started) -> bool:
+    """Return whether no test that Python makes leaves an action out: `str(os.path.exists(x))`."""
+    return not any(
+        condition.written
+        and condition.holds is False
+        and condition.text.value not in condition.text.span.text
+        for condition in started.conditions
+    )
 
 
 def _handed_over(include: Include) -> Iterator[NamedPath]:

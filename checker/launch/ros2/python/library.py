@@ -388,7 +388,8 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
     | dict(data_functions.FUNCTIONS)
     | dict(moveit_launches.FUNCTIONS)
     | {f"os.path.{name}": _path_work(name) for name in _PATH_WORKS}
-    | {f"os.path.{name}": _exists for name in ("exists", "isfile", "isdir")}
+    | {f"os.path.{name}": _exists for name in ("exists", "isfile", "isdir", "lexists")}
+    | {"os.access": _exists}
     | {f"yaml.{name}": _load_yaml for name in ("safe_load", "load", "full_load")}
     | {f"{module}.get_package_share_directory": _share for module in _AMENT}
     | {f"{module}.get_package_share_path": _share_path for module in _AMENT}
