@@ -18,7 +18,8 @@ _SCHEME = re.compile(r"(?:model://|package:///?)([^/]+)/?(.*)", re.DOTALL)
 _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
 """A path on the resource path of Gazebo, which may contain the folder of the model."""
 _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
-_AT_HOME = re.compile(r"(?:file://)?/(?:home|Users)/[^/]+/(.*)", re.DOTALL)
+_AT_HOME = re.compile(r"(?:file://)?/(?:(?:home|Users)/[^/]+|root)/(.*)", re.DOTALL)
+_IN_WORKSPACE = re.compile(r"(?:file://)?/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*", re.DOTALL)
 _INSTALLED = re.compile(
     r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
 )
@@ -82,6 +83,12 @@ def own_path_on_machine(package: Package, uri: str) -> str:
     while path and not package.exists(path):
         path = path.partition("/")[2]
     return path
+
+
+def is_on_one_machine(path: str) -> bool:
+    """Return whether a path or URI is in a home, on a drive of Windows, or in a built workspace."""
+    text = path.strip()
+    return any(it.fullmatch(text) for it in (_ON_DRIVE, _AT_HOME, _IN_WORKSPACE))
 
 
 def uri_of_installed(uri: str) -> str:

@@ -16,6 +16,7 @@ from checker.formats.xacro.files import ROOT
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.uris import is_on_one_machine
 from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
@@ -43,7 +44,7 @@ def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
 
 
 def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
-    if _is_on_one_machine(file.text.value):
+    if is_on_one_machine(file.text.value):
         yield finding(
             file.text,
             f"{file.text.value} is on its author's machine, and Gazebo finds it on no other: "
@@ -60,11 +61,6 @@ def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings
         if left is not None:
             message = f"{_label(file)} is not installed: {left.instead}"
             yield finding(file.text, message, key=left.around)
-
-
-def _is_on_one_machine(path: str) -> bool:
-    path = path.strip().removeprefix("file://")
-    return path.startswith("/") and not path.startswith((f"{ROOT}/", "/opt/ros/"))
 
 
 def _without_file(manager: GazeboManager, package: Package) -> Findings:

@@ -19,11 +19,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.base.resources import table
-from checker.model.ros_parameters import NodeBlock, read_blocks
+from checker.model.ros_parameters import NodeBlock
 from checker.package.package import Package
+from checker.ros.wiring.parameters import blocks_in
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
-from checker.source.text import SourceText
-from checker.source.yaml import read_yaml
 
 _LIBRARIES = "plugin_lib_names"
 
@@ -41,17 +40,10 @@ def check(package: Package, context: Context) -> Findings:
     for file in package.index.with_suffix(".yaml", ".yml"):
         if any(name in file.path.lower() for name in others):
             continue
-        for block in _blocks(package, file.path):
+        for block in blocks_in(package, file.path, "nav2_"):
             yield from _misnamed(block, context.distro)
             if context.distro in colons:
                 yield from _repeated(block, context.distro)
-
-
-def _blocks(package: Package, path: str) -> Iterator[NodeBlock]:
-    source = package.read(path)
-    if isinstance(source, SourceText) and "nav2_" in source.text:
-        root = read_yaml(source).root
-        yield from read_blocks(root) if root is not None else ()
 
 
 def _misnamed(block: NodeBlock, distro: str) -> Iterator[Finding]:

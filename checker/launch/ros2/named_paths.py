@@ -107,7 +107,7 @@ def _in_parameter(
     """
     if isinstance(parameter, ParameterFile):
         yield from _paths(parameter.path, parameter.span, needed=needed)
-    elif isinstance(parameter.value, str) and not _SAVES.search(parameter.name):
+    elif isinstance(parameter.value, str) and not is_written(parameter.name):
         yield from _paths(parameter.value, parameter.span, needed=needed and not saves)
 
 
@@ -123,6 +123,11 @@ def _paths(text: str, span: Span, *, needed: bool, include: bool = False) -> Ite
     path = share_path(text.strip())
     if path is not None and _SUFFIX.search(path.path):
         yield NamedPath(path, span, needed, include)
+
+
+def is_written(name: str) -> bool:
+    """Return whether the name of a parameter says that the node writes the file."""
+    return _SAVES.search(name) is not None
 
 
 def is_missing(package: Package, path: SharePath) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from checker.base.record import Record
 from checker.launch.ros2.graph import Node, NodeKind, Parameter, ParameterFile, is_known
-from checker.model.ros_parameters import NodeBlock
-from checker.source.text import Span
+from checker.model.ros_parameters import NodeBlock, read_blocks
+from checker.package.package import Package
+from checker.source.text import SourceText, Span
 
 _EVERY = "/**"
 
@@ -53,6 +54,22 @@ class LoadedFile(Record, eq=False):
     def names(self) -> tuple[str, ...]:
         """Names that its blocks are for."""
         return tuple(dict.fromkeys(block.name for block in self.blocks))
+
+
+def blocks_in(package: Package, path: str, word: str) -> Iterator[NodeBlock]:
+    """Yield the blocks of a parameter file, if it contains a word.
+
+    Args:
+        package: The package being checked.
+        path: The file as the package lists it.
+        word: What a file without it is not read for.
+    """
+    source = package.read(path)
+    if isinstance(source, SourceText) and word in source.text:
+        from checker.source.yaml import read_yaml
+
+        root = read_yaml(source).root
+        yield from read_blocks(root) if root is not None else ()
 
 
 def settings_of(
