@@ -34,6 +34,7 @@ from checker.finding import (
     without_line_numbers,
 )
 from checker.formats.xacro.files import as_written
+from checker.package.index import is_of_tests
 from checker.report.report import Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
@@ -90,7 +91,7 @@ def run_rules(
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, judge.settings)}
-        found = (_informing(item, unloaded) for item in result if isinstance(item, Finding))
+        found = (_weighed(item, severity, unloaded) for item in result if isinstance(item, Finding))
         said.append((rule, [judge.grade(rule, _with_written_paths(each)) for each in found]))
         reasons: dict[str, Severity | None] = {}
         for item in result:
@@ -151,10 +152,13 @@ def _repeats(shares: Sequence[SplitFindings]) -> dict[Cover, list[Repeat]]:
     return repeats
 
 
-def _informing(finding: Finding, unloaded: Collection[str]) -> Finding:
-    """Return a finding as information, if it is about a file that nothing loads."""
-    if finding.places[0].file in unloaded:
+def _weighed(finding: Finding, severity: Severity, unloaded: Collection[str]) -> Finding:
+    """Return a finding; as information about what nothing loads, and of tests alone no error."""
+    file = finding.places[0].file
+    if file in unloaded:
         return replace(finding, severity=Severity.INFO)
+    if is_of_tests(file) and (finding.severity or severity) is Severity.ERROR:
+        return replace(finding, severity=Severity.WARNING)
     return finding
 
 

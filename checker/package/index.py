@@ -72,7 +72,7 @@ class FileEntry(Record):
     @property
     def is_of_tests(self) -> bool:
         """True if it is in a folder of tests, which may be about another robot."""
-        return not {"test", "tests"}.isdisjoint(self.path.split("/")[:-1])
+        return is_of_tests(self.path)
 
     @property
     def is_broken_for_tests(self) -> bool:
@@ -147,6 +147,11 @@ class FileIndex(Record, eq=False, dict=True):
 
 def _stem(path: str) -> str:
     return posixpath.splitext(path)[0].casefold()
+
+
+def is_of_tests(path: str) -> bool:
+    """Return whether a path is in a folder of tests."""
+    return not {"test", "tests"}.isdisjoint(path.split("/")[:-1])
 
 
 def normal_path(path: str) -> str | None:

@@ -3,13 +3,15 @@
 URIs, CMake lists and shell commands break at spaces. Systems encode letters outside ASCII
 differently. Of two names that differ only in case, Windows and macOS keep one. No accepted package
 that we checked has this fault. GIF files, films and documents are not judged: no simulator reads
-them. REF002, PKG004 or PKG009 report a reference that differs from its file only in case.
+them. In a folder such as `third_party/asio`, with a licence or a manifest of its own, this is an
+info. REF002, PKG004 or PKG009 report a reference that differs from its file only in case.
 
 Fix: use only ASCII letters, digits, `_`, `-` and `.` in the name, and correct the references to it.
 Source: common practice with CMake lists, URIs and archives made on Windows and macOS.
 """
 
 import posixpath
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 
@@ -21,35 +23,61 @@ _READ_BY_PEOPLE = (
     *(".gif", ".mp4", ".mov", ".webm", ".avi"),
     *(".md", ".pdf", ".docx", ".pptx", ".xlsx", ".odt", ".txt"),
 )
+_VENDORED = re.compile(
+    r"(.*/)?(third_?party|3rd_?party|externals?|extern|vendor(ed)?|libs?|deps)/.*", re.IGNORECASE
+)
+_OF_ITS_OWN = re.compile(
+    r"(licen[cs]e|copying)([._-].*)?|package\.(xml|json)|setup\.py|pyproject\.toml", re.IGNORECASE
+)
 
 
 @rule("PKG015", "unsafe-file-name", Severity.WARNING, Concern.PORTABILITY)
 def check(package: Package) -> Findings:
     """Report names with spaces, with non-ASCII letters, or that differ only in case."""
     twins: dict[str, list[FileEntry]] = defaultdict(list)
+    libraries = _libraries(package)
     for path, entry in package.index.entries.items():
         twins[path.casefold()].append(entry)
-        yield from _letters(package, path)
+        yield from _letters(package, path, _severity(path, libraries))
     for first, *others in twins.values():
         for other in others:
             if posixpath.dirname(first.path) == posixpath.dirname(other.path):
                 yield finding(
                     package.place(other.path),
                     f"{other.path} and {first.path} differ only in case",
+                    severity=_severity(other.path, libraries),
                     related=[(package.place(first.path), "the other name")],
                 )
 
 
-def _letters(package: Package, path: str) -> Iterator[Finding]:
+def _libraries(package: Package) -> tuple[str, ...]:
+    """Return the folders of vendored libraries that have a licence or a manifest of their own."""
+    paths = filter(_VENDORED.fullmatch, package.index.entries)
+    parts = map(posixpath.split, paths)
+    return tuple({f"{folder}/" for folder, name in parts if _OF_ITS_OWN.fullmatch(name)})
+
+
+def _severity(path: str, libraries: tuple[str, ...]) -> Severity | None:
+    return Severity.INFO if path.startswith(libraries) else None
+
+
+def _letters(package: Package, path: str, severity: Severity | None) -> Iterator[Finding]:
     name = posixpath.basename(path)
     if name.lower().endswith(_READ_BY_PEOPLE):
         return
     if any(letter.isspace() for letter in name):
-        yield finding(package.place(path), f"{name!r} has a space in its name", key="space")
+        yield finding(
+            package.place(path), f"{name!r} has a space in its name", severity=severity, key="space"
+        )
     strange = sorted({letter for letter in name if not letter.isascii()})
     if strange:
         letters = " ".join(strange)
-        yield finding(package.place(path), f"{name!r} has {letters} in its name", key="ASCII")
+        yield finding(
+            package.place(path),
+            f"{name!r} has {letters} in its name",
+            severity=severity,
+            key="ASCII",
+        )
 
 
 GOOD = [{"meshes/wheel-2.1_left.dae": "<COLLADA/>"}, {"media/first drive.gif": "GIF89a"}]

@@ -57,6 +57,19 @@ def test_what_is_loaded_has_errors(tmp_path: Path) -> None:
     assert found.severity is Severity.ERROR
 
 
+def test_what_tests_load_has_warnings(tmp_path: Path) -> None:
+    _check(tmp_path, _link(_GOOD))
+    path = tmp_path / NAME / "test" / "fake.urdf"
+    path.parent.mkdir()
+    path.write_text(f"{_HEAD}{_link(_FAULTY)}</robot>")
+    launch = _LAUNCH.replace("'urdf', 'new.urdf.xacro'", "'test', 'fake.urdf'")
+    path.with_name("fake.launch.py").write_text(python(launch))
+    report = check_package(tmp_path / NAME, Settings(select=("INE002",), trial=False))
+
+    (found,) = _faults(report.packages[0])
+    assert found.severity is Severity.WARNING
+
+
 def test_what_nothing_loads_has_warnings(tmp_path: Path) -> None:
     (found,) = _faults(_check(tmp_path, _link(_GOOD), _link(_FAULTY)))
     assert found.severity is Severity.WARNING
