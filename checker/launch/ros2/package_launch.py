@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterator, Mapping
 
@@ -68,21 +69,31 @@ def launch_graphs(package: Package) -> list[LaunchGraph]:
 def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
     """Yield the launch files of other available packages that name a package, each with its own.
 
+    So are those that include such a file, in whatever package.
+
     Args:
         package: The package that should be named, as in `FindPackageShare("arm_description")`.
     """
-    left = OTHERS_LIMIT
     others = package.other_packages if built_by_ament(package) and not package.only else ()
-    for other in filter(built_by_ament, others):
-        files = [file for file in launch_files(other) if _names(other, file, package)][:left]
-        left -= len(files)
-        graphs = {file: _read(other, file) for file in files}
-        yield from ((other, graph) for graph in _outermost(graphs))
-
-
-def _names(holder: Package, file: str, package: Package) -> bool:
-    source = holder.read(file)
-    return isinstance(source, SourceText) and has_word(source.text, package.declared_name)
+    texts = {
+        (other, file): source.text
+        for other in filter(built_by_ament, others)
+        for file in launch_files(other)
+        if isinstance(source := other.read(file), SourceText)
+    }
+    found = [it for it, text in texts.items() if has_word(text, package.declared_name)]
+    for holder, included in found:  # which grows
+        found += [
+            (other, file)
+            for (other, file), text in texts.items()
+            if posixpath.basename(included) in text
+            and (other is holder or has_word(text, holder.declared_name))
+            and (other, file) not in found
+        ]
+    read = found[:OTHERS_LIMIT]
+    for holder in dict.fromkeys(other for other, _ in read):
+        graphs = {file: _read(holder, file) for other, file in read if other is holder}
+        yield from ((holder, graph) for graph in _outermost(graphs))
 
 
 def launch_files(package: Package) -> Iterator[str]:
