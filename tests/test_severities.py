@@ -119,10 +119,24 @@ LINEAR = "".join(
 COPTER = "".join(
     f"<maximumLinear{kind}>3 3 3</maximumLinear{kind}>" for kind in ("Velocity", "Acceleration")
 )
+MOTOR = """<ros2_control name="{name}" type="system">
+  <hardware><plugin>{plugin}</plugin></hardware>
+  <joint name="lift"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+LIFT = """<link name="fork"/>
+<joint name="lift" type="prismatic"><parent link="upper_arm"/><child link="fork"/>
+  <limit lower="0" upper="1" effort="5" velocity="0"/></joint>
+"""
+GZ = MOTOR.format(name="gz", plugin="gz_ros2_control/GazeboSimSystem")
+CLASSIC = MOTOR.format(name="gz", plugin="gazebo_ros2_control/GazeboSystem")
+MOCK = MOTOR.format(name="mock", plugin="mock_components/GenericSystem")
 CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
     ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
     ("R2C003", CHOSEN, "warning"),
+    ("R2C016", {"@urdf": LIFT + MOCK + GZ}, "error"),
+    ("R2C016", {"@urdf": LIFT + GZ + MOCK}, "warning"),
     ("BRG004", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/Odometry", "Odometry")}, "warning"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
@@ -132,6 +146,8 @@ CASES: list[tuple[str, Example, str]] = [
         {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
         "info",
     ),
+    ("KIN007", {"@urdf": LIFT + GZ}, "error"),
+    ("KIN007", {"@urdf": LIFT + CLASSIC}, "warning"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("LCH004", FORMER, "error"),

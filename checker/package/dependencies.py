@@ -10,6 +10,7 @@ from checker.base.record import Record
 from checker.finding import Place
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
+from checker.package.released import distributions_with
 from checker.package.submissions import is_same_robot
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.text import SourceText, Span
@@ -109,12 +110,14 @@ class Use(Record):
     Attributes:
         how: The text that uses it.
         path: The path of the file in it that is used; empty if that is not written.
+        builds: Whether the build uses it.
     """
 
     package_name: str
     place: Place
     how: str
     path: str = ""
+    builds: bool = False
 
 
 def uses_of(package: Package, *, of_ros_1: bool = True) -> Iterator[Use]:
@@ -187,6 +190,18 @@ def uses_in_ros2(package: Package) -> Iterator[Use]:
             for match in found:
                 if not package.exists(match[1]):
                     yield Use(match[1], Span(source, *match.span(1)).place(), match[0].strip())
+
+
+def uses_in_build(package: Package) -> Iterator[Use]:
+    """Yield the packages of ROS, and of the workspace, that CMakeLists.txt requires."""
+    source = package.read("CMakeLists.txt")
+    for call in read_cmake(source).find_packages if isinstance(source, SourceText) else ():
+        name, *words = (word.value for word in call.arguments)
+        is_tool = name.startswith("ament_")
+        is_known = distributions_with(name) or package.workspace.package(name) is not None
+        if "REQUIRED" in words and is_known and not (is_tool or call.conditional):
+            place = call.arguments[0].span.place()
+            yield Use(name, place, f"find_package({name} REQUIRED)", builds=True)
 
 
 def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:

@@ -13,9 +13,8 @@ Source: geometry: boxes along the robot's axes around each collision and visual.
 
 from collections.abc import Sequence
 
-from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
-from checker.model.geometry.placed_shapes import Placed, place_shapes, union
+from checker.model.geometry.placed_shapes import Placed, all_shapes, union
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, LinkTree
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
@@ -44,7 +43,7 @@ def check(
     """
     if robot.is_static:
         return
-    shapes, unknown = _shapes(robot)
+    shapes, unknown = all_shapes(robot)
     try:
         boxes = _boxes_with_axles(robot, shapes, max(gap_of_wheels - gap, 0.0))
         groups = clusters(boxes, gap + _EQUAL)
@@ -69,16 +68,6 @@ def check(
             others = (piece for piece in shapes if piece not in own)
             distance = _distance(group, [piece.box for piece in others])
             yield _floating_part(group, distance, gap, Severity.INFO if is_scenery else None)
-
-
-def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
-    """Return all shapes of a robot, and those whose extent or place is not known."""
-    known: list[Placed] = []
-    for link in robot.links:
-        known += place_shapes(robot, link, (*link.collisions, *link.visuals))
-    placed_shapes = {piece.shape for piece in known}
-    shapes = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
-    return known, [shape for shape in shapes if shape not in placed_shapes]
 
 
 def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:

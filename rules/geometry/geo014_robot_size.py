@@ -10,7 +10,7 @@ Source: SDFormat and URDF use SI units; ground and air robots from 5 cm and 50 g
 25 m and 50 t.
 """
 
-from checker.model.geometry.placed_shapes import place_shapes, union
+from checker.model.geometry.placed_shapes import all_shapes, union
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
@@ -38,15 +38,13 @@ def check(
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
-    shapes = (
-        piece.box
-        for link in robot.links
-        for piece in place_shapes(robot, link, (*link.collisions, *link.visuals))
-    )
-    box = union(shapes)
+    shapes, unknown = all_shapes(robot)
+    box = union(piece.box for piece in shapes)
     if box is not None:
         side = max(high - low for low, high in zip(box.low, box.high, strict=True))
-        if not smallest <= side <= largest:
+        if side < smallest and unknown:
+            yield unchecked(f"the size of {unknown[0].name.value!r} is not known")
+        elif not smallest <= side <= largest:
             yield finding(
                 robot,
                 f"the robot measures {side:.3g} m, expected {smallest:g} to {largest:g} m",

@@ -44,9 +44,9 @@ def check(
     """Report finite limits of effort and velocity that no motor has.
 
     A missing limit of a driven joint is an info, one of zero is an error; of a joint of
-    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any other joint of a
-    URDF that may use an effort, or that Gazebo holds. One whose position limits are equal has no
-    motor: it is KIN009's.
+    ros2_control it is a warning before Kilted, unless Gazebo moves it by a force, and of any other
+    joint of a URDF that may use an effort, or that Gazebo holds. One whose position limits are
+    equal has no motor: it is KIN009's.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
@@ -109,10 +109,12 @@ def _commanded_joints(robot: Robot) -> dict[str, Hardware]:
 def _zero_limits(
     joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool
 ) -> Iterator[Finding]:
-    simulated = is_of_gazebo(hardware.plugin.value)
-    certain = simulated or limited
     commands = hardware.joints_by_name[joint.name.value].commands
-    by_effort = simulated or any(command.name.value == "effort" for command in commands)
+    pushed = any(command.name.value == "effort" for command in commands)
+    # Gazebo Classic sets positions and velocities without any force.
+    set_by_classic = hardware.plugin.value.startswith("gazebo_ros2_control/") and not pushed
+    simulated = is_of_gazebo(hardware.plugin.value) and not set_by_classic
+    certain, by_effort = simulated or limited, simulated or pushed
     for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
         if limit.stated and limit.value == 0.0 and (kind == "velocity" or by_effort):
             yield finding(

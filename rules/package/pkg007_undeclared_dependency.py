@@ -5,15 +5,16 @@ submission, the bridge to ROS, or the package of a node are then missing where t
 Comments do not count, nor launch files of ROS 1 in a package of ROS 2. In ROS 2 this holds for the
 packages of nodes, components, included launch files, parameter files, `xacro` commands, `$(find …)`
 and `package://` in robot descriptions, and for messages and a few modules of ROS, such as
-`cv_bridge`, that nodes in Python import; other modules in Python are not checked. Dependencies of a
-declared metapackage such as ros_gz count as declared. The same happens if package.xml misspells the
-package of a team or plugin: it is reported if a package of a similar name is available, and the
-misspelt one is not. A name that no ROS distribution has is to be corrected, not declared, if it is
-near to one of them. If a package is not available, and this package has every file that
-it uses of it, the name is taken as the former name of this package.
+`cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
+packages of ROS and of the workspace that CMakeLists.txt requires without a condition. Dependencies
+of a declared metapackage such as ros_gz count as declared. The same happens if package.xml
+misspells the package of a team or plugin: it is reported if a package of a similar name is
+available, and the misspelt one is not. A name that no ROS distribution has is to be corrected, not
+declared, if it is near to one of them. If a package is not available, and this package has every
+file that it uses of it, the name is taken as the former name of this package.
 
-Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used; write the
-package's own name instead of its former one.
+Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
+those that the build uses, too; write the package's own name instead of its former one.
 Source: REP 149, exec_depend; rosdep installs what package.xml names; package.xml of ros_gz,
 navigation2, nav2_bringup, ros2_control, ros2_controllers, gazebo_ros_pkgs and moveit; in model
 reviews, authors added the dependency on configuration 1.
@@ -83,7 +84,11 @@ def check(
         return
     others: dict[str, Use] = {}
     ament = built_by_ament(package)
-    uses = [*every_use(package, launch)]
+    uses = [
+        use
+        for use in every_use(package, launch)
+        if not (use.builds and manifest.depends_on(use.package_name))
+    ]
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:
@@ -105,7 +110,7 @@ def check(
     # Packages with another name on the target must be renamed first: ROS011.
     renamed = table("renamed_packages")["releases"].get(context.release, {})
     yield from _no_such_package(others, context.distro)
-    lacking = [name for name in sorted(others) if name not in renamed]
+    lacking = [use for name, use in sorted(others.items()) if name not in renamed]
     fix = _declaration_fix(package, manifest, *lacking) if lacking else None
     place = manifest if ament else package.folder_place()
     yield from _distribution(place, others, fix, None if ament else Severity.INFO)
@@ -136,7 +141,7 @@ def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
     if others is not None and others.depends_on(manifest.name.value):
         message = f"{message}, and depends on {manifest.name.value} itself"
         return finding(use.place, message, severity=Severity.INFO, key=name)
-    return finding(use.place, message, key=name, fix=_declaration_fix(package, manifest, name))
+    return finding(use.place, message, key=name, fix=_declaration_fix(package, manifest, use))
 
 
 def _brought(manifest: PackageManifest, name: str) -> bool:
@@ -211,13 +216,14 @@ def _is_own(package: Package, name: str, other: str) -> bool:
     return is_near and other.startswith(f"{robot}_") and not name.startswith(f"{robot}_")
 
 
-def _declaration_fix(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
+def _declaration_fix(package: Package, manifest: PackageManifest, *uses: Use) -> Fix | None:
     """Return the fix that adds dependencies after those that package.xml has."""
     document = package.xml("package.xml")
     if not isinstance(document, XmlDocument):
         return None
-    tag = "run_depend" if manifest.format.value == 1 else "exec_depend"
-    lines = [f"<{tag}>{name}</{tag}>" for name in names]
+    at_run_time = "run_depend" if manifest.format.value == 1 else "exec_depend"
+    tags = ["depend" if use.builds else at_run_time for use in uses]
+    lines = [f"<{tag}>{use.package_name}</{tag}>" for tag, use in zip(tags, uses, strict=True)]
     others = [child for child in document.root.children if child.tag in DEPENDENCY_TAGS]
     edit = insert_behind(others[-1], lines) if others else append_to(document.root, lines)
     return Fix(Safety.SAFE, (edit,))
@@ -267,7 +273,23 @@ except ImportError:
     CvBridge = None
 """
 
+_BUILD = """project(acme_arm_bringup)
+find_package(ament_cmake REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package({} REQUIRED)
+find_package(rviz2 QUIET)
+if(BUILD_TESTING)
+  find_package(ament_lint_auto REQUIRED)
+endif()
+install(DIRECTORY launch DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+"""
 GOOD = [
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", "rclcpp"),
+        "CMakeLists.txt": _BUILD.format("rclcpp"),
+    },
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
     {
@@ -304,6 +326,11 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "acme_arm_bringup/look.py": "import sensor_msgs_py.point_cloud2 as clouds\n",
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
+        "CMakeLists.txt": _BUILD.format("rclcpp"),
     },
     {
         "@ros2": _BRIDGE,

@@ -2,8 +2,8 @@
 
 The controller manager has one command interface `elbow/position`. Up to Humble, it logs "command
 interface already in available list" for the second one, whose hardware never gets a command; later
-releases refuse to load that hardware. Controllers start in the first case, and one of the two does
-not move.
+releases refuse to load that hardware. Where the second one is a mock, this is a warning: MoveIt
+Setup Assistant adds such a tag to robots that have another, which moves the joint.
 
 Fix: remove the joint's `<command_interface>` from one of the tags, or put each tag below an
 `xacro:if`, so that one of them is left.
@@ -12,15 +12,17 @@ interfaces.
 """
 
 from checker.base.words import and_list
+from checker.ros.ros2_control.distributions import distribution_of, is_from, is_mock
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Findings, Severity, finding, rule
-from checker.rulebook.example_parts import MOCK, SHOULDER, ros2_control
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import GAZEBO, SHOULDER, ros2_control
 
 
 @rule("R2C016", "interface-offered-twice", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl) -> Findings:
+def check(control: RobotControl, context: Context) -> Findings:
     """Report joints with the same command interface in two `<ros2_control>` tags."""
+    lost = "is not loaded" if is_from(distribution_of(context), "iron") else "does not move"
     first: dict[str, tuple[Hardware, HardwareJoint]] = {}
     for hardware in control.hardware:
         for joint in hardware.joints:
@@ -33,15 +35,16 @@ def check(control: RobotControl) -> Findings:
                 yield finding(
                     joint,
                     f"{keys} is offered by <ros2_control> {before.name.value!r} and "
-                    f"{hardware.name.value!r}: a controller gets one of them, and the other "
-                    "hardware does not move; remove the <command_interface> from one",
+                    f"{hardware.name.value!r}: the hardware of {hardware.name.value!r} {lost}; "
+                    "remove the <command_interface> from one",
+                    severity=Severity.WARNING if is_mock(hardware.plugin.value) else None,
                     key=f"{before.name.value} {hardware.name.value}",
                     related=[(its_joint, "the first one")],
                 )
 
 
 def _second(inside: str) -> object:
-    other = f'<ros2_control name="simulator" type="system"><hardware>{MOCK}</hardware>'
+    other = f'<ros2_control name="simulator" type="system"><hardware>{GAZEBO}</hardware>'
     return {"@urdf": ros2_control() + f"{other}\n{inside}\n</ros2_control>"}
 
 

@@ -15,7 +15,7 @@ from checker.launch.ros2.graph import (
     share_path,
 )
 from checker.launch.ros2.package_launch import built_by_ament
-from checker.package.dependencies import Use, uses_in_ros2, uses_of
+from checker.package.dependencies import Use, uses_in_build, uses_in_ros2, uses_of
 from checker.package.package import Package
 from checker.source.text import Span
 
@@ -27,6 +27,8 @@ _XACRO = re.compile(r"(?<![.\w])xacro\b")
 def every_use(package: Package, launch: Ros2Launch | None) -> Iterator[Use]:
     """Yield all packages that a package uses, whether it is of ROS 1 or of ROS 2."""
     ament = built_by_ament(package)
+    if ament:
+        yield from uses_in_build(package)
     yield from uses_of(package, of_ros_1=not ament)
     if launch is not None:
         yield from used_packages(launch)

@@ -48,6 +48,16 @@ def place_shapes(
             yield Placed(link, shape, pose, box)
 
 
+def all_shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
+    """Return all shapes of a robot, and those whose extent or place is not known."""
+    known: list[Placed] = []
+    for link in robot.links:
+        known += place_shapes(robot, link, (*link.collisions, *link.visuals))
+    placed = {piece.shape for piece in known}
+    shapes = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
+    return known, [shape for shape in shapes if shape not in placed]
+
+
 def union(boxes: Iterable[Box]) -> Box | None:
     """Return the box around boxes; None without any."""
     known = list(boxes)

@@ -17,7 +17,8 @@ ORDER = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 _CUT_FROM = {"lyrical": "rolling", "iron": "humble"}
 """Distributions without their own column in the tables, and the one that they are like."""
 _GAZEBO_PACKAGES = ("gz_ros2_control", "ign_ros2_control", "gazebo_ros2_control")
-_COMPLETE = (*_GAZEBO_PACKAGES, "mock_components", "fake_components")
+_MOCK_PACKAGES = ("mock_components", "fake_components")
+_COMPLETE = (*_GAZEBO_PACKAGES, *_MOCK_PACKAGES)
 """Packages of hardware components all of whose classes are in the table."""
 
 
@@ -70,6 +71,11 @@ def is_of_gazebo(plugin: str) -> bool:
     """Return whether a hardware class only works within Gazebo's process."""
     package = plugin.partition("/")[0]
     return package in _GAZEBO_PACKAGES or package.endswith(_GAZEBO_PACKAGES)
+
+
+def is_mock(plugin: str) -> bool:
+    """Return whether a hardware class only repeats its commands as states."""
+    return plugin.partition("/")[0] in _MOCK_PACKAGES
 
 
 def has_every_class(package: str) -> bool:
