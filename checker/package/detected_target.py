@@ -41,6 +41,7 @@ _OF_ROS_2 = re.compile(
     rf"|{_DESCRIPTION[IGNITION].pattern}|{_DESCRIPTION[GZ].pattern}"
 )
 """Elements that are only in a URDF for ROS 2 or for Gazebo after Classic."""
+_OF_ROSLAUNCH = re.compile(r"\$\(find\s|<node\b[^<>]{0,400}?\stype\s{0,8}=")
 _DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
 _MANIFEST = {
     CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
@@ -69,7 +70,7 @@ class DetectedTarget(Record):
 
 
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
-    """Read what a package is made for; where it does not show that, what launches it is made for.
+    """Read what a package is made for; else what launches it, and what is beside it, is made for.
 
     Args:
         package: A package of ROS 2.
@@ -84,11 +85,24 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
         if target.reason:
             reason = f"{target.reason} in {other.name}, which launches it"
             found.setdefault((target.is_classic, target.distro), replace(target, reason=reason))
+    if not found and not own.distro:
+        return _target_beside(package) or own
     if len(found) != 1:
         return own
     (target,) = found.values()
     # A description with plugins of a later Gazebo is not for Classic, whatever else launches it.
     return own if target.is_classic and {*package.simulator_signs} - {CLASSIC} else target
+
+
+def _target_beside(package: Package) -> DetectedTarget | None:
+    """Return the distribution that the packages beside it name, if they name one alone."""
+    others = () if package.only else package.other_packages
+    named = {sign.distro: (sign, it.name) for it in others if (sign := it.distribution_sign)}
+    if len(named) != 1:
+        return None
+    ((distro, (sign, name)),) = named.items()
+    reason = f"ROS 2 {distro.capitalize()}: {sign.words} in {name}, beside it"
+    return DetectedTarget(False, _known_distribution(distro), reason)
 
 
 def _launching(package: Package) -> Iterator[Package]:
@@ -155,6 +169,8 @@ def _in_files(
         if not isinstance(source, SourceText):
             continue
         text = _without_comments(source)
+        if path.endswith(".launch") and _OF_ROSLAUNCH.search(text):
+            continue  # left by an exporter or a port: nothing of ROS 2 reads it
         for target, pattern in patterns.items():
             if match := pattern.search(text):
                 yield target, f"{source.where(match.start())} names {match.group().strip()}"

@@ -21,6 +21,7 @@ RAY = """<robot name="arm">
 CLASSIC_PLUGIN = RAY.format("libgazebo_ros_ray_sensor.so")
 GZ_PLUGIN = RAY.format("gz-sim-diff-drive-system")
 IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
+EXPORTED = '<launch><node name="s" pkg="gazebo_ros" type="spawn_model"/></launch>'
 URDF = "urdf/arm.urdf.xacro"
 MESH = '<mesh filename="file:///opt/ros/{}/share/eye/eye.dae"/>'
 
@@ -46,6 +47,7 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": SPAWN, URDF: GZ_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": True, URDF: GZ_PLUGIN}, ("ros2", "")),
+        ({"@ros2": True, "launch/gazebo.launch": EXPORTED}, ("ros2", "")),
         ({"@ros2": SPAWN, "Dockerfile": "FROM ros:jazzy\n"}, ("ros2", "jazzy")),
         ({"@ros2": SPAWN, "Dockerfile": "FROM ros:foxy\n"}, ("ros2-classic", "humble")),
         ({"@ros2": True, "Dockerfile": "FROM acme/base:${TAG:-humble}\n"}, ("ros2", "humble")),
@@ -96,6 +98,8 @@ SHARE = "share = get_package_share_directory('{}')\n"
     [
         ({"bringup": "lift '/opt/ros/humble'"}, "", ("ros2", "humble")),
         ({"bringup": "lift 0"}, "", ("ros2", "")),
+        ({"bringup": "hoist '/opt/ros/jazzy'"}, "", ("ros2", "jazzy")),
+        ({"a": "hoist '/opt/ros/jazzy'", "b": "hoist '/opt/ros/humble'"}, "", ("ros2", "")),
         ({"bringup": "lift 'ign gazebo'"}, "", ("ros2", "humble")),
         ({"bringup": "lift 'gzserver'"}, "", ("ros2-classic", "humble")),
         ({"bringup": "lift 'gzserver'"}, GZ_PLUGIN, ("ros2", "")),
@@ -120,7 +124,8 @@ def test_what_launches_a_description_tells(
         (tmp_path / name / "package.xml").write_text(AMENT.format(name))
     settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
     assert (settings.profile, settings.distro) == expected
-    assert ("which launches it" in settings.target_reason) is (expected[1] not in ("", "iron"))
+    told = "which launches it" in settings.target_reason or "beside it" in settings.target_reason
+    assert told is (expected[1] not in ("", "iron"))
 
 
 CONTROL = '<ros2_control name="arm" type="system"/>'
