@@ -119,6 +119,14 @@ LINEAR = "".join(
 COPTER = "".join(
     f"<maximumLinear{kind}>3 3 3</maximumLinear{kind}>" for kind in ("Velocity", "Acceleration")
 )
+REPLACED = {
+    "package.xml": """<package format="3">
+  <name>acme_rover_sensor_config_1</name>
+  <depend>gazebo_ros_pkgs</depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+}
 MOTOR = """<ros2_control name="{name}" type="system">
   <hardware><plugin>{plugin}</plugin></hardware>
   <joint name="lift"><command_interface name="position"/></joint>
@@ -201,6 +209,14 @@ def test_severity_depends_on_the_case(
     assert [str(finding.severity) for finding in report.findings] == [severity], [
         finding.message for finding in report.findings
     ]
+
+
+@pytest.mark.parametrize(("distro", "severity"), [("", "info"), ("jazzy", "warning")])
+def test_a_replaced_package_is_missing(distro: str, severity: str, tmp_path: Path) -> None:
+    package = write_example(REPLACED, tmp_path)
+    settings = Settings(profile="ros2", profile_chosen=True, select=("PKG021",), distro=distro)
+    (report,) = check_package(package, settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
 
 
 def test_bridges_that_reach_nothing_of_the_robot_are_errors(tmp_path: Path) -> None:

@@ -69,12 +69,20 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
 
 
 def _others(package: Package, named: NamedPath) -> str:
-    """Return the end of a message with the file of that kind that the folder has alone."""
+    """Return the end of a message with the file that may be meant.
+
+    It is the only one of that kind in the folder, or the only one whose name differs by its first
+    word, as where a package is renamed: `rover_base.xacro` and `robot_base.xacro`.
+    """
     folder, suffix = posixpath.dirname(named.path.path), posixpath.splitext(named.path.path)[1]
     holder = package.named(named.path.package)
     files = holder.index.with_suffix(suffix) if holder is not None else ()
-    there = [it.path for it in files if posixpath.dirname(it.path) == folder]
-    return f"; {folder} has {posixpath.basename(there[0])}" if len(there) == 1 else ""
+    places = (posixpath.split(file.path) for file in files)
+    there = [name for around, name in places if around == folder]
+    words = posixpath.basename(named.path.path).partition("_")[2]
+    if len(there) > 1 and words:
+        there = [name for name in there if name.partition("_")[2] == words]
+    return f"; {folder} has {there[0]}" if len(there) == 1 else ""
 
 
 def _empty_paths(graph: LaunchGraph) -> Iterator[Finding]:

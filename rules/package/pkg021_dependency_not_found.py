@@ -1,8 +1,9 @@
 """A dependency in package.xml that neither the ROS distribution nor rosdep has.
 
 `rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
-cannot build it. A misspelt name is a warning. Other names are infos: the package may be built from
-source that is not available here, for example if only an older distribution has released it.
+cannot build it. A misspelt name is a warning, and so is one that another package has replaced in
+the distribution that the package names. Other names are infos: the package may be built from source
+that is not available here, for example if only an older distribution has released it.
 Dependencies with a `condition` are skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and document that in the
@@ -46,7 +47,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
                 key=name,
                 fix=rename(dependency.package, meant),
             )
-    yield from _elsewhere(others, context.distro)
+    yield from _elsewhere(others, context)
 
 
 def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
@@ -59,16 +60,17 @@ def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
     )
 
 
-def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]:
+def _elsewhere(dependencies: list[Dependency], context: Context) -> Iterator[Finding]:
     if dependencies:
         first, *others = dependencies
         names = ", ".join(map(_package_phrase, dependencies))
         noun = "packages" if others else "package"
+        replaced = context.distro_is_known and any(map(_replacement, dependencies))
         yield finding(
             first.package,
-            f"ROS 2 {distro.capitalize()} and rosdep have no {noun} {names}: "
+            f"ROS 2 {context.distro.capitalize()} and rosdep have no {noun} {names}: "
             "expected in the workspace",
-            severity=Severity.INFO,
+            severity=Severity.WARNING if replaced else Severity.INFO,
             related=[(other.package, "and this") for other in others],
         )
 
@@ -76,11 +78,15 @@ def _elsewhere(dependencies: list[Dependency], distro: str) -> Iterator[Finding]
 def _package_phrase(dependency: Dependency) -> str:
     """Return a name and what is known of it: what took its place, or which distribution has it."""
     name = dependency.package.value
-    removed = table("removed_packages")["names"].get(name)
-    if removed is not None:
-        return f"{name} (replaced by {removed['instead']})"
+    if instead := _replacement(dependency):
+        return f"{name} (replaced by {instead})"
     having = [distro.capitalize() for distro in distributions_with(name)]
     return f"{name} ({having[-1]} has it)" if having else name
+
+
+def _replacement(dependency: Dependency) -> str:
+    removed = table("removed_packages")["names"].get(dependency.package.value)
+    return removed["instead"] if removed is not None else ""
 
 
 def _package(depends: str) -> dict[str, object]:
