@@ -16,6 +16,8 @@ from checker.launch.ros1.bridge import Bridge
 from checker.launch.ros1.graph import LaunchGraph
 from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
 from checker.model.robot import Robot
+from checker.ros.added_bridges import bridging
+from checker.ros.topics import plugin_channels
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 DEPLOY = "/deploy"
@@ -56,6 +58,7 @@ def _missing_bridges(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Findi
             plugin,
             "the topics of Breadcrumbs are not bridged: expected bridges for deploy and "
             "deploy/remaining",
+            fix=bridging(launch, [*plugin_channels(plugin.plugin)]),
         )
     else:
         yield finding(

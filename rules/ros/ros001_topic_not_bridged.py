@@ -24,6 +24,7 @@ from checker.finding import Place
 from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
+from checker.ros.added_bridges import bridging
 from checker.ros.topics import (
     Channel,
     Need,
@@ -67,7 +68,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         yield finding(place, f"no topic of the robot is bridged, for example {next(iter(owners))}")
         return
     assuming = _assumption_phrase(launch)
-    yield from _findings(missing, place, assuming)
+    yield from _findings(missing, place, assuming, launch)
     for topic in standard:
         shown = topic.replace("*", "<name>")
         message = f"no bridge for {shown}, which every robot of the challenge has"
@@ -75,7 +76,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
 
 
 def _unbridged_channels(robot: Robot, bridged: Collection[str], release: str) -> Iterator[Channel]:
-    """Yield the first channel of each group in which none is bridged."""
+    """Yield one channel of each group in which none is bridged: of several rows the points."""
     groups: dict[tuple[Sensor | Plugin, str], list[Channel]] = defaultdict(list)
     for channel in channels(robot, release):
         groups[channel.owner, channel.group].append(channel)
@@ -85,7 +86,13 @@ def _unbridged_channels(robot: Robot, bridged: Collection[str], release: str) ->
         if group[0].need is not Need.OPTIONAL and not any(
             topic in bridged or topic in commanded for topic in topics
         ):
-            yield group[0]
+            yield group[-1] if _has_rows(group[0]) else group[0]
+
+
+def _has_rows(channel: Channel) -> bool:
+    """Return whether a scan has only one of a lidar's rows."""
+    lidar = channel.owner.lidar if isinstance(channel.owner, Sensor) else None
+    return channel.what == "scan" and lidar is not None and lidar.rows > 1
 
 
 def _commanded_inside(robot: Robot, known: Collection[Sensor | Plugin]) -> frozenset[str]:
@@ -112,7 +119,9 @@ def _assumption_phrase(launch: LaunchGraph) -> str:
     return f", assuming that {named} of subt_ros has none" if named else ""
 
 
-def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterator[Finding]:
+def _findings(
+    missing: Iterable[Channel], place: Place, assuming: str, launch: LaunchGraph
+) -> Iterator[Finding]:
     """Yield one finding for all missing bridges of an owner."""
     by_owner: dict[tuple[Sensor | Plugin, Need], list[Channel]] = defaultdict(list)
     seen: set[tuple[str, ...]] = set()
@@ -128,6 +137,7 @@ def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterat
             f"no bridge for {names} of {lacking[0].owner_name}{assuming}",
             severity=Severity.WARNING if need is Need.WANTED else None,
             related=[(owner, "not bridged")],
+            fix=bridging(launch, lacking),
         )
 
 
@@ -214,6 +224,16 @@ _CMD_VEL = "/model/$(arg name)/cmd_vel@geometry_msgs/Twist]ignition.msgs.Twist"
 _ODOMETRY = "/model/$(arg name)/odometry@nav_msgs/Odometry[ignition.msgs.Odometry"
 _MIXER = '<plugin filename="m.so" name="acme::Mixer"><out>/model/#{_name}/mixed</out></plugin>'
 
+_LIDAR = """<sensor name="lidar" type="gpu_lidar"><lidar><scan>
+  <vertical><samples>16</samples></vertical>
+</scan></lidar></sensor>"""
+_GROUP = """<group ns="$(arg name)">
+  <node pkg="ros_ign_bridge" type="parameter_bridge" name="bridge_imu"
+        args="$(arg prefix)/base_link/sensor/imu/imu@sensor_msgs/Imu[ignition.msgs.IMU">
+    <remap from="$(arg prefix)/base_link/sensor/imu/imu" to="imu/data"/>
+  </node>
+</group>"""
+
 GOOD = [
     {"@fragment": _CAMERA, _TOPICS: _launch(_IMAGE, _INFO)},
     {"@fragment": _THERMAL, _TOPICS: _launch(_HEAT, _HEAT_INFO)},
@@ -241,6 +261,10 @@ GOOD = [
 BAD = [
     {"@fragment": _CAMERA, _TOPICS: _marked(_launch())},
     {"@fragment": _CAMERA, _TOPICS: _marked(_launch(_IMAGE))},
+    {
+        "@fragment": f'{_LIDAR}<sensor name="imu" type="imu"/>',
+        _TOPICS: _marked(_launch(extra=_GROUP)),
+    },
     {
         "@fragment": _THERMAL,
         _TOPICS: _marked(_launch(_HEAT, _INFO.replace("/front/", "/thermal/"))),

@@ -13,12 +13,24 @@ asked the author to replace the LaserScan of a lidar with 16 rows.
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
-from checker.launch.ros1.bridge import Bridge, Direction
+from checker.finding import Fix, Safety
+from checker.launch.ros1.bridge import MARKS, Bridge, Direction
 from checker.launch.ros1.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
+from checker.ros.added_bridges import bridging
 from checker.ros.topics import Channel, by_topic, channels
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Context,
+    Findings,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+from checker.source.text import Span
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
 _RANGE = "sensor_msgs/Range"
@@ -37,10 +49,16 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         here = ends.get(topic, ())
         for bridge in bridges:
             for fault in (*_faults(bridge, here), *_of_later_release(bridge, context.release)):
-                yield finding(bridge, f"{_bridge_label(bridge)} {fault}")
+                fix = _retyped(bridge, here, context.release)
+                yield finding(bridge, f"{_bridge_label(bridge)} {fault}", fix=fix)
         fault = _one_row_of_many(here)
         if fault and f"{topic}/points" not in bridged:
-            yield finding(bridges[0], f"{_bridge_label(bridges[0])} {fault}", key="one row of many")
+            yield finding(
+                bridges[0],
+                f"{_bridge_label(bridges[0])} {fault}",
+                key="one row of many",
+                fix=bridging(launch, ends.get(f"{topic}/points", ())),
+            )
 
 
 def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
@@ -74,6 +92,21 @@ def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
     if bridge.direction not in (*ways, Direction.BOTH):
         stated, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
         yield f"bridges {whose} from {stated}, expected {expected}"
+
+
+def _retyped(bridge: Bridge, ends: Sequence[Channel], release: str) -> Fix | None:
+    """Return the fix that writes the types and the direction of a topic that has one of each."""
+    if bridge.node.assumed_from or len(ends) != 1 or len(ends[0].ign_types) != 1:
+        return None
+    (end,), (ign,) = ends, ends[0].ign_types
+    ros = bridge.ros_type if _ros(bridge.ros_type) in end.ros_types else end.ros_types[0]
+    if release != "dome" and _ign(bridge.ign_type) == ign:
+        ign = bridge.ign_type
+    way = Direction.BOTH if bridge.direction is Direction.BOTH else end.direction
+    stated = f"@{bridge.ros_type}{MARKS[bridge.direction]}{bridge.ign_type}"
+    span = Span(bridge.span.source, bridge.span.end, bridge.span.end + len(stated))
+    right = f"@{ros}{MARKS[way]}{ign}"
+    return replace_text(span, right, Safety.UNSAFE) if span.text == stated else None
 
 
 def _of_later_release(bridge: Bridge, release: str) -> Iterator[str]:

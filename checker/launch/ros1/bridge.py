@@ -47,6 +47,7 @@ PASSES_NOTHING = frozenset(
 )
 """Packages whose nodes pass no topic of Gazebo but those that their command lines name."""
 _DIRECTIONS = {"[": Direction.TO_ROS, "]": Direction.TO_IGN, "@": Direction.BOTH}
+MARKS = {direction: mark for mark, direction in _DIRECTIONS.items()}
 _PARAMETER = re.compile(r"([^@\[\]]+)@([^@\[\]]+)([@\[\]])([^@\[\]]+)\Z")
 
 
