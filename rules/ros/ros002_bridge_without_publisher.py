@@ -19,6 +19,7 @@ assumed (`models_common.json`).
 from collections.abc import Callable
 
 from checker.base.words import Suggestions
+from checker.finding import Fix, Safety
 from checker.formats.sdf.links import read_plugin
 from checker.launch.ros1.bridge import Bridge, SensorTopic
 from checker.launch.ros1.graph import LaunchGraph
@@ -29,6 +30,7 @@ from checker.package.dependencies import available_packages
 from checker.package.package import Package
 from checker.ros.topics import comparable, sensor_channels
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.source.xml import Element
 
 _Own = Callable[[Plugin], bool]
 
@@ -52,7 +54,8 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
         if fault and (plugin := _publisher(robot, bridge, own, context.release)):
             yield unchecked(f"plugin {plugin.filename.value} may publish {bridge.ign_topic} itself")
         elif fault:
-            yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
+            message = _message(bridge, "listens", fault)
+            yield finding(bridge, message, key=bridge.ign_topic, fix=_on_its_link(robot, bridge))
     for bridge in launch.dormant_bridges:
         # A template that is switched off serves other configurations.
         if bridge.node.assumed_from:
@@ -60,6 +63,20 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
         if fault := _fault(robot, bridge, names, published):
             message = _message(bridge, "is switched off, and if switched on listens", fault)
             yield finding(bridge, message, severity=Severity.INFO, key="switched off")
+
+
+def _on_its_link(robot: Robot, bridge: Bridge) -> Fix | None:
+    """Return the fix that names the link of the only sensor of a name, throughout the node."""
+    topic, node = bridge.sensor, bridge.node.span.holder
+    links = [each.link for each in robot.sensors if topic and each.name.value == topic.sensor]
+    if topic is None or len(links) != 1 or links[0] == topic.link or not isinstance(node, Element):
+        return None
+    before = f"/link/{topic.link}/sensor/{topic.sensor}/"
+    after = f"/link/{links[0]}/sensor/{topic.sensor}/"
+    named = (node.attribute("args"), *(remap.attribute("from") for remap in node.all("remap")))
+    spans = [each.span for each in named if each is not None and before in each.span.text]
+    edits = tuple(span.replacement(span.text.replace(before, after)) for span in spans)
+    return Fix(Safety.UNSAFE, edits) if edits else None
 
 
 def _message(bridge: Bridge, listens: str, fault: str) -> str:

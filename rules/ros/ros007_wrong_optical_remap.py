@@ -9,14 +9,19 @@ Source: a SubT review that required corrected remaps in four copied publishers; 
 packages.
 """
 
+import posixpath
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
+from checker.finding import Fix, Safety
 from checker.launch.ros1.bridge import Bridge, Direction
-from checker.launch.ros1.graph import LaunchGraph
+from checker.launch.ros1.graph import LaunchGraph, resolve_name
 from checker.launch.spawner.reader import SAMPLE_NAME
-from checker.ros.transforms import OpticalFrame, optical_frames
+from checker.ros.transforms import IMAGES, INFOS, OpticalFrame, optical_frames
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located
+from checker.source.xml import Element
+from checker.source.xml_insertion import append_to
 
 _TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}
 _RENAMES = "topic_tools"
@@ -38,8 +43,8 @@ def check(launch: LaunchGraph) -> Findings:
     complete = not launch.unseen_bridges and not (launch.unread and launch.dormant_includes)
     renamed = any(node.package == _RENAMES for node in launch.nodes)
     for frame in frames:
-        for fault in _faults(frame, by_topic, sure=complete and not renamed):
-            yield finding(frame.node, f"{_label(frame.node.full_name)} {fault}")
+        for fault, fix in _faults(frame, by_topic, sure=complete and not renamed):
+            yield finding(frame.node, f"{_label(frame.node.full_name)} {fault}", fix=fix)
     yield from _copies(frames)
     if launch.unseen_bridges and any(_takes_unknown(frame, by_topic) for frame in frames):
         yield unchecked(launch.unseen_bridges[0])
@@ -50,8 +55,10 @@ def _takes_unknown(frame: OpticalFrame, by_topic: _Given) -> bool:
     return any(topic is not None and topic not in by_topic for topic in topics)
 
 
-def _faults(frame: OpticalFrame, by_topic: _Given, *, sure: bool) -> Iterator[str]:
-    """Return what is wrong with one publisher.
+def _faults(
+    frame: OpticalFrame, by_topic: _Given, *, sure: bool
+) -> Iterator[tuple[str, Fix | None]]:
+    """Yield what is wrong with one publisher, and its fix.
 
     Args:
         frame: The publisher.
@@ -60,22 +67,55 @@ def _faults(frame: OpticalFrame, by_topic: _Given, *, sure: bool) -> Iterator[st
     """
     missing = [name for name in frame.needed if name not in frame.remapped]
     if missing:
-        yield f"has no remap for {' and '.join(missing)}"
+        yield f"has no remap for {' and '.join(missing)}", _with_infos(frame, by_topic)
     for name, message in _TYPES.items():
         topic = frame.remapped.get(name)
         if topic is None or "$(" in topic:
             continue
         output = frame.remapped.get(name.replace("input", "output"), "")
         if output == topic:
-            yield f"publishes {name} on the topic that it reads, {_label(topic)}"
+            yield f"publishes {name} on the topic that it reads, {_label(topic)}", None
         elif topic not in by_topic and output in by_topic:
-            yield f"has {name} and {name.replace('input', 'output')} swapped"
+            yield f"has {name} and {name.replace('input', 'output')} swapped", _swapped(frame, name)
         elif topic not in by_topic and sure:
-            yield f"reads {name} from {_label(topic)}, which no bridge publishes"
+            yield f"reads {name} from {_label(topic)}, which no bridge publishes", None
         elif topic in by_topic and not any(_is(bridge, message) for bridge in by_topic[topic]):
-            yield f"reads {name} from {_label(topic)}, which is not a {message}"
+            yield f"reads {name} from {_label(topic)}, which is not a {message}", None
     if _of_two_cameras(frame, by_topic):
-        yield "reads image and camera_info of different sensors"
+        yield "reads image and camera_info of different sensors", None
+
+
+def _targets(frame: OpticalFrame) -> dict[str, Located[str]]:
+    """Return what the remaps of the node itself give for each name."""
+    node = frame.node.span.holder
+    remaps = node.all("remap") if isinstance(node, Element) else []
+    pairs = ((remap.get("from") or "", remap.attribute("to")) for remap in remaps)
+    return {source: target for source, target in pairs if target is not None}
+
+
+def _swapped(frame: OpticalFrame, name: str) -> Fix | None:
+    """Return the fix that exchanges what is read and what is published."""
+    targets = _targets(frame)
+    pair = [targets.get(each) for each in (name, name.replace("input", "output"))]
+    edits = [
+        one.span.replacement(other.value)
+        for one, other in (pair, pair[::-1])
+        if one is not None and other is not None
+    ]
+    return Fix(Safety.UNSAFE, tuple(edits)) if edits else None
+
+
+def _with_infos(frame: OpticalFrame, by_topic: _Given) -> Fix | None:
+    """Return the fix that adds the remaps of camera_info, beside those of the images."""
+    targets, node = _targets(frame), frame.node.span.holder
+    folders = [posixpath.dirname(targets[name].value) for name in IMAGES if name in targets]
+    topics = [posixpath.join(folder, "camera_info") for folder in folders]
+    is_known = bool(topics) and resolve_name(topics[0], frame.node.namespace) in by_topic
+    if set(targets) != set(IMAGES) or not is_known or not isinstance(node, Element):
+        return None
+    pairs = zip(INFOS, topics, strict=True)
+    lines = [f'<remap from="{name}" to="{topic}"/>' for name, topic in pairs]
+    return Fix(Safety.UNSAFE, (append_to(node, lines),)) if len(set(topics)) == 2 else None
 
 
 def _label(name: str) -> str:

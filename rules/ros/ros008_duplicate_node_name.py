@@ -13,13 +13,16 @@ whose `optical_frame_publisher` was copied with its name.
 
 import posixpath
 from collections import defaultdict
-from collections.abc import Hashable, Iterator
+from collections.abc import Container, Hashable, Iterator
+from itertools import count
 
+from checker.finding import Fix
 from checker.launch.ros1.assumed_files import unknown_nodes
 from checker.launch.ros1.graph import LaunchGraph, Node, UnresolvedInclude
 from checker.launch.ros1.substitution import is_known
 from checker.launch.spawner.reader import SAMPLE_NAME
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rename, rule, unchecked
+from checker.source.xml import Element
 
 _SHOWN = 20
 """Greatest number of further nodes with the name that a finding lists."""
@@ -46,8 +49,19 @@ def check(launch: LaunchGraph) -> Findings:
                     (first, "the first node with this name"),
                     *((node, "another node with this name") for node in others[1 : _SHOWN + 1]),
                 ],
+                fix=_numbered(first, others[0], named),
             )
     yield from _included_twice(launch)
+
+
+def _numbered(first: Node, other: Node, taken: Container[str]) -> Fix | None:
+    """Return the fix that puts a number behind the name of the second node."""
+    element = other.span.holder
+    name = element.attribute("name") if isinstance(element, Element) else None
+    if name is None or element is first.span.holder or name.value != other.name:
+        return None
+    free = (number for number in count(2) if f"{other.full_name}_{number}" not in taken)
+    return rename(name, f"{name.value}_{next(free)}")
 
 
 def _included_twice(launch: LaunchGraph) -> Iterator[Finding]:
