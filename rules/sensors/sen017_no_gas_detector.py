@@ -9,15 +9,21 @@ Source: SubT maintainers require it on every robot (`subt_standards.json`, gas_s
 """
 
 from checker.base.resources import table
-from checker.finding import Place
+from checker.finding import Fix, Place, Safety
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.package.inheritance import SPAWNER
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.text import SourceText
+from checker.source.xml_insertion import insert_behind
 
 _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
+
+
+_NAME = "#{_name}"
+"""The robot's name, as the guide's spawner writes it."""
 
 
 @rule("SEN017", "no-gas-detector", Severity.ERROR, Concern.INTERFACE)
@@ -38,7 +44,26 @@ def check(package: Package, robot: Robot) -> Findings:
         Place(SPAWNER) if package.exists(SPAWNER) else robot,
         f"robot {robot.name.value!r} has no gas detector; add the plugin {standard['name']!r} of "
         f"{standard['filename']!r}",
+        fix=_added(package, robot),
     )
+
+
+def _added(package: Package, robot: Robot) -> Fix | None:
+    """Return the fix that puts the plugin behind the last one that the spawner adds."""
+    emitted = [each for each in robot.plugins if each.span.place().file == SPAWNER]
+    source = package.read(SPAWNER)
+    if not emitted or not isinstance(source, SourceText) or _NAME not in source.text:
+        return None
+    standard = table("subt_standards")["gas_sensor"]
+    plugin, parameters = standard["plugin"], standard["parameters"]
+    lines = [
+        f'<plugin filename="{plugin["filename"]}"',
+        f'        name="{plugin["name"]}">',
+        *(f"  <{tag}>{value}</{tag}>" for tag, value in parameters.items()),
+        "</plugin>",
+    ]
+    texts = [line.replace("{name}", _NAME) for line in lines]
+    return Fix(Safety.UNSAFE, (insert_behind(emitted[-1].element, texts),))
 
 
 _DETECTOR = '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>'
