@@ -137,7 +137,6 @@ LIFT = """<link name="fork"/>
   <limit lower="0" upper="1" effort="5" velocity="0"/></joint>
 """
 GZ = MOTOR.format(name="gz", plugin="gz_ros2_control/GazeboSimSystem")
-CLASSIC = MOTOR.format(name="gz", plugin="gazebo_ros2_control/GazeboSystem")
 MOCK = MOTOR.format(name="mock", plugin="mock_components/GenericSystem")
 CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
@@ -155,7 +154,6 @@ CASES: list[tuple[str, Example, str]] = [
         "info",
     ),
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
-    ("KIN007", {"@urdf": LIFT + CLASSIC}, "warning"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("LCH004", FORMER, "error"),
@@ -215,6 +213,14 @@ def test_severity_depends_on_the_case(
 def test_a_replaced_package_is_missing(distro: str, severity: str, tmp_path: Path) -> None:
     package = write_example(REPLACED, tmp_path)
     settings = Settings(profile="ros2", profile_chosen=True, select=("PKG021",), distro=distro)
+    (report,) = check_package(package, settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
+
+
+@pytest.mark.parametrize(("profile", "severity"), [("ros2", "error"), ("ros2-classic", "warning")])
+def test_classic_sets_positions_without_force(profile: str, severity: str, tmp_path: Path) -> None:
+    package = write_example({"@urdf": LIFT + GZ}, tmp_path)
+    settings = Settings(profile=profile, profile_chosen=True, select=("KIN007",), distro="humble")
     (report,) = check_package(package, settings).packages
     assert [str(finding.severity) for finding in report.findings] == [severity]
 

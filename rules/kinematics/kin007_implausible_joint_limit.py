@@ -57,7 +57,6 @@ def check(
         yield unchecked(robot.unread_plugins)
     highest = {"effort": highest_effort, "velocity": highest_velocity}
     commanded, stated = _commanded_joints(robot), robot.conventions.states_devices
-    limited = is_from(distribution_of(context), "kilted")
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
         for axis in joint.axes:
@@ -67,7 +66,7 @@ def check(
                 yield from _zero(joint, axis, driver)
             elif (hardware := commanded.get(joint.scoped_name)) is not None:
                 yield from _missing(joint, axis)
-                yield from _zero_limits(joint, axis, hardware, limited=limited)
+                yield from _zero_limits(joint, axis, hardware, context)
             elif driver is None and not stated and not joint.immovable:
                 held = context.is_gazebo_sim and robot.is_for_gazebo
                 yield from _still(joint, axis, held=held)
@@ -107,16 +106,15 @@ def _commanded_joints(robot: Robot) -> dict[str, Hardware]:
 
 
 def _zero_limits(
-    joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool
+    joint: Joint, axis: Axis, hardware: Hardware, context: Context
 ) -> Iterator[Finding]:
     commands = hardware.joints_by_name[joint.name.value].commands
     pushed = any(command.name.value == "effort" for command in commands)
     # Gazebo Classic sets positions and velocities without any force.
-    set_by_classic = hardware.plugin.value.startswith("gazebo_ros2_control/") and not pushed
-    simulated = is_of_gazebo(hardware.plugin.value) and not set_by_classic
-    certain, by_effort = simulated or limited, simulated or pushed
+    forced = is_of_gazebo(hardware.plugin.value) and (pushed or not context.is_classic)
+    certain = forced or is_from(distribution_of(context), "kilted")
     for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
-        if limit.stated and limit.value == 0.0 and (kind == "velocity" or by_effort):
+        if limit.stated and limit.value == 0.0 and (kind == "velocity" or forced or pushed):
             yield finding(
                 limit,
                 f"joint {joint.name.value!r} has the {kind} limit 0, but <ros2_control> "
