@@ -42,18 +42,26 @@ def finding_text(
         return
     if finding.why and settings.full and not explained:
         yield f"    why: {finding.why}"
-    if corrected := _corrected_line(finding):
-        yield f"    fix: write `{corrected}`"
+    if corrected := _what_to_write(finding, package):
+        yield f"    fix: write {corrected}"
     elif finding.how and not explained:
         yield f"    fix: {finding.how}"
 
 
-def _corrected_line(finding: ReportedFinding) -> str:
-    """Return the lines as the fix writes them; empty if they are long, or in another file."""
+def _what_to_write(finding: ReportedFinding, package: PackageReport) -> str:
+    """Return the lines as the fix writes them, and where if in another file; empty if long."""
     lines = list(corrected_lines(finding.fix)) if finding.fix else []
-    shown = all(it.is_line and it.file == finding.places[0].file and it.after for it in lines)
-    text = plain(" ".join(" ".join(part.strip() for part in it.after.split("\n")) for it in lines))
-    return text if shown and "\n" not in text and len(text) <= SNIPPET_WIDTH else ""
+    files = {it.file for it in lines}
+    if len(files) != 1 or not all(it.is_line and it.after for it in lines):
+        return ""
+    texts = (" ".join(part.strip() for part in it.after.split("\n")) for it in lines)
+    text = plain(" ".join(dict.fromkeys(texts)))
+    if "\n" in text or len(text) > SNIPPET_WIDTH:
+        return ""
+    if files == {finding.places[0].file}:
+        return f"`{text}`"
+    place = Place(lines[0].file, lines[0].line)
+    return f"`{text}` at {where_text(place, package)}"
 
 
 def path_of(place: Place, package: PackageReport) -> str:

@@ -16,13 +16,26 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from checker.base.words import Suggestions, and_list
+from checker.finding import Fix
+from checker.formats.xacro.expanded import written_element
 from checker.model.controllers import Controller
 from checker.package.package import Package
 from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
+from checker.ros.ros2_control.distributions import is_mock, is_of_gazebo
 from checker.ros.ros2_control.hardware import HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    misspelt,
+    rule,
+)
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
+from checker.source.xml_insertion import append_to
 
 
 @rule("R2C009", "unavailable-interface", Severity.ERROR, Concern.INTERFACE)
@@ -53,7 +66,7 @@ def _faults(
         name = claim.joint.value
         joint = control.joints.get(name)
         if joint is not None:
-            yield from _missing(controller, claim, joint)
+            yield from _missing(control, controller, claim, joint)
         elif name not in control.components and not control.may_be_included(claim.joint):
             message = f"{controller.label} names joint {name!r}, which"
             key = f"{name} {controller.name}"
@@ -72,7 +85,9 @@ def _faults(
             )
 
 
-def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iterator[Finding]:
+def _missing(
+    control: RobotControl, controller: Controller, claim: Claim, joint: HardwareJoint
+) -> Iterator[Finding]:
     for kind, needed, offered in (
         ("command", claim.commands, joint.commands),
         ("state", claim.states, joint.states),
@@ -87,7 +102,16 @@ def _missing(controller: Controller, claim: Claim, joint: HardwareJoint) -> Iter
                     f"{claim.joint.value!r}, but {has}",
                     key=f"{controller.name} {kind} {name}",
                     related=[(joint, "the joint in <ros2_control>")],
+                    fix=_added(control, joint, f'<{kind}_interface name="{name}"/>'),
                 )
+
+
+def _added(control: RobotControl, joint: HardwareJoint, line: str) -> Fix | None:
+    """Return the fix that adds an interface; None for hardware that may not offer it."""
+    plugins = (it.plugin.value for it in control.hardware if joint in it.joints)
+    if not all(is_of_gazebo(plugin) or is_mock(plugin) for plugin in plugins):
+        return None
+    return Fix(Safety.UNSAFE, (append_to(written_element(joint.element), [line]),))
 
 
 _INTERFACES = """<joint name="shoulder">
