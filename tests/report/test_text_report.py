@@ -107,7 +107,9 @@ def test_the_line_to_write_is_that_of_the_fix() -> None:
     both = replace(fixed, fix=Fix(Safety.UNSAFE, (edit, elsewhere)))
     assert "    fix: write 1." in lines(both)
     other = replace(fixed, fix=Fix(Safety.UNSAFE, (elsewhere, elsewhere)))
-    written = f"    fix: write `<resolution>1</resolution>` at models/rover/other.sdf:{PLACE.line}:1"
+    written = (
+        f"    fix: write `<resolution>1</resolution>` at models/rover/other.sdf:{PLACE.line}:1"
+    )
     assert written in lines(other)
     assert lines(fixed, twice)[-2:] == [
         "`--fix` corrects 1 finding",
