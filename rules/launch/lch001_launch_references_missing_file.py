@@ -17,6 +17,7 @@ ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 import posixpath
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.named_paths import (
     NamedPath,
@@ -28,7 +29,17 @@ from checker.launch.ros2.named_paths import (
 )
 from checker.package.git_ignored import ignored_by
 from checker.package.package import Package
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
 
 _DATA = (".yaml", ".yml", ".world", ".sdf")
 
@@ -64,12 +75,28 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     severity=None
                     if str(named.path) in needed and not ignored
                     else Severity.WARNING,
+                    fix=None if found or ignored else _renamed(package, named),
                 )
         yield from _empty_paths(graph)
 
 
 def _others(package: Package, named: NamedPath) -> str:
-    """Return the end of a message with the file that may be meant.
+    """Return the end of a message with the file that may be meant."""
+    meant = _meant(package, named)
+    return f"; {posixpath.dirname(named.path.path)} has {meant}" if meant else ""
+
+
+def _renamed(package: Package, named: NamedPath) -> Fix | None:
+    """Return the fix that names the file that is meant, where only its ending differs."""
+    meant, name = _meant(package, named), posixpath.basename(named.path.path)
+    text = named.span.text
+    if meant.partition(".")[0] != name.partition(".")[0] or text.count(name) != 1:
+        return None
+    return replace_text(named, text.replace(name, meant), Safety.UNSAFE)
+
+
+def _meant(package: Package, named: NamedPath) -> str:
+    """Return the name of the file that may be meant, else an empty text.
 
     It is the only one of that kind in the folder, or the only one whose name differs by its first
     word, as where a package is renamed: `rover_base.xacro` and `robot_base.xacro`.
@@ -82,7 +109,7 @@ def _others(package: Package, named: NamedPath) -> str:
     words = posixpath.basename(named.path.path).partition("_")[2]
     if len(there) > 1 and words:
         there = [name for name in there if name.partition("_")[2] == words]
-    return f"; {folder} has {there[0]}" if len(there) == 1 else ""
+    return there[0] if len(there) == 1 else ""
 
 
 def _empty_paths(graph: LaunchGraph) -> Iterator[Finding]:

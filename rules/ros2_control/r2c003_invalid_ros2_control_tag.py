@@ -15,6 +15,7 @@ resource_manager.cpp, "is duplicated".
 from collections.abc import Iterator
 
 from checker.base.words import Suggestions
+from checker.finding import Fix, Safety
 from checker.formats.xacro.expanded import written_element
 from checker.ros.ros2_control.hardware import (
     KNOWN_CHILDREN,
@@ -27,6 +28,7 @@ from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import ros2_control
 from checker.source.xml import Element
+from checker.source.xml_insertion import append_to, removal
 
 
 @rule("R2C003", "invalid-ros2-control-tag", Severity.ERROR, Concern.INTERFACE)
@@ -92,7 +94,18 @@ def _strange(hardware: Hardware) -> Iterator[Finding]:
         if child.tag not in KNOWN_CHILDREN:
             hint = suggestions.hint(child.tag)
             inside = "; move it into <hardware>" if child.tag == "param" else hint
-            yield finding(child, f"<{child.tag}> does not belong below <ros2_control>{inside}")
+            message = f"<{child.tag}> does not belong below <ros2_control>{inside}"
+            yield finding(child, message, fix=_moved(child) if child.tag == "param" else None)
+
+
+def _moved(parameter: Element) -> Fix | None:
+    """Return the fix that moves a parameter to the end of `<hardware>`."""
+    written = written_element(parameter)
+    holder = written.parent.child("hardware") if written.parent is not None else None
+    if holder is None:
+        return None
+    text = written.whole_span.text
+    return Fix(Safety.UNSAFE, (removal(written), append_to(holder, [text])))
 
 
 def _twice(hardware: Hardware) -> Iterator[Finding]:

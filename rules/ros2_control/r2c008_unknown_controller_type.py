@@ -17,6 +17,8 @@ Source: plugin descriptions of ros2_controllers, by branch.
 
 from collections.abc import Iterator, Mapping
 
+from msgspec.structs import replace
+
 from checker.base.words import Suggestions
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
@@ -72,7 +74,8 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
     """
     distribution, types = distribution_of(context), controller_types()
     packages = {name.partition("/")[0] for name in types} | _OF_ROS_1
-    suggestions = Suggestions(name for name in types if types[name].exists_in(distribution))
+    current = [name for name in types if types[name].exists_in(distribution)]
+    suggestions = Suggestions(current)
     for controller in control.controllers:
         name = controller.type.value
         owner = name.partition("/")[0]
@@ -89,7 +92,10 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
                 message += f", expected {instead}"
                 yield finding(controller.type, message, fix=rename(controller.type, instead))
             else:
-                yield misspelt(controller.type, message, suggestions)
+                found = misspelt(controller.type, message, suggestions)
+                of_owner = [each for each in current if each.partition("/")[0] == owner]
+                only = rename(controller.type, of_owner[0]) if len(of_owner) == 1 else None
+                yield replace(found, fix=found.fix or only)
 
 
 def _another_package(

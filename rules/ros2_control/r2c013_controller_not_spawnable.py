@@ -18,6 +18,8 @@ Source: ros2_control, controller_manager/spawner.py and `ControllerManager::load
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from checker.base.words import Suggestions, and_list
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
@@ -26,7 +28,17 @@ from checker.ros.ros2_control.distributions import (
     is_of_gazebo,
 )
 from checker.ros.ros2_control.launched import LaunchedControl
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    rename,
+    rule,
+)
 from checker.rulebook.example_parts import gazebo_control, model_beside
 
 _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
@@ -52,14 +64,19 @@ def check(launched: LaunchedControl, package: Package, context: Context) -> Find
         if typed is None or listed is None or spawner.states_type or not spawner.complete:
             continue
         suggestions = Suggestions((*listed, *typed))
+        started = {name.value for each in launched.spawners for name in each.names}
+        idle = sorted({*listed, *typed} - started)
         for name in spawner.names:
             if name.value not in listed and name.value not in typed:
-                yield misspelt(
+                found = misspelt(
                     name,
                     f"controller {name.value!r} has no type in the parameters of the controller "
                     "manager or of its spawner",
                     suggestions,
                 )
+                words = name.value.rpartition("_")[0]
+                is_meant = len(idle) == 1 and bool(words) and idle[0].startswith(words)
+                yield replace(found, fix=found.fix or (rename(name, idle[0]) if is_meant else None))
 
 
 def _two_managers(launched: LaunchedControl) -> Iterator[Finding]:

@@ -18,13 +18,24 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from checker.base.words import Suggestions
+from checker.finding import Fix
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
 from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS, simulates
 from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.names import BRACES
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    rename,
+    rule,
+)
 
 
 @rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)
@@ -52,15 +63,23 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
             message = f"<gazebo> refers to {name!r}, which the xacro makes under a condition"
             yield finding(tag.reference, message, severity=Severity.INFO, key=name)
         elif tag.reference.stated and not known:
-            yield misspelt(
+            found = misspelt(
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint",
                 names,
                 severity=None if is_whole and simulates(tag.element) else Severity.WARNING,
                 key=name,
             )
+            yield replace(found, fix=found.fix or _with_ending(tag, robot))
         else:
             yield from _useless(tag, robot, in_gazebo=in_gazebo)
+
+
+def _with_ending(tag: GazeboTag, robot: Robot) -> Fix | None:
+    """Return the fix that writes `base_link` for `base`, where the tag is for a link."""
+    link = f"{tag.reference.value}_link"
+    is_for_link = all(child.tag in OF_LINKS for child in tag.element.children)
+    return rename(tag.reference, link) if is_for_link and link in robot.links_by_name else None
 
 
 def _optional_names(description: UrdfDescription) -> set[str | None]:

@@ -18,7 +18,17 @@ from msgspec.structs import replace
 from checker.base.words import Suggestions
 from checker.formats.urdf.description import Transmission, TransmissionEnd, UrdfDescription
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    misspelt,
+    rename,
+    rule,
+)
 from checker.source.text import Located
 
 _MOVING = ("continuous", "prismatic", "revolute")
@@ -101,6 +111,7 @@ def _joint(
                     f"actuator {actuator.name.value!r} has {_plain(interface)}, but joint "
                     f"{name!r} has {', '.join(sorted(wanted))}: expected the same",
                     related=[(end.interfaces[0], "the joint's interface")],
+                    fix=rename(interface, end.interfaces[0].value) if len(wanted) == 1 else None,
                 )
 
 
