@@ -14,7 +14,7 @@ are known from their parameters.
 Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's transforms, or state
 `enable_odom_tf: false` for the controller, or `<publish_odom_tf>false</publish_odom_tf>` for the
 plugin of Gazebo Classic. Without: `publish_tf: false` for the filter. Odometry ends at the root of
-the robot.
+the robot. MoveIt's launch files publish each `<virtual_joint>`: remove one that repeats a joint.
 Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
 `publish_tf`; ros2_controllers, `enable_odom_tf`.
 """
@@ -239,6 +239,37 @@ def _included_example(slam: str, yaml: str, mark: str = "") -> dict[str, object]
     }
 
 
+_VIRTUAL = """import os
+
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from moveit_configs_utils import MoveItConfigsBuilder
+from moveit_configs_utils.launches import generate_static_virtual_joint_tfs_launch
+
+CONFIG = MoveItConfigsBuilder("rover", package_name="acme_rover_bringup").to_moveit_configs()
+
+
+def generate_launch_description():
+    with open(os.path.join(os.path.dirname(__file__), "../urdf/rover.urdf")) as file:
+        text = file.read()
+    node = Node(package="robot_state_publisher", executable="robot_state_publisher",
+                parameters=[{"robot_description": text}])
+    return LaunchDescription([node, generate_static_virtual_joint_tfs_launch(CONFIG)])
+"""
+
+
+def _virtual(parent: str, mark: str = "") -> dict[str, object]:
+    """Return a rover whose SRDF has a virtual joint, which MoveIt's launch file publishes."""
+    joint = (
+        f'<virtual_joint name="v" type="fixed" parent_frame="{parent}" child_link="lidar_link"/>'
+    )
+    return {
+        "@bridge": True,
+        "launch/moveit.launch.py": _VIRTUAL,
+        "config/rover.srdf": f'<robot name="rover">\n{joint}{mark}\n</robot>\n',
+    }
+
+
 GOOD = [
     {"@bridge": True},
     _included_example("True", "amcl: {ros__parameters: {}}"),
@@ -269,6 +300,7 @@ GOOD = [
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
+    _virtual("base_link", _XML_MARK),
     _included_example("False", "amcl: {ros__parameters: {}}", _XML_MARK),
     _component("true", _XML_MARK),
     _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),

@@ -51,8 +51,11 @@ def static_transforms(node: WiredNode) -> Iterator[Transform]:
         frames = words[-2:]
     if len(frames) == len(_OPTIONS):
         parent, child = map(_frame, frames)
-        span, program = node.node.span, node.node.executable.value
-        cure = f"remove this {program}"
+        span, cure = node.node.span, f"remove this {node.node.executable.value}"
+        word = node.node.arguments[-1]
+        if word.span.source.file.endswith(".srdf"):
+            # MoveIt's launch file starts one for each virtual joint.
+            span, cure = word.span, f"remove <virtual_joint> from {word.span.source.file}"
         yield Transform(parent, child, topic, span, node.label, cure, node)
 
 

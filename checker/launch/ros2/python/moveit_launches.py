@@ -10,7 +10,15 @@ from checker.launch.ros2.actions.node_parameters import MOVEIT
 from checker.launch.ros2.python import moveit
 from checker.launch.ros2.python.call import Call, Work
 from checker.launch.ros2.python.expressions import each
-from checker.launch.ros2.values import FilePath, Made, Unknown, Value, add_place, chosen_value
+from checker.launch.ros2.values import (
+    FilePath,
+    Made,
+    PlacedText,
+    Unknown,
+    Value,
+    add_place,
+    chosen_value,
+)
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 from checker.source.yaml import read_yaml
@@ -100,7 +108,8 @@ def _static_transforms(stock: _Stock) -> Iterator[Value]:
     document = parse_xml(source) if source is not None else None
     joints = document.root.all("virtual_joint") if isinstance(document, XmlDocument) else ()
     for number, joint in enumerate(joints):
-        parent, child = joint.get("parent_frame") or "", joint.get("child_link") or ""
+        given = (joint.attribute(name) for name in ("parent_frame", "child_link"))
+        parent, child = (PlacedText(it.value, it.span) if it else "" for it in given)
         yield stock.node(
             "tf2_ros",
             "static_transform_publisher",
