@@ -1,0 +1,1 @@
+"""SRDF: groups, poses and collision pairs of a robot, for MoveIt."""
