@@ -6,12 +6,13 @@ Comments do not count, nor launch files of ROS 1 in a package of ROS 2. In ROS 2
 packages of nodes, components, included launch files, parameter files, `xacro` commands, `$(find …)`
 and `package://` in robot descriptions, and for messages and a few modules of ROS, such as
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
-packages of ROS and of the workspace that CMakeLists.txt requires without a condition. Dependencies
-of a declared metapackage such as ros_gz count as declared. The same happens if package.xml
-misspells the package of a team or plugin: it is reported if a package of a similar name is
-available, and the misspelt one is not. A name that no ROS distribution has is to be corrected, not
-declared, if it is near to one of them. If a package is not available, and this package has every
-file that it uses of it, the name is taken as the former name of this package.
+packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
+of controllers and Gazebo's hardware, unless another package of the workspace declares them.
+Dependencies of a declared metapackage such as ros_gz count as declared. The same happens if
+package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
+is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
+not declared, if it is near to one of them. If a package is not available, and this package has
+every file that it uses of it, the name is taken as the former name of this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
 those that the build uses, too; write the package's own name instead of its former one.
@@ -39,6 +40,8 @@ from checker.package.references import PROVIDED
 from checker.package.released import ReleasedNames, distributions_with, is_of_system
 from checker.package.submissions import is_slip_for, robot_of
 from checker.package.teams import teams
+from checker.ros.ros2_control.distributions import distribution_of
+from checker.ros.ros2_control.plugin_packages import plugin_uses
 from checker.rule import (
     Concern,
     Context,
@@ -89,6 +92,7 @@ def check(
         for use in every_use(package, launch)
         if not (use.builds and manifest.depends_on(use.package_name))
     ]
+    uses += _plugins(package, context) if ament else ()
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:
@@ -116,6 +120,16 @@ def check(
     yield from _distribution(place, others, fix, None if ament else Severity.INFO)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
+
+
+def _plugins(package: Package, context: Context) -> Iterator[Use]:
+    """Yield packages of controllers and hardware that no package of the workspace declares."""
+    manifests = [Paperwork(other).manifest for other in package.other_packages]
+    for use in plugin_uses(package):
+        name = use.package_name
+        declared = any(it and (it.depends_on(name) or _brought(it, name)) for it in manifests)
+        if not declared and distribution_of(context) in distributions_with(name):
+            yield use
 
 
 def _renaming_message(package: Package, use: Use) -> str:
@@ -273,6 +287,11 @@ except ImportError:
     CvBridge = None
 """
 
+_CONTROL = """controller_manager:
+  ros__parameters:
+    arm_controller:
+      type: joint_trajectory_controller/JointTrajectoryController
+"""
 _BUILD = """project(acme_arm_bringup)
 find_package(ament_cmake REQUIRED)
 find_package(Eigen3 REQUIRED)
@@ -292,6 +311,12 @@ GOOD = [
     },
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "config/arm.yaml": _CONTROL,
+        "../acme_arm_control/package.xml": _arm("ros2_controllers").replace("_bringup", "_control"),
+    },
     {
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz"),
@@ -331,6 +356,11 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "CMakeLists.txt": _BUILD.format("rclcpp"),
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
+        "config/arm.yaml": _CONTROL,
     },
     {
         "@ros2": _BRIDGE,
