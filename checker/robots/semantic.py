@@ -66,7 +66,9 @@ class SemanticDescription(Record, eq=False, dict=True):
         """Return whether no robot has a part, whatever arguments xacro is given."""
         if name in self.names[kind]:
             return False
-        return kind == "group" or not any(_may_be(name, parts) for parts in self._computed)
+        if kind == "group" or _bare(name) in map(_bare, self.names[kind]):
+            return True
+        return not any(_may_be(name, parts) for parts in self._computed)
 
     @cached_property
     def _computed(self) -> list[list[str]]:
@@ -83,6 +85,11 @@ class SemanticDescription(Record, eq=False, dict=True):
         for source in sources:
             if isinstance(source, ExpandedText):
                 yield from (written.text for written in source.gathered.sources.values())
+
+
+def _bare(name: str) -> str:
+    """Return a name without what only a slip makes another name."""
+    return name.replace("_", "").lower()
 
 
 def _may_be(name: str, known: list[str]) -> bool:

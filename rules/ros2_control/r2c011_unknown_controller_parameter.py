@@ -6,11 +6,15 @@ Since Jazzy, the drives read `TwistStamped` only: `use_stamped_vel: false` is ig
 of type `Twist` do not move the robot. A controller of a group of joints replaces `interface_name`
 by the interface of its type.
 
+A JointTrajectoryController has `constraints.<joint>.goal` and `gains.<joint>.p`: without the joint
+they are unknown.
+
 Fix: remove the parameter, or correct its name.
 Source: parameter files of ros2_controllers, by branch.
 """
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from checker.base.words import Suggestions
 from checker.model.controllers import Controller
@@ -40,6 +44,8 @@ _STAMPED = "use_stamped_vel"
 _INTERFACE = "interface_name"
 _READ_OTHERWISE = ("qos_overrides.", "sensor_filter_chain.", "filter", "kinematics.")
 """Starts of parameters that rclcpp, filters and solvers of kinematics declare themselves."""
+_JOINT = re.compile(r"(?P<first>\w+)\.<(?P<list>joints|dof_names)>\.(?P<last>\w+)")
+"""A parameter that each joint of a list has."""
 
 
 @rule("R2C011", "unknown-controller-parameter", Severity.WARNING, Concern.INTERFACE)
@@ -90,7 +96,11 @@ def _without_effect(
 ) -> Finding:
     parameter, of_type = controller.parameters[name], _of_type(controller)
     if known.parameter(name) is None:
-        suggestions = Suggestions(_known_parameters(known, distribution))
+        names = _known_parameters(known, distribution)
+        if meant := _for_each_joint(controller, name, names):
+            message = f"{of_type} has no parameter {name}: expected {meant}, one for each joint"
+            return finding(parameter.key, message)
+        suggestions = Suggestions(names)
         return finding(
             parameter.key,
             f"{of_type} has no parameter {name}{suggestions.hint(name)}",
@@ -104,6 +114,19 @@ def _without_effect(
         "publish geometry_msgs/msg/TwistStamped"
     )
     return finding(parameter.key, message)
+
+
+def _for_each_joint(controller: Controller, name: str, names: Iterable[str]) -> str:
+    """Return the parameter of a joint that is meant where the joint is left out; else nothing."""
+    first, *others = name.split(".")
+    for known in names:
+        place = _JOINT.fullmatch(known)
+        if place and place["first"] == first and place["last"] in others:
+            joints = controller.parameters.get(place["list"])
+            items = joints.node.items if joints is not None else ()
+            joint = items[0].scalar if items else "<joint>"
+            return f"{first}.{joint}.{place['last']}"
+    return ""
 
 
 def _controller(kind: str, *parameters: str) -> object:
@@ -124,12 +147,20 @@ def _group(interface: str, mark: str = "") -> object:
     return _controller(kind, "joints: [shoulder]", f"interface_name: {interface}{mark}")
 
 
+def _trajectory(*parameters: str) -> object:
+    """Return a controller of an arm, with further parameters."""
+    kind = "joint_trajectory_controller/JointTrajectoryController"
+    interfaces = "command_interfaces: [velocity]", "state_interfaces: [position, velocity]"
+    return _controller(kind, "joints: [shoulder]", *interfaces, *parameters)
+
+
 _MARK = "  # ^ R2C011"
 GOOD = [
     _arm("linear.x.max_velocity: 1.0"),
     _arm("linear: {x: {max_velocity: 1.0}}"),
     _arm("use_sim_time: true"),
     _group("velocity"),
+    _trajectory("constraints: {shoulder: {goal: 0.1}, goal_time: 1.0}"),
 ]
 BAD = [
     _arm(f"wheel_seperation: 0.5{_MARK}"),
@@ -137,4 +168,6 @@ BAD = [
     _arm(f"wheels_per_side: 1{_MARK}"),
     _arm(f"constraints: {{goal_time: 1.0}}{_MARK}"),
     _group("position", _MARK),
+    _trajectory(f"constraints: {{goal: {{position: 0.1}}}}{_MARK}"),
+    _trajectory(f"gains: {{p: 1.0}}{_MARK}"),
 ]
