@@ -25,6 +25,7 @@ RULES = {
     "gzrc-plugin-names": "R2C006",
     "gzrc-robot-name": "URD020",
     "gzrc-steer-inertial": "URD007",
+    "mycobot-flange": "URD031",
     "nav2-dae-path": "REF002",
     "nav2-home-path": "WIR014",
     "nav2-imu-joint": "KIN003",
@@ -48,7 +49,7 @@ NOT_READ = {
         "so100-controllers",
         "xarm-acc",
     ),
-    "SRDF": ("mycobot-flange", "xarm-srdf-name", "xarm6-adjacent"),
+    "SRDF with arguments of xacro": ("xarm-srdf-name", "xarm6-adjacent"),
     "parameters of Nav2": (
         "lino-base-scan",
         "lino-voxel",

@@ -27,6 +27,7 @@ from checker.source.yaml import read_yaml
 _ASSISTANT = ".setup_assistant"
 _ROBOTS_LIMIT = 8
 _FILES_LIMIT = 400
+_SRDF_LIMIT = 20
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _COMPUTED = re.compile(r"\$[{(][^{}()]{0,200}[})]")
 _ATTRIBUTE = re.compile(r"""\b([\w:]{1,60})\s{0,4}=\s{0,4}["']([^"'<>]{1,200})["']""")
@@ -110,19 +111,30 @@ def semantic_descriptions(
     launch: Ros2Launch | NotAvailable,
     expander: Expander,
 ) -> tuple[SemanticDescription, ...] | NotAvailable:
-    """Return the SRDF files that xacro need not expand."""
+    """Return the SRDF files; those that are xacro as they are without arguments."""
     own = [] if isinstance(files, NotAvailable) else [*files.descriptions, *files.others]
     found = []
-    for entry in package.index.with_suffix(".srdf"):
-        document = package.xml(entry.path)
-        if isinstance(document, XmlDocument) and document.root.tag == "robot":
-            reader = _Robots(package, expander, launch)
-            name = (document.root.get("name") or "").strip()
+    for path, document in _documents(package, expander):
+        root = document.root
+        name = (root.get("name") or "").strip()
+        # A file of macros alone expands to nothing.
+        if root.tag == "robot" and root.children:
             same = [it for it in own if it.robot.name.value == name]
-            robots = reader.robots(entry.path, name, same)
-            named = _is_named(package, entry.path, name)
-            found.append(SemanticDescription(entry.path, document.root, robots, named))
+            robots = _Robots(package, expander, launch).robots(path, name, same)
+            found.append(SemanticDescription(path, root, robots, _is_named(package, path, name)))
     return tuple(found) or NotAvailable("the package has no SRDF", applicable=False)
+
+
+def _documents(package: Package, expander: Expander) -> Iterator[tuple[str, XmlDocument]]:
+    for entry in package.index.with_suffix(".srdf"):
+        if isinstance(document := package.xml(entry.path), XmlDocument):
+            yield entry.path, document
+    paths = [entry.path for entry in package.index.with_suffix(".srdf.xacro")][:_SRDF_LIMIT]
+    wanted = [Wanted(path, {}) for path in paths]
+    outcomes = Expansions(package, wanted, expander).outcomes() if wanted else ()
+    for path, outcome in zip(paths, outcomes, strict=True):
+        if isinstance(outcome, XmlDocument) and not _lacks_includes(outcome):
+            yield path, outcome
 
 
 def _is_named(package: Package, path: str, robot: str) -> bool:
@@ -207,6 +219,10 @@ def _args(more: Mapping[object, object]) -> dict[str, str]:
 
 
 def _is_whole(document: XmlDocument) -> bool:
+    is_robot = document.root.tag == "robot" and document.root.child("link") is not None
+    return is_robot and not _lacks_includes(document)
+
+
+def _lacks_includes(document: XmlDocument) -> bool:
     source = document.source
-    left = isinstance(source, ExpandedText) and (source.left or source.skipped)
-    return document.root.tag == "robot" and bool(document.root.child("link")) and not left
+    return isinstance(source, ExpandedText) and bool(source.left or source.skipped)

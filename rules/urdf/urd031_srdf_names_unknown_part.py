@@ -9,8 +9,9 @@ renamed in the URDF alone.
 
 A joint, a chain or a group that a group loses is an error where a launch file loads the SRDF. The
 robot is that of the URDF that launch files load or that `.setup_assistant` names, and those with
-the name of the SRDF; the name must be unknown in all of them. Where none can be read, and in
-`.srdf.xacro`, nothing is reported.
+the name of the SRDF; the name must be unknown in all of them, and not one that their xacro files
+make with other arguments. Where no robot can be read, nothing is reported. A `.srdf.xacro` is read
+without arguments; names that it computes are not judged.
 
 Fix: write the names of the URDF, or let MoveIt's setup assistant write the SRDF again. A virtual
 joint: write the root link as `child_link`, or remove it.
@@ -33,6 +34,7 @@ _EFFECTS = {
     Loss.JOINT: "MoveIt plans group {!r} without it",
     Loss.LINK: "MoveIt plans group {!r} without it",
     Loss.END_EFFECTOR: "MoveIt drops end effector {!r}",
+    Loss.PARENT_GROUP: "MoveIt takes another group as parent of end effector {!r}",
     Loss.VIRTUAL_JOINT: "MoveIt drops virtual joint {!r}",
     Loss.STATE: "MoveIt drops pose {!r}",
     Loss.STATE_JOINT: "pose {!r} has no effect on it",
@@ -159,7 +161,21 @@ _PREFIXED = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <link name="$(arg prefix)base_link"/>
 </robot>
 """
+
+
+def _xacro(content: str, mark: str = "") -> dict[str, object]:
+    """Return an SRDF that xacro expands."""
+    head = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    macro = f'<xacro:macro name="arm" params="prefix">\n{content}{mark}\n</xacro:macro>'
+    return {
+        **_srdf(""),
+        "config/arm.srdf": None,
+        "config/arm.srdf.xacro": f'{head}\n{macro}\n<xacro:arm prefix="left_"/>\n</robot>\n',
+    }
+
+
 GOOD = [
+    _xacro('<group name="arm"><joint name="${prefix}shoulder"/></group>'),
     _srdf(_group('<joint name="shoulder"/>', _BASE.format("base_link", ""))),
     _srdf(_group('<joint name="fixture"/>', _BASE.format("base_link", ""))),
     _srdf(_group('<chain base_link="base_link" tip_link="upper_arm"/>')),
@@ -193,4 +209,5 @@ BAD = [
         )
     ),
     _srdf(_BASE.format("upper_arm", _MARK)),
+    _xacro('<group name="arm"><joint name="elbow"/></group>', _MARK),
 ]

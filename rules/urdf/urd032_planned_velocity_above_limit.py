@@ -86,7 +86,7 @@ def _limits(planned: str, used: str = "true", urdf: str = "1.57") -> dict[str, o
     return {
         "@urdf": True,
         "urdf/arm.urdf": _URDF.replace("@", urdf),
-        "config/arm.srdf": '<robot name="arm"/>\n',
+        "config/arm.srdf": '<robot name="arm"><group name="arm"/></robot>\n',
         "config/joint_limits.yaml": (
             "joint_limits:\n  shoulder:\n"
             f"    has_velocity_limits: {used}\n    max_velocity: {planned}\n"
@@ -100,7 +100,7 @@ GOOD = [
     _limits("0.5"),
     _limits("2.0", urdf="0"),
     _limits("fast"),
-    {**_limits("2.0"), "config/arm.srdf": '<robot name="hand"/>\n'},
+    {**_limits("2.0"), "config/arm.srdf": '<robot name="hand"><group name="arm"/></robot>\n'},
 ]
 BAD = [
     _limits(f"2.0{_MARK}"),

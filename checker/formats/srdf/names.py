@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import StrEnum
 
 from checker.base.record import Record
+from checker.formats.xacro.expanded import written_elements
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -18,6 +19,7 @@ class Loss(StrEnum):
     JOINT = "joint of a group"
     LINK = "link of a group"
     END_EFFECTOR = "end effector"
+    PARENT_GROUP = "parent group of an end effector"
     VIRTUAL_JOINT = "virtual joint"
     STATE = "state"
     STATE_JOINT = "joint of a state"
@@ -52,6 +54,7 @@ _BELOW = (
     ("group_state", "group", "group", Loss.STATE),
     ("end_effector", "group", "group", Loss.END_EFFECTOR),
     ("end_effector", "parent_link", "link", Loss.END_EFFECTOR),
+    ("end_effector", "parent_group", "group", Loss.PARENT_GROUP),
     ("virtual_joint", "child_link", "link", Loss.VIRTUAL_JOINT),
     ("passive_joint", "name", "joint", Loss.PASSIVE_JOINT),
     *(
@@ -65,23 +68,33 @@ _BELOW = (
 
 def named_parts(root: Element) -> Iterator[NamedPart]:
     """Yield the parts that a `<robot>` of SRDF names; names that xacro computes are left out."""
+    written = written_elements(root.document)
     for group in root.all("group"):
-        yield from _named(group, _IN_GROUPS, group.get("name") or "")
+        yield from _named(group, _IN_GROUPS, group.get("name") or "", written)
     for state in root.all("group_state"):
         joints = (("joint", "name", "joint", Loss.STATE_JOINT),)
-        yield from _named(state, joints, state.get("name") or "")
-    yield from _named(root, _BELOW, "")
+        yield from _named(state, joints, state.get("name") or "", written)
+    yield from _named(root, _BELOW, "", written)
 
 
 def _named(
-    element: Element, rows: tuple[tuple[str, str, str, Loss], ...], owner: str
+    element: Element,
+    rows: tuple[tuple[str, str, str, Loss], ...],
+    owner: str,
+    written: Mapping[Element, Element],
 ) -> Iterator[NamedPart]:
     for tag, attribute, kind, loss in rows:
         for child in element.all(tag):
             name = child.attribute(attribute)
-            if name is not None and name.value.strip() and "$" not in name.value:
+            if name is not None and name.value.strip() and not _is_computed(child, name, written):
                 stated = Located(name.value.strip(), name.span)
                 yield NamedPart(kind, stated, loss, owner or child.get("name") or "")
+
+
+def _is_computed(element: Element, name: Located[str], written: Mapping[Element, Element]) -> bool:
+    origin = written.get(element, element)
+    literal = name.value in (origin.get(each) for each in origin.attributes)
+    return "$" in name.value or not literal
 
 
 def names_of(root: Element, tag: str) -> frozenset[str]:
