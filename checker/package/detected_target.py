@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.package.distribution_sign import sign_of_paths
 from checker.package.mentions import has_word
 from checker.source.text import SourceText, blank_markup
 
@@ -95,9 +96,12 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
 
 
 def _target_beside(package: Package) -> DetectedTarget | None:
-    """Return the distribution that the packages beside it name, if they name one alone."""
+    """Return the distribution whose folder the packages beside it name, if they name one alone.
+
+    Their containers do not count: packages of others bring theirs along.
+    """
     others = () if package.only else package.other_packages
-    named = {sign.distro: (sign, it.name) for it in others if (sign := it.distribution_sign)}
+    named = {sign.distro: (sign, it.name) for it in others if (sign := sign_of_paths(it))}
     if len(named) != 1:
         return None
     ((distro, (sign, name)),) = named.items()

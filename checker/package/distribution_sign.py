@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.package.files_above import files_above, own_files
+from checker.package.index import is_of_tests
 from checker.source.text import SourceText
 
 if TYPE_CHECKING:
@@ -53,7 +54,13 @@ def distribution_sign(package: Package) -> DistributionSign | None:
         signs = _signs(sources, _NAMED)
         if signs:
             return _only(signs)
-    return _only([*_found(own_files(package, _WITH_PATHS), _INSTALLED)])
+    return sign_of_paths(package)
+
+
+def sign_of_paths(package: Package) -> DistributionSign | None:
+    """Return the distribution whose folder the descriptions and scripts of a package name."""
+    files = (it for it in own_files(package, _WITH_PATHS) if not is_of_tests(it.file))
+    return _only([*_found(files, _INSTALLED)])
 
 
 def _only(signs: Sequence[DistributionSign]) -> DistributionSign | None:
