@@ -1,4 +1,4 @@
-"""Findings in robots that no launch file loads: they weigh less than those of the loaded one."""
+"""Findings in robots that no launch file loads, or that are hardware alone: they weigh less."""
 
 from __future__ import annotations
 
@@ -13,14 +13,22 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-def unloaded_in(arguments: Mapping[str, Any]) -> str:
-    """Return the clause that no launch file loads the robot that a rule looks at; else empty."""
+_OF_MASSES = "INE"
+"""The group of rules about what a simulator alone reads."""
+
+
+def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
+    """Return the clause that nothing reads what a rule looks at; else empty.
+
+    Args:
+        arguments: What the rule is given: robots, or parts with a robot.
+        group: The group of the rule.
+    """
+    kinds = ("unloaded", "hardware_only") if group == _OF_MASSES else ("unloaded",)
     for value in arguments.values():
-        clause = getattr(value, "unloaded", "") or getattr(
-            getattr(value, "robot", None), "unloaded", ""
-        )
-        if clause:
-            return str(clause)
+        for holder in (value, getattr(value, "robot", None)):
+            for clause in filter(None, (getattr(holder, kind, "") for kind in kinds)):
+                return str(clause)
     return ""
 
 

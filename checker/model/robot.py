@@ -129,6 +129,11 @@ class Robot(Part, dict=True):
         return self.conventions.read_by_gazebo or bool(tag and self.element.child(tag))
 
     @property
+    def hardware_only(self) -> str:
+        """Why its ros2_control is that of hardware alone, as a clause; empty if it may not be."""
+        return self.shown_only if self.element.child("ros2_control") is not None else ""
+
+    @property
     def is_static(self) -> bool:
         """True if the model states that it is static."""
         return states_static(self.element)

@@ -12,7 +12,7 @@ from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
 from checker.package.package import Package
 from checker.source.text import SourceText
-from checker.source.xml import XmlDocument
+from checker.source.xml import Element, XmlDocument
 
 _SIMULATORS = re.compile(
     r"gazebo|gzserver|(?<![a-z])gz(?![a-z])|(?<![a-z])ign(?:ition)?(?![a-z])|spawn_entity"
@@ -51,7 +51,7 @@ def shown_only(
     tags = [child.tag for tag in root.all("gazebo") for child in tag.children]
     loose = not launch and not package.exists("package.xml")
     in_gazebo = not _SIMULATED.isdisjoint(tags) if loose else root.child("gazebo")
-    if package.only or root.child("ros2_control") or in_gazebo:
+    if package.only or in_gazebo or _has_simulated_hardware(root):
         return ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
@@ -64,6 +64,13 @@ def shown_only(
     if _get_others(package, graphs, path):
         return "Gazebo gets another description"
     return ""
+
+
+def _has_simulated_hardware(root: Element) -> bool:
+    """Return whether ros2_control of a robot may be that of a simulator: not all of it is known."""
+    hardware = [part for tag in root.all("ros2_control") for part in tag.all("hardware")]
+    plugins = [part.child("plugin") for part in hardware]
+    return any(it is None or _SIMULATORS.search(it.value) for it in plugins)
 
 
 def _is_for_rviz(package: Package, path: str) -> bool:

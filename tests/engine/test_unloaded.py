@@ -57,6 +57,26 @@ def test_what_is_loaded_has_errors(tmp_path: Path) -> None:
     assert found.severity is Severity.ERROR
 
 
+@pytest.mark.parametrize(
+    ("plugin", "severity"),
+    [
+        ("acme_hardware/Arm", Severity.WARNING),
+        ("mock_components/GenericSystem", Severity.WARNING),
+        ("gz_ros2_control/GazeboSimSystem", Severity.ERROR),
+        ("", Severity.ERROR),
+    ],
+)
+def test_what_is_hardware_alone_has_warnings(
+    plugin: str, severity: Severity, tmp_path: Path
+) -> None:
+    inside = f"<plugin>{plugin}</plugin>" if plugin else ""
+    control = f"""<ros2_control name="arm" type="system"><hardware>{inside}</hardware>
+</ros2_control>"""
+    (found,) = _faults(_check(tmp_path, _link(_FAULTY) + control))
+    assert found.severity is severity
+    assert ("starts a simulator" in found.message) is (severity is Severity.WARNING)
+
+
 def test_what_tests_load_has_warnings(tmp_path: Path) -> None:
     _check(tmp_path, _link(_GOOD))
     path = tmp_path / NAME / "test" / "fake.urdf"
