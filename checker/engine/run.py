@@ -213,7 +213,10 @@ def _run_isolated(
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, judge.settings)
         with allowance.piece():
-            said = [(unloaded_in(each, rule.group), [*rule.check(**each, **options)]) for each in arguments]
+            said = [
+                (unloaded_in(each, rule.group), [*rule.check(**each, **options)])
+                for each in arguments
+            ]
             return [*less_of_unloaded(said, rule.severity)]
     except MissingExtra as missing:
         return NotChecked(rule.id, missing.extra.missing_message, Cause.SWITCHED_OFF)

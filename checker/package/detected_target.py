@@ -144,6 +144,18 @@ def classic_reason(sign: str) -> str:
     return f"Gazebo Classic 11, {_SUPPORT}: {sign}"
 
 
+def sign_of_later(package: Package) -> str:
+    """Return what shows that a model or world is for Gazebo after Classic; else empty.
+
+    Nothing does where it has its own package.xml, or a launch file names it.
+    """
+    signs = {} if package.exists("package.xml") else package.simulator_signs
+    launch = package.workspace.launch_texts.values()
+    if not signs or CLASSIC in signs or any(package.name in text for text in launch):
+        return ""
+    return next(iter(signs.values()))
+
+
 def is_described_for_ros_2(package: Package) -> bool:
     """Return whether a URDF without a package has `<ros2_control>` or plugins of later Gazebos."""
     paths = (file.path for file in package.index.with_suffix(".urdf", ".xacro"))

@@ -3,7 +3,7 @@
 The launch ends with "package not found", or "executable not found". Packages of Gazebo Classic are
 not in Jazzy and later, those named `ros_ign` became `ros_gz`, and several names are from ROS 1. A
 package in the workspace is never reported. It is a warning, because another workspace may build it
-from source.
+from source. Packages for a distribution before Humble, which is not known, are not checked.
 
 Fix: use what the message names, or check for the distribution that the robot runs on (`--distro`).
 Source: ros/rosdistro, and the programs that packages install (`removed_packages.json`,
@@ -15,15 +15,19 @@ from typing import Any
 
 from checker.base.resources import table
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, is_known, share_path
+from checker.package.distribution_sign import former_distribution
 from checker.package.package import Package
 from checker.package.released import ReleasedNames, distributions_with
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
 @rule("LCH015", "package-not-in-distribution", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
     """Report names that are known to be missing in the distribution."""
+    if former := former_distribution(package):
+        yield unchecked(former)
+        return
     released = ReleasedNames(context.distro)
     for graph in launch.entries:
         for name, program in _started_packages(graph):

@@ -7,7 +7,8 @@ wheel, `<robotNamespace>` leaves all topics in the root namespace.
 Models that are in no package of ROS 2 may be for ROS 1, so they are not judged.
 
 It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
-other parameter of the plugin names; otherwise a warning.
+other parameter of the plugin names; otherwise a warning. So is the topic of images or points that
+no other file of the package names: all may read the default.
 
 Fix: write the library and the parameters of ROS 2, as the message names them.
 Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).
@@ -36,10 +37,13 @@ from checker.rule import (
     rule,
     unchecked,
 )
+from checker.source.text import SourceText
+from checker.source.xml import Element
 
 _NAMES_PART = re.compile(r"\w*(?:joint|link_name|body_name|separation|diameter)\w*")
 _WORD = re.compile(r"\w+")
 _ROS = "<ros>"
+_OUTPUT = re.compile(r"(?:image|camera|depth|point)\w*Topic\w*")
 _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 
 
@@ -63,7 +67,8 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
             names = {**renamed["common"], **(known or {}).get("params", {})}
             if _RATE not in read:
                 names["updateRate"] = _RATE_OF_SENSOR
-            yield from _parameters(plugin, {n: names[n] for n in names if n not in read})
+            lost = {n: names[n] for n in names if n not in read}
+            yield from _parameters(plugin, lost, package)
 
 
 def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
@@ -78,17 +83,20 @@ def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
     )
 
 
-def _parameters(plugin: Plugin, names: Mapping[str, str | None]) -> Iterator[Finding]:
+def _parameters(
+    plugin: Plugin, names: Mapping[str, str | None], package: Package
+) -> Iterator[Finding]:
     library = library_stem(plugin.filename.value)
     for element in plugin.element.children:
         if element.tag not in names:
             continue
         instead = names[element.tag]
+        is_grave = _is_missed(plugin, instead, element.value) and _is_read(element, package)
         advice = f"ROS 2 reads {_replacement(instead)}" if instead else "ROS 2 does not read it"
         yield finding(
             element,
             f"{library} ignores <{element.tag}>, a parameter of ROS 1: {advice}",
-            severity=None if _is_missed(plugin, instead, element.value) else Severity.WARNING,
+            severity=None if is_grave else Severity.WARNING,
             key=library,
         )
 
@@ -104,6 +112,16 @@ def _is_missed(plugin: Plugin, instead: str | None, value: str) -> bool:
     if instead.startswith(_ROS):
         return plugin.element.child("ros") is None
     return bool(_NAMES_PART.fullmatch(instead)) and plugin.element.child(instead) is None
+
+
+def _is_read(element: Element, package: Package) -> bool:
+    """Return whether another file of the package names the text, if it is a topic of images."""
+    if not _OUTPUT.fullmatch(element.tag):
+        return True
+    files = package.index.with_suffix(".py", ".xml", ".yaml", ".yml", ".rviz", ".cpp", ".hpp")
+    sources = (package.read(file.path) for file in files)
+    topic = element.value.strip()
+    return any(isinstance(it, SourceText) and topic in it.text for it in sources)
 
 
 _CLASSIC = {"@profile": "gazebo-classic", "@ros2": True}

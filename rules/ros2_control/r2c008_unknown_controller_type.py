@@ -5,8 +5,9 @@ The spawner ends with an error for a type that no package exports. Some types we
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never existed in ROS 2.
 
-Types of other packages are not judged, unless the class has the name of one of ros2_controllers and
-the package is neither in package.xml nor available.
+Nothing is judged in a package for a distribution before Humble, or where a `.repos` file names a
+version of ros2_controllers to build. Types of other packages are not judged, unless the class has
+the name of one of ros2_controllers and the package is neither in package.xml nor available.
 
 Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
 `joint_trajectory_controller/JointTrajectoryController` follows trajectories,
@@ -15,11 +16,14 @@ Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
 Source: plugin descriptions of ros2_controllers, by branch.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 
 from msgspec.structs import replace
 
 from checker.base.words import Suggestions
+from checker.package.distribution_sign import former_distribution
+from checker.package.files_above import files_around
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
     ControllerType,
@@ -37,10 +41,12 @@ from checker.rule import (
     misspelt,
     rename,
     rule,
+    unchecked,
 )
 from checker.rulebook.example_parts import SHOULDER, ros2_control
 from checker.source.text import Located
 
+_REPOSITORIES = re.compile(r"\.repos\Z")
 _OF_ROS_1 = {"joint_state_controller"}
 _FORWARDS = "forward_command_controller/ForwardCommandController with interface_name: "
 _INSTEAD: Mapping[str, str] = {
@@ -72,6 +78,9 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
 
     A class of ros2_controllers in a package that nothing declares or holds is a warning.
     """
+    if unknown := former_distribution(package) or _built_from_source(package):
+        yield unchecked(unknown)
+        return
     distribution, types = distribution_of(context), controller_types()
     packages = {name.partition("/")[0] for name in types} | _OF_ROS_1
     current = [name for name in types if types[name].exists_in(distribution)]
@@ -96,6 +105,14 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
                 of_owner = [each for each in current if each.partition("/")[0] == owner]
                 only = rename(controller.type, of_owner[0]) if len(of_owner) == 1 else None
                 yield replace(found, fix=found.fix or only)
+
+
+def _built_from_source(package: Package) -> str:
+    """Return the clause that a file of repositories names ros2_controllers; else empty."""
+    for source in files_around(package, _REPOSITORIES):
+        if (at := source.text.find("ros2_controllers")) >= 0:
+            return f"{source.where(at)} names the version of ros2_controllers that is built"
+    return ""
 
 
 def _another_package(
