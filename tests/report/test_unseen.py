@@ -13,13 +13,15 @@ def _skipped(rule: str, reason: str) -> NotChecked:
 
 
 def test_files_of_one_package_are_one_reason() -> None:
-    first, second, last = by_reason(
+    first, second, third, last = by_reason(
         [
             _skipped("INE004", f"package://hand/a.stl {_ABSENT}"),
             _skipped("MSH001", f"package://hand/a.stl {_ABSENT}"),
             _skipped("MSH001", f"package://hand/b.stl {_ABSENT}"),
             _skipped("MSH001", "package://arm/a.stl is in arm, which is not available"),
             _skipped("MSH001", "meshes/a.stl does not exist"),
+            _skipped("MSH001", "file:///a.stl is outside the workspace"),
+            _skipped("MSH001", "file:///b.stl is outside the workspace"),
         ]
     )
     assert (
@@ -27,7 +29,8 @@ def test_files_of_one_package_are_one_reason() -> None:
     )
     assert first.rules == ("INE004", "MSH001")
     assert second.reason == "package://arm/a.stl is in arm, which is not available"
-    assert last.reason == "meshes/a.stl does not exist"
+    assert third.reason == "meshes/a.stl does not exist"
+    assert last.reason == "file:///a.stl and 1 more file are outside the workspace"
 
 
 def test_other_causes_stay_apart() -> None:
