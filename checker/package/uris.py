@@ -56,9 +56,8 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     if is_on_fuel(uri):
         on_fuel = path_from_fuel(package, uri)
         return on_fuel or Unknown("is on Fuel, in a model that is not available")
-    beside = _RELATIVE_FILE.match(uri)
-    if beside and package.exists(near := posixpath.normpath(posixpath.join(folder, beside[1]))):
-        return near
+    if (on_path := _RELATIVE_FILE.match(uri)) and (found := _on_path(package, folder, on_path[1])):
+        return found
     if _ELSEWHERE.match(uri) or not uri:
         on_drive = _ON_DRIVE.fullmatch(uri)
         where = "on a drive of another machine" if on_drive else "outside the workspace"
@@ -67,6 +66,16 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     sibling = path.split("/")[1] if path.startswith("../") else ""
     is_known = sibling in ("", package.root.name) or package.workspace.package(sibling)
     return path if is_known or package.exists(path) else _absent(sibling)
+
+
+def _on_path(package: Package, folder: str, path: str) -> str:
+    """Return where a path is on a resource path around the package, or beside the file; else empty.
+
+    The resource path may be that of the package, or contain the folder of the model.
+    """
+    in_model = f"/{path}".partition(f"/{package.root.name}/")[2]
+    places = filter(None, (posixpath.join(folder, path), path, in_model))
+    return next((it for it in map(posixpath.normpath, places) if package.exists(it)), "")
 
 
 def own_path_on_machine(package: Package, uri: str) -> str:

@@ -2,10 +2,11 @@
 
 Gazebo opens the file that `<sdf>` names; of several, the one with the newest version that it
 supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
-missing, it is a warning. Fuel shows the other entries, including the contact of the author.
+missing, it is a warning. Fuel shows the other entries, including the contact of the author: a
+submission needs them (a warning), for other models they are an info.
 
 Fix: add what is missing of name, version, author with name and email, description, and
-`<sdf version="…">model.sdf</sdf>` with the version that the model file states, for SubT 1.6.
+`<sdf version="…">model.sdf</sdf>` with the version that the model file states.
 Source: Gazebo, "Model structure and requirements"; Model Migration Guide, step 5.
 """
 
@@ -64,7 +65,10 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if missing := list(_missing_parts(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
         yield finding(
-            config, f"model.config has no {words}", severity=Severity.WARNING, key="missing"
+            config,
+            f"model.config has no {words}",
+            severity=Severity.WARNING if context.is_subt else Severity.INFO,
+            key="missing",
         )
 
 

@@ -27,7 +27,8 @@ def check(
 ) -> Findings:
     """Report a speed that differs too much from the command.
 
-    For a robot that is not written for Gazebo it is a warning: URDF alone knows no friction.
+    For a robot that is not written for Gazebo it is a warning: URDF alone knows no friction. Where
+    its ball for a caster slides, it is an info.
 
     Options:
         warning_beyond: Share of the commanded speed by which the robot may be slower or faster;
@@ -58,15 +59,20 @@ def check(
     limited = _limited(driven) if ratio < 1.0 else None
     cause, place, fastest = limited or (_cause(driven, ratio, warning_beyond), None, None)
     dragged = "" if cause or ratio > 1.0 else _dragged(driven)
-    is_grave = driven.robot.is_for_gazebo and not dragged
     yield finding(
         place or driven.drive,
         f"the robot drives at {reached:g} m/s when commanded to drive at {leg.linear:.3g} m/s: a "
         f"difference of {off:.0%}, expected at most {warning_beyond:.0%}{cause or dragged}",
-        severity=Severity.ERROR if is_grave and off > error_beyond else Severity.WARNING,
+        severity=_severity(driven, off > error_beyond, dragged=bool(dragged)),
         key="speed_ratio",
         related=[(fastest, "the drive's maximum speed")] if fastest else [],
     )
+
+
+def _severity(driven: SettledTrial, far: bool, *, dragged: bool) -> Severity:
+    if not driven.robot.is_for_gazebo:
+        return Severity.INFO if dragged else Severity.WARNING
+    return Severity.ERROR if far and not dragged else Severity.WARNING
 
 
 _NOT_TRIED = (DriveKind.NONE, DriveKind.LEGGED)

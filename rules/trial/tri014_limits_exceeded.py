@@ -12,6 +12,9 @@ Source: the plugin's `max_velocity` and `max_acceleration`, compared with 2 s at
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
+_ROUNDING = 1.005
+"""What is at the threshold as a message shows it is not above it."""
+
 
 @rule(
     "TRI014",
@@ -39,7 +42,7 @@ def check(
             f"the robot drives at {abs(speed):.3g} m/s, but its limit is {limit:g} m/s"
         )
     gain, most = value("full_acceleration"), value("full_acceleration_limit")
-    if gain is not None and most and abs(gain) > full_acceleration_above * most:
+    if gain is not None and most and abs(gain) / most > full_acceleration_above * _ROUNDING:
         symptoms["full_acceleration"] = (
             f"the robot accelerates at {abs(gain):.3g} m/s², but its limit is {most:g} m/s²"
         )

@@ -3,7 +3,7 @@
 Gazebo Classic merges links that fixed joints connect: the lower link and the joint no longer exist.
 A plugin that names them ends with an error or does nothing; a contact sensor that names the old
 collision never reports a contact. Frames of robot_state_publisher are not affected: it reads the
-URDF file.
+URDF file. Nor are plugins of sensors, which look up no link.
 
 Fix: name the link into which it is merged; or keep the joint with `<preserveFixedJoint>true` below
 `<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps only the link).
@@ -42,6 +42,8 @@ def check(description: UrdfDescription) -> Findings:
 
 def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
     holder = plugin.element.parent
+    if holder is not None and holder.tag == "sensor":
+        return  # those look up no link: what they measure is their sensor's
     of_robot = holder is not None and holder.tag == "gazebo" and not holder.get("reference")
     tags = [tag for tag in OF_LINKS if not (of_robot and tag == _WRITTEN_ANEW)]
     for name in plugin.values(*tags):

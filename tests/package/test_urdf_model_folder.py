@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
@@ -53,9 +55,12 @@ def test_its_robot_is_judged_for_gazebo(tmp_path: Path) -> None:
     assert "INE002" in {finding.rule for finding in report.findings}
 
 
-def test_a_mesh_beside_it_is_found(tmp_path: Path) -> None:
-    rules = {finding.rule for finding in checked(tmp_path).findings}
+@pytest.mark.parametrize("path", ["meshes/pole.obj", "models/pole/meshes/pole.obj"])
+def test_a_mesh_on_the_resource_path_is_found(path: str, tmp_path: Path) -> None:
+    report = checked(tmp_path, mesh=f"file://{path}")
+    rules = {finding.rule for finding in report.findings}
     assert rules.isdisjoint({"REF001", "REF002", "URD002"})
+    assert not [it for it in report.not_checked if "outside" in it.reason]
 
 
 def test_a_mesh_on_one_machine_is_not(tmp_path: Path) -> None:
