@@ -25,7 +25,7 @@ from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
-_NO_PACKAGE = "package:///"
+_NO_PACKAGE, _MODEL = "package:///", "model://"
 _ABSOLUTE = ("/", "file:///", _NO_PACKAGE)
 
 
@@ -48,6 +48,8 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             yield _on_machine(package, uri, own, severity)
             continue
         named = _PACKAGE.match(uri.value)
+        if uri.value.startswith(_MODEL) and _is_of_model(package, uri):
+            continue
         if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
             continue
         wrong = _of_other_scheme(uri)
@@ -61,6 +63,12 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             elif not package.exists(posixpath.normpath(folder + path)):
                 missing[uri.value].append(uri)
     yield from _missing(missing)
+
+
+def _is_of_model(package: Package, uri: Located[str]) -> bool:
+    """Return whether the file that names a mesh is in a model folder of Gazebo."""
+    folder = posixpath.dirname(uri.span.source.file)
+    return package.exists(posixpath.join(folder, "model.config"))
 
 
 def _of_other_scheme(uri: Located[str]) -> Finding | None:
@@ -86,6 +94,12 @@ def _of_other_scheme(uri: Located[str]) -> Finding | None:
 
 
 def _without_package(uri: Located[str]) -> Finding:
+    if uri.value.startswith(_MODEL):
+        return finding(
+            uri,
+            f"mesh {uri.value!r} is found by Gazebo alone, on its model path: RViz needs package://",
+            key="model",
+        )
     meant = uri_of_installed(uri.value)
     return finding(
         uri,
@@ -160,6 +174,11 @@ def _example(uri: str) -> dict[str, str]:
 _OWN = "package://acme_rover_sensor_config_1/meshes"
 _MARK = '"/>  <!-- ^ URD002 -->'
 GOOD = [
+    {
+        "models/wheel/model.config": "<model/>",
+        "models/wheel/wheel.urdf": _visual('model://wheel/wheel.dae"/>'),
+        "models/wheel/wheel.dae": "<COLLADA/>",
+    },
     _example(f'{_OWN}/wheel.dae"/>'),
     _example('https://example.org/wheel.dae"/>'),
     {
@@ -170,6 +189,7 @@ GOOD = [
 BAD = [
     _example(f"{_OWN}/weel.dae{_MARK}"),
     _example(f"meshes/wheel.dae{_MARK}"),
+    _example(f"model://wheel/wheel.dae{_MARK}"),
     _example(f"file:///home/me/wheel.dae{_MARK}"),
     _example(f"file:///home/me/ws/install/acme_arm/share/acme_arm/meshes/wheel.dae{_MARK}"),
     _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
