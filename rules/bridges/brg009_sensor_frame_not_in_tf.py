@@ -6,17 +6,22 @@ their own names: RViz shows nothing, and mapping and navigation drop the message
 for lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
 same description.
 
-Fix: write `<gz_frame_id>` (from Ionic on `<frame_id>`) with the name of the link into the sensor.
+Fix: write `<gz_frame_id>` (in Fortress `<ignition_frame_id>`, from Ionic on `<frame_id>`) with the
+name of the link into the sensor; of a camera, that of its optical link.
 Source: gz-sensors, frame of messages; ros_gz_project_template issue 23, gz-sensors issue 306.
 """
 
+from checker.finding import Fix
+from checker.formats.xacro.expanded import written_element
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
+from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType, frame_elements, stated_frame
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
+from checker.source.xml_insertion import append_to
 
 _STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNode")
 _PUBLISHES_POSES = "PosePublisher"
@@ -35,11 +40,13 @@ def check(simulations: Simulations, context: Context) -> Findings:
                 stated = stated_frame(sensor.element, context.release)
                 if stated is None:
                     model = spawned.name or "<model>"
+                    tag, frame = frame_elements(context.release)[0], _frame(sensor, spawned.robot)
                     yield finding(
                         sensor,
                         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
                         f"the frame {model}/<link>/{sensor.name.value}, which no transform "
-                        f"names; expected <{frame_elements(context.release)[0]}>{sensor.link}",
+                        f"names; expected <{tag}>{frame}",
+                        fix=_stated(sensor, f"<{tag}>{frame}</{tag}>", frame),
                     )
                 elif _is_unknown(stated.value, spawned):
                     yield finding(
@@ -47,6 +54,22 @@ def check(simulations: Simulations, context: Context) -> Findings:
                         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
                         f"the frame {stated.value!r}, which is not a link of the robot",
                     )
+
+
+def _frame(sensor: Sensor, robot: Robot) -> str:
+    """Return the link that is the frame of a sensor: of a camera, its optical link if any."""
+    below = (tie for tie in robot.tree.ties if tie.parent == sensor.link)
+    fixed = [tie.child for tie in below if tie.joint.type.value == "fixed"]
+    optical = [name for name in fixed if "optical" in name.lower()]
+    return optical[0] if len(optical) == 1 and sensor.kind.takes_pictures else sensor.link
+
+
+def _stated(sensor: Sensor, line: str, frame: str) -> Fix | None:
+    """Return the fix that adds a line; None where the file puts the name of the frame together."""
+    element = written_element(sensor.element)
+    if frame not in element.source.text:
+        return None
+    return Fix(Safety.UNSAFE, (append_to(element, [line]),))
 
 
 def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:
