@@ -21,7 +21,7 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
-from checker.package.detected_target import classic_reason, detect_target, sign_of_later
+from checker.package.detected_target import classic_reason, detect_target, ignition_sign
 from checker.package.gazebo_sign import classic_sign, fortress_sign
 from checker.package.index import normal_path
 from checker.package.package import Package
@@ -134,9 +134,8 @@ class Settings(Record):
         whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
         if whole is not None:
             settings = settings._with_package(whole)
-            if settings.profile == CLASSIC_ROS_2 and (sign := sign_of_later(package)):
-                later = FORTRESS_MODEL if "ign" in sign else gazebo_profile("")
-                return replace(settings, profile=later, distro="", target_reason=sign)
+            if settings.profile == CLASSIC_ROS_2 and (sign := ignition_sign(package)):
+                return replace(settings, profile=FORTRESS_MODEL, distro="", target_reason=sign)
         elif wanted == MODEL and not self.distro and (sign := classic_sign(package)):
             return replace(settings, profile=CLASSIC_MODEL, target_reason=classic_reason(sign))
         elif wanted == MODEL and not self.distro and (sign := fortress_sign(package)):

@@ -42,6 +42,7 @@ _OF_ROS_2 = re.compile(
     rf"|{_DESCRIPTION[IGNITION].pattern}|{_DESCRIPTION[GZ].pattern}"
 )
 """Elements that are only in a URDF for ROS 2 or for Gazebo after Classic."""
+_OF_IGNITION = re.compile(r"\blibignition-gazebo\d*-[\w-]+-system\.so\b")
 _OF_ROSLAUNCH = re.compile(r"\$\(find\s|<node\b[^<>]{0,400}?\stype\s{0,8}=")
 _DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
 _MANIFEST = {
@@ -144,16 +145,17 @@ def classic_reason(sign: str) -> str:
     return f"Gazebo Classic 11, {_SUPPORT}: {sign}"
 
 
-def sign_of_later(package: Package) -> str:
-    """Return what shows that a model or world is for Gazebo after Classic; else empty.
+def ignition_sign(package: Package) -> str:
+    """Return what shows that a model or world in a package for Classic is for Ignition; else empty.
 
     Nothing does where it has its own package.xml, or a launch file names it.
     """
-    signs = {} if package.exists("package.xml") else package.simulator_signs
     launch = package.workspace.launch_texts.values()
-    if not signs or CLASSIC in signs or any(package.name in text for text in launch):
+    if package.exists("package.xml") or any(package.name in text for text in launch):
         return ""
-    return next(iter(signs.values()))
+    paths = (file.path for file in package.index.with_suffix(".sdf", ".world"))
+    found = _in_files(package, paths, {IGNITION: _OF_IGNITION})
+    return next((f"Gazebo Fortress: {words}" for _, words in found), "")
 
 
 def is_described_for_ros_2(package: Package) -> bool:

@@ -25,15 +25,16 @@ from checker.source.text import Located
 @rule("LCH015", "package-not-in-distribution", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, context: Context) -> Findings:
     """Report names that are known to be missing in the distribution."""
-    if former := former_distribution(package):
-        yield unchecked(former)
-        return
+    former = former_distribution(package)
     released = ReleasedNames(context.distro)
     for graph in launch.entries:
         for name, program in _started_packages(graph):
             if package.workspace.package(name.value) is None and is_known(name.value):
                 for key, message in _missing_names(name.value, program, context.distro, released):
-                    yield finding(name, message, key=key, covered_by=("LCH008",))
+                    if former:
+                        yield unchecked(f"{name.value}: {former}")
+                    else:
+                        yield finding(name, message, key=key, covered_by=("LCH008",))
 
 
 def _missing_names(

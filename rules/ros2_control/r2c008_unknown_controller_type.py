@@ -5,8 +5,8 @@ The spawner ends with an error for a type that no package exports. Some types we
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never existed in ROS 2.
 
-Nothing is judged in a package for a distribution before Humble, or where a `.repos` file names a
-version of ros2_controllers to build. Types of other packages are not judged, unless the class has
+An unknown type is not judged in a package for a distribution before Humble, or where a `.repos`
+file names a fork of ros2_controllers. Types of other packages are not judged, unless the class has
 the name of one of ros2_controllers and the package is neither in package.xml nor available.
 
 Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
@@ -47,6 +47,7 @@ from checker.rulebook.example_parts import SHOULDER, ros2_control
 from checker.source.text import Located
 
 _REPOSITORIES = re.compile(r"\.repos\Z")
+_FORK = re.compile(r"[/:](?!ros-controls/)[\w.-]{1,100}/ros2_controllers\b")
 _OF_ROS_1 = {"joint_state_controller"}
 _FORWARDS = "forward_command_controller/ForwardCommandController with interface_name: "
 _INSTEAD: Mapping[str, str] = {
@@ -78,9 +79,7 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
 
     A class of ros2_controllers in a package that nothing declares or holds is a warning.
     """
-    if unknown := former_distribution(package) or _built_from_source(package):
-        yield unchecked(unknown)
-        return
+    unknown = former_distribution(package) or _built_from_a_fork(package)
     distribution, types = distribution_of(context), controller_types()
     packages = {name.partition("/")[0] for name in types} | _OF_ROS_1
     current = [name for name in types if types[name].exists_in(distribution)]
@@ -95,6 +94,9 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             continue
         known = types.get(name)
         if known is None or not known.exists_in(distribution):
+            if unknown:
+                yield unchecked(f"{name}: {unknown}")
+                continue
             instead = _INSTEAD.get(name)
             message = f"ROS 2 {distribution.title()} has no controller of type {name}"
             if instead:
@@ -107,11 +109,11 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
                 yield replace(found, fix=found.fix or only)
 
 
-def _built_from_source(package: Package) -> str:
-    """Return the clause that a file of repositories names ros2_controllers; else empty."""
+def _built_from_a_fork(package: Package) -> str:
+    """Return the clause that a `.repos` file names a fork of ros2_controllers; else empty."""
     for source in files_around(package, _REPOSITORIES):
-        if (at := source.text.find("ros2_controllers")) >= 0:
-            return f"{source.where(at)} names the version of ros2_controllers that is built"
+        if fork := _FORK.search(source.text):
+            return f"{source.where(fork.start())} names a fork of ros2_controllers"
     return ""
 
 

@@ -83,6 +83,30 @@ def test_the_repository_around_tells(tmp_path: Path) -> None:
     assert judged(tmp_path, {"@ros2": True}) == ("ros2", "humble")
 
 
+WORLD = """<sdf version="1.6"><world name="hall">
+  <plugin filename="{}" name="p"/>
+</world></sdf>
+"""
+
+
+@pytest.mark.parametrize(
+    ("plugin", "launched", "expected"),
+    [
+        ("libignition-gazebo-physics-system.so", "'x'", "gazebo-fortress"),
+        ("libgazebo_ros_state.so", "'x'", "gazebo-classic"),
+        ("libignition-gazebo-physics-system.so", "'hall.sdf'", "gazebo-classic"),
+    ],
+)
+def test_a_world_of_ignition_is_not_for_classic(
+    plugin: str, launched: str, expected: str, tmp_path: Path
+) -> None:
+    files = {"@ros2": f"{SPAWN}\n        Node(package='p', executable={launched}),"}
+    write_example({**files, "worlds/hall.sdf": WORLD.format(plugin)}, tmp_path)
+    with open_input(tmp_path) as given:
+        (world,) = (it for it in given.packages if it.name == "hall.sdf")
+        assert Settings().for_package(world).profile == expected
+
+
 AMENT = """<package format="3">
   <name>{}</name><version>1.0.0</version><description>A lift</description>
   <maintainer email="a@example.org">A</maintainer><license>BSD</license>
