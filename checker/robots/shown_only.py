@@ -116,7 +116,7 @@ def spawns_others(package: Package, graphs: Iterable[LaunchGraph], path: str) ->
 
 def _is_unknown(process: Process) -> bool:
     """Return whether a command may spawn, though not as a node that is known does."""
-    return process.spawns is None and any(word.value in SPAWNS for word in process.words)
+    return not process.spawns and any(word.value in SPAWNS for word in process.words)
 
 
 def _may_get(node: Node, given: str | None, path: str) -> bool:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from checker.launch.ros2.graph import Include, LaunchGraph, Process, display_path, share_path
 from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
+from checker.source.text import Located
 
 _QUIET_COMMANDS = (
     *(("ros2", verb) for verb in ("action", "control", "lifecycle", "param", "service")),
@@ -13,6 +14,7 @@ _QUIET_COMMANDS = (
     ("ign", "service"),
 )
 """Beginnings of commands that start no node and publish nothing."""
+_QUIET_PROGRAMS = ("sleep", "source", ".", "echo", "cd", "export")
 
 
 def unread_parts(graph: LaunchGraph) -> Iterator[str]:
@@ -32,5 +34,9 @@ def _is_of_gazebo(include: Include) -> bool:
 
 
 def _starts_no_node(process: Process) -> bool:
-    words = tuple(word.value for word in process.words[:2])
-    return is_gazebo(process) or words in _QUIET_COMMANDS
+    return is_gazebo(process) or all(map(_is_quiet, process.commands))
+
+
+def _is_quiet(command: Sequence[Located[str]]) -> bool:
+    words = tuple(word.value for word in command[:2])
+    return words in _QUIET_COMMANDS or (bool(words) and words[0] in _QUIET_PROGRAMS)

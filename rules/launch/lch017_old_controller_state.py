@@ -8,9 +8,9 @@ controller_manager.
 Source: ros2_control pull request 755, ros2controlcli; gazebo_ros2_control pull request 146.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from checker.launch.ros2.graph import Process, Ros2Launch
+from checker.launch.ros2.graph import Ros2Launch
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -24,8 +24,7 @@ def check(launch: Ros2Launch) -> Findings:
     """Report states that `ros2 control` of Humble and later does not know."""
     for graph in launch.entries:
         for process in graph.processes:
-            state = _state(process)
-            if state is not None and state.value in _STATES:
+            for state in filter(None, map(_old_state, process.commands)):
                 yield finding(
                     state,
                     f"ros2 control has no state {state.value!r}, and does not load the controller: "
@@ -35,16 +34,14 @@ def check(launch: Ros2Launch) -> Findings:
                 )
 
 
-def _state(process: Process) -> Located[str] | None:
-    """Return the state that a command of `ros2 control` requests."""
-    words = process.words
+def _old_state(words: Sequence[Located[str]]) -> Located[str] | None:
+    """Return the old state that a command of `ros2 control` requests."""
     said = [word.value for word in words]
     if said[:2] != ["ros2", "control"] or len(said) < 4:
         return None
-    if said[2] == _CHANGES:
-        return words[-1]
     after = [words[i + 1] for i, word in enumerate(said[:-1]) if word == _OPTION]
-    return after[0] if said[2] == _LOADS and after else None
+    asked = {_CHANGES: [words[-1]], _LOADS: after}.get(said[2], [])
+    return asked[0] if asked and asked[0].value in _STATES else None
 
 
 def _command(words: str) -> object:
@@ -52,8 +49,9 @@ def _command(words: str) -> object:
     return {"@ros2": f"        {start},", "@profile": "ros2"}
 
 
-def _marked(words: str) -> object:
-    start = f"ExecuteProcess(cmd={words.split()})"
+def _marked(words: str, *, as_line: bool = False) -> object:
+    cmd = f"['sleep 2 && {words}'], shell=True" if as_line else words.split()
+    start = f"ExecuteProcess(cmd={cmd})"
     return {"@ros2": f"        {start},  # ^ LCH017", "@profile": "ros2"}
 
 
@@ -65,4 +63,5 @@ GOOD = [
 BAD = [
     _marked("ros2 control load_controller --set-state start arm_controller"),
     _marked("ros2 control set_controller_state arm_controller configure"),
+    _marked("ros2 control load_controller --set-state start arm_controller", as_line=True),
 ]

@@ -277,6 +277,8 @@ def _arm(*names: str, mark: str = "") -> str:
 _BRIDGE = """        Node(package='ros_gz_bridge', executable='parameter_bridge'),
         IncludeLaunchDescription(PathJoinSubstitution([
             FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py'])),"""
+_COMMANDED = """        ExecuteProcess(
+            cmd=['ros2', 'launch', 'slam_toolbox', 'online_async_launch.py']),"""
 _HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:include filename="$(find acme_hand)/hand.xacro"/>@
 </robot>
@@ -304,6 +306,7 @@ install(DIRECTORY launch DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """
 GOOD = [
+    {"@ros2": _COMMANDED, "package.xml": _arm("slam_toolbox")},
     {
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", "rclcpp"),
@@ -341,6 +344,7 @@ GOOD = [
     {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
 ]
 BAD = [
+    {"@ros2": _COMMANDED, "package.xml": _arm("ros_gz_sim", mark="  <!-- ^ PKG007 -->")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", mark="  <!-- ^ PKG007 -->")},
     {
         "@ros2": _BRIDGE,

@@ -181,6 +181,12 @@ def _spawner(*words: str, mark: str = "") -> str:
     return f"Node(package='controller_manager', executable='spawner', arguments=[{inside}])"
 
 
+def _command(line: str, mark: str = "") -> str:
+    """Return the start of a controller by a command."""
+    words = ["bash", "-c", f"sleep 5; ros2 control {line}"]
+    return f"ExecuteProcess(cmd={words}{mark}\n        )"
+
+
 def _arm(*nodes: str, gazebo: bool = False, more: str = "", block: str = _ARM) -> dict[str, object]:
     hardware = "gz_ros2_control/GazeboSimSystem" if gazebo else "mock_components/GenericSystem"
     started = ",\n        ".join(nodes)
@@ -190,7 +196,7 @@ def _arm(*nodes: str, gazebo: bool = False, more: str = "", block: str = _ARM) -
         "launch/arm.launch.py": f"""import os
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
-from launch.actions import IncludeLaunchDescription
+from launch.actions import ExecuteProcess, IncludeLaunchDescription
 from launch_ros.actions import Node
 
 CLASSIC = get_package_share_directory('gazebo_ros') + '/launch/gazebo.launch.py'
@@ -239,6 +245,14 @@ GOOD = [
     _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _arm(_NODE, _spawner("arm_controller")),
     _arm(_NODE, _spawner("arm_controller", "--param-file", "config"), block=""),
+    _arm(
+        _NODE,
+        _spawner("arm_controller"),
+        _command(
+            "load_controller joints_out && ros2 control set_controller_state joints_out active"
+        ),
+        more=_BROADCASTER.replace(_MARK, ""),
+    ),
     _arm(_NODE, _spawner("grip_controller", "--param-file", "config")),
     _arm(_spawner("arm_controller"), _CREATE, gazebo=True),
     _in_gazebo("arm_controller", _INSTALLED),
@@ -250,6 +264,8 @@ BAD = [
     _in_classic(_spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controller"), more=_BROADCASTER),
     _arm(_NODE, _spawner("arm_controler", mark=_MARK)),
+    _arm(_NODE, _command("load_controller --set-state active arm_controler", _MARK)),
+    _arm(_NODE, _command("switch_controllers --activate arm_controller"), more=_BROADCASTER),
     {
         **_arm(_NODE, _spawner("arm_controller"), block=""),
         "config/arm.yaml": _YAML.replace("}\n", f"}}{_MARK}\n"),

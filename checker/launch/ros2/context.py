@@ -88,3 +88,7 @@ class Context:
     def inner(self) -> Context:
         """Return a place whose state is its own, as in a scoped group."""
         return replace(self, state=self.state.copy())
+
+    def apart(self) -> Context:
+        """Return the place of a process of its own, which gets nothing but the environment."""
+        return replace(self, state=State(environment=dict(self.state.environment)))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import enum
 import posixpath
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from msgspec import field
 
@@ -272,15 +272,18 @@ class Node(Started, eq=False, kw_only=True):
 
 
 class Process(Started, eq=False, kw_only=True):
-    """A command that is no node.
+    """A command that is neither a node nor an included file, as `ros2 run` and `ros2 launch` are.
 
     Attributes:
         words: The command line, taken apart as a shell does; a word may contain `$(`.
-        spawns: The node that puts the same model into Gazebo, if the command puts one there.
+        commands: The words of each command that it runs: a line for a shell may contain several.
+            Those that are read as nodes or included files are left out.
+        spawns: Nodes that put the same models into Gazebo, or start the same controllers.
     """
 
     words: tuple[Located[str], ...]
-    spawns: Node | None = None
+    commands: tuple[Sequence[Located[str]], ...] = ()
+    spawns: tuple[Node, ...] = ()
 
 
 class Include(Started, eq=False, kw_only=True):
@@ -294,6 +297,7 @@ class Include(Started, eq=False, kw_only=True):
             when that is not known, as of a file that could not be read in full.
         reason: The reason why the file is not read; empty if it is.
         nodes: The nodes that the file starts, if it is not read but known.
+        commanded: Whether `ros2 launch` starts it, as users do: it is a launch of its own, too.
     """
 
     target: Located[str]
@@ -302,6 +306,7 @@ class Include(Started, eq=False, kw_only=True):
     accepts: frozenset[str] | None = None
     reason: str = ""
     nodes: tuple[Node, ...] = ()
+    commanded: bool = False
 
     @property
     def is_unknown(self) -> bool:
@@ -366,8 +371,8 @@ class LaunchGraph(Record, eq=False, dict=True):
 
     @property
     def nodes_and_spawns(self) -> tuple[Node, ...]:
-        """The nodes, and those that do what commands do which put a model into Gazebo."""
-        return (*self.nodes, *(it.spawns for it in self.processes if it.spawns is not None))
+        """The nodes, and those that do what commands do: see `Process.spawns`."""
+        return (*self.nodes, *(node for process in self.processes for node in process.spawns))
 
 
 class Ros2Launch(Record, eq=False):

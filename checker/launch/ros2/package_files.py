@@ -62,3 +62,17 @@ def installed_path(package: Package, file: str) -> str:
 def installs(package: Package, target: SharePath) -> bool:
     """Return whether a package installs what is at a path of its share folder."""
     return source_of(package, target.path) is not None
+
+
+def launch_file(package: Package, name: str, file: str) -> str:
+    """Return the path of the launch file that `ros2 launch` finds in a package by its name.
+
+    Args:
+        package: The package being checked.
+        name: The package that has the file.
+        file: The name of the file; it may be in any folder.
+    """
+    holder, path = package.named(name), f"launch/{file}"
+    if holder is not None and (found := holder.index.ending(file)):
+        path = installed_as(holder, found[0]) or found[0]
+    return f"{ROOT}/{name}/{path}"

@@ -54,7 +54,7 @@ def _outermost(graphs: Mapping[str, LaunchGraph]) -> list[LaunchGraph]:
         include.path
         for file, graph in graphs.items()
         for include in graph.includes
-        if include.path != file
+        if include.path != file and not include.commanded
     }
     return [graphs[file] for file in graphs if file not in included] or [*graphs.values()]
 

@@ -174,6 +174,10 @@ class LaunchReader:
         accepts = frozenset(inner.used | inner.declared) if complete else None
         return FileRead(path=source.file, accepts=accepts)
 
+    def launch_file(self, package: str, name: str) -> str:
+        """Return the path of the launch file of a package that has a name."""
+        return package_files.launch_file(self._package, package, name)
+
     def call(self, function: Value, positional: Sequence[Value], context: Context) -> Value:
         """Return what a function of a launch file returns."""
         before, self._context = self._context, context

@@ -87,7 +87,7 @@ def spawner_of(node: Node) -> Spawner | None:
 def launched_files(package: Package, graphs: Iterable[LaunchGraph]) -> dict[str, Span]:
     """Return the files of parameters that managers and spawners are given, by their path."""
     files: dict[str, Span] = {}
-    for node in (node for graph in graphs for node in graph.nodes):
+    for node in (node for graph in graphs for node in graph.nodes_and_spawns):
         named = [(file.path, file.span) for file in node.parameter_files if _is_manager(node)]
         spawner = spawner_of(node)
         if spawner is not None:
@@ -121,7 +121,7 @@ class LaunchedControl(Record, eq=False, dict=True):
     @cached_property
     def nodes(self) -> tuple[Node, ...]:
         """The nodes that are started with the defaults of all arguments."""
-        return tuple(node for node in self.graph.nodes if node.starts)
+        return tuple(node for node in self.graph.nodes_and_spawns if node.starts)
 
     @cached_property
     def spawners(self) -> tuple[Spawner, ...]:
@@ -139,8 +139,7 @@ class LaunchedControl(Record, eq=False, dict=True):
         """True if it puts a robot into Gazebo."""
         return any(
             node.package.value == "ros_gz_sim" and node.executable.value == "create"
-            for node in self.graph.nodes_and_spawns
-            if node.starts
+            for node in self.nodes
         )
 
     @cached_property
@@ -153,7 +152,7 @@ class LaunchedControl(Record, eq=False, dict=True):
     @property
     def is_complete(self) -> bool:
         """True if nothing that it starts depends on other files or on the machine that launches."""
-        unsure = any(node.starts is None for node in self.graph.nodes)
+        unsure = any(node.starts is None for node in self.graph.nodes_and_spawns)
         return not (unsure or any(unread_parts(self.graph)))
 
     @cached_property

@@ -148,7 +148,7 @@ def wirings(
     by_graph = {id(simulation.graph): simulation for simulation in launched}
     for graph in launch.entries:
         included = (node for include in graph.includes for node in include.nodes)
-        nodes = tuple(wired_node(node, reader) for node in (*graph.nodes, *included))
+        nodes = tuple(wired_node(node, reader) for node in (*graph.nodes_and_spawns, *included))
         if nodes:
             described = tuple(_described(graph, nodes, robots))
             spawns = any(_spawns_in_classic(node) for node in graph.nodes)

@@ -26,7 +26,7 @@ def description(visitor: Visitor, made: Made, context: Context) -> None:
     visitor.visit(made.values.get("initial_entities"), context)
 
 
-def include(visitor: Visitor, made: Made, context: Context) -> None:
+def include(visitor: Visitor, made: Made, context: Context, *, commanded: bool = False) -> None:
     """Visit an included file; its arguments are valid after it, too, if it is included."""
     source = chosen_value(made.values.get("launch_description_source"))
     if isinstance(source, Made) and source.name == "LaunchDescriptionSource":
@@ -59,6 +59,7 @@ def include(visitor: Visitor, made: Made, context: Context) -> None:
             accepts=accepts,
             reason=became.reason,
             nodes=nodes,
+            commanded=commanded,
             conditions=context.conditions,
             after=context.after,
             span=made.span,

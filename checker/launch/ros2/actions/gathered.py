@@ -49,5 +49,8 @@ class Files(Protocol):
     def include(self, target: PlacedText, context: Context) -> FileRead:
         """Visit an included file."""
 
+    def launch_file(self, package: str, name: str) -> str:
+        """Return the path of the launch file of a package that has a name."""
+
     def call(self, function: Value, positional: Sequence[Value], context: Context) -> Value:
         """Return what a function of a launch file returns."""

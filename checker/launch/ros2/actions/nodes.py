@@ -8,6 +8,14 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from checker.launch.ros2.actions import flow
+from checker.launch.ros2.actions.commands import (
+    Words,
+    commands_of,
+    launched_file,
+    run_node,
+    same_node,
+)
 from checker.launch.ros2.actions.conditions import read_conditions
 from checker.launch.ros2.actions.node_parameters import MOVEIT
 from checker.launch.ros2.actions.parts import (
@@ -18,7 +26,6 @@ from checker.launch.ros2.actions.parts import (
     texts_of,
     words_of,
 )
-from checker.launch.ros2.actions.spawn_commands import spawning_node
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import (
     LaunchFaultKind,
@@ -28,7 +35,15 @@ from checker.launch.ros2.graph import (
     Process,
     Unread,
 )
-from checker.launch.ros2.values import Guarded, Made, Unknown, Value, chosen_value, span_of
+from checker.launch.ros2.values import (
+    Guarded,
+    Made,
+    PlacedText,
+    Unknown,
+    Value,
+    chosen_value,
+    span_of,
+)
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -89,13 +104,37 @@ def process(visitor: Visitor, made: Made, context: Context) -> None:
     """Gather a command."""
     unread: list[Unread] = []
     words = tuple(words_of(made.values.get("cmd"), context, made.span, unread))
-    command = Process(
+    action = Process(
         words=words, conditions=context.conditions, after=context.after, span=made.span
     )
-    spawns = spawning_node(command, as_line=made.values.get("shell") in (True, "true"))
-    visitor.found.processes.append(replace(command, spawns=spawns))
+    as_line = made.values.get("shell") in (True, "true")
+    others = tuple(
+        command
+        for command in commands_of(words, as_line=as_line)
+        if not _start(visitor, command, action, context.apart())
+    )
+    if others:
+        spawns = tuple(filter(None, (same_node(command, action) for command in others)))
+        visitor.found.processes.append(replace(action, commands=others, spawns=spawns))
     visitor.found.unread += unread
     visitor.later_events(made, context)
+
+
+def _start(visitor: Visitor, words: Words, process: Process, context: Context) -> bool:
+    """Gather what a command starts as an action does, and return whether it does so."""
+    if (ran := run_node(words, process)) is not None:
+        node(visitor, ran, context)
+        return True
+    found, arguments = launched_file(words)
+    if not found:
+        return False
+    *package, file = found
+    path = visitor.files.launch_file(package[0].value, file.value) if package else file.value
+    source = PlacedText(path, file.span)
+    values = {"launch_description_source": source, "launch_arguments": arguments}
+    launched = Made("IncludeLaunchDescription", values, process.span)
+    flow.include(visitor, launched, context, commanded=True)
+    return True
 
 
 def bridge(visitor: Visitor, made: Made, context: Context) -> None:

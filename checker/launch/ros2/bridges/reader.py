@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from itertools import islice, pairwise
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from msgspec import field
@@ -29,7 +29,6 @@ from checker.launch.ros2.graph import (
     Parameter,
     ParameterFile,
     Parameters,
-    Process,
     display_path,
     is_known,
     share_path,
@@ -122,8 +121,6 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
     reader = _Reader(package)
     for node in graph.nodes:
         reader.node(node)
-    for process in graph.processes:
-        reader.process(process)
     for include in graph.includes:
         reader.include(include)
     return reader.bridges()
@@ -193,18 +190,6 @@ class _Reader:
         if (file := given.get("config_file")) is not None:
             namespace = given["namespace"].value if "namespace" in given else ""
             self.file(file.value, _At(resolve_name(namespace, "/"), "", (), False, None))
-
-    def process(self, process: Process) -> None:
-        """Read `ros2 run ros_gz_bridge parameter_bridge …`."""
-        words = [word.value for word in process.words]
-        for start, pair in enumerate(pairwise(words)):
-            if pair[0] in _BRIDGES and pair[1] == _PROGRAM:
-                own, given = _split(process.words[start + 2 :])
-                named = tuple(Remap(name, it.value, it.span) for name, it in given.items())
-                at = _At("/", _BRIDGES[0], named, _expands((), given), None)
-                for word in own:
-                    self._argument(word, at)
-                self._configured((), given, at)
 
     def _argument(self, word: Located[str], at: _At) -> None:
         if word.value.startswith("-"):
