@@ -61,8 +61,8 @@ def _no_numbers(joint: HardwareJoint, interface: Interface) -> Iterator[Finding]
 def _numbers(joint: HardwareJoint, interface: Interface, known: Joint | None) -> Iterator[Finding]:
     low, high = interface.numbers.get("min"), interface.numbers.get("max")
     called = f"{interface.name.value} of joint {joint.name.value!r}"
-    if low is not None and high is not None and low.value > high.value:
-        yield finding(low, f"min {low.value:g} of {called} is above max {high.value:g}")
+    if low is not None and high is not None and low.value >= high.value:
+        yield finding(low, f"min {low.value:g} of {called} is not below max {high.value:g}")
         return
     bounds = _bounds(known, interface.name.value)
     if bounds is None:
@@ -123,6 +123,12 @@ BAD = [
     _arm(_param("velocity", "min", "fast", _MARK)),
     _arm(_param("position", "initial_value", "1.5", _MARK)),
     _arm(f'<command_interface name="postion"/>{_MARK}'),
+    _arm(
+        f"""<command_interface name="effort">
+        <param name="min">-500</param>{_MARK}
+        <param name="max">-500</param>
+        </command_interface>"""
+    ),
     _arm(
         f"""<command_interface name="position">
         <param name="min">0.5</param>{_MARK}
