@@ -89,7 +89,7 @@ def _unseen(package: PackageReport) -> str:
     reasons = robots or list(dict.fromkeys(it.reason for it in by_reason(others)))
     shown = plain(shortened(and_list(reasons[:3]), _REASON_LIMIT))
     blind = len({spot.rule for spot in others})
-    what = "no robot was read" if robots else f"{count(blind, 'rule')} could not run"
+    what = "no robot was read" if robots else f"{count(blind, 'rule')} for errors could not run"
     return f"{what}: {shown}"
 
 

@@ -75,7 +75,7 @@ def test_exit_3_when_a_rule_crashes(run_apart: Run, good: Path, with_crash: dict
     done = run_apart(good, **with_crash)
     assert done.returncode == 3
     assert "CRA001 could not run (ValueError: on purpose); please report this" in done.stdout
-    assert f"{GOOD}: Incomplete: no error, but 1 rule could not run" in done.stdout
+    assert f"{GOOD}: Incomplete: no error, but 1 rule for errors could not run" in done.stdout
 
 
 def test_unreadable_input_counts_more_than_a_crash_and_that_more_than_findings(

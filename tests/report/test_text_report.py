@@ -289,8 +289,8 @@ def test_what_was_not_checked_is_grouped_by_its_reason() -> None:
     assert "not checked: SEN003: switched off\n" in shown
     assert "SEN004" not in shown
     assert shown.endswith(
-        "rover: Incomplete: no error, but 2 rules could not run: the model is not available "
-        "(1 rule switched off)\n"
+        "rover: Incomplete: no error, but 2 rules for errors could not run: the model is not "
+        "available (1 rule switched off)\n"
     )
 
 
