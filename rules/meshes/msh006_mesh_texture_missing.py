@@ -17,6 +17,7 @@ from checker.model.components import Visual
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot
 from checker.package.package import Package
+from checker.package.target import package_around
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _ABSOLUTE = re.compile(r"/|[A-Za-z]:[\\/]|file:|\\\\", re.IGNORECASE)
@@ -32,12 +33,22 @@ def check(package: Package, robot: Robot) -> Findings:
         if not isinstance(use.file, Mesh) or use.is_collision or _has_own_texture(use):
             continue
         for name in (*use.file.materials, *use.file.textures):
-            if _ON_A_SERVER.match(name) or any(map(package.exists, _paths(use.file, name))):
+            if _ON_A_SERVER.match(name) or _is_there(package, use.file, name):
                 continue
             absolute = "an absolute path" if _ABSOLUTE.match(name) else "which does not exist"
             kind = "material file" if name in use.file.materials else "texture"
             message = f"{use.uri.value} names the {kind} {name}, {absolute}"
             yield finding(use.uri, message, key=kind)
+
+
+def _is_there(package: Package, mesh: Mesh, name: str) -> bool:
+    """Return whether a file is in the package, or in the one around a folder of a model."""
+    around, paths = package_around(package), [*_paths(mesh, name)]
+    if any(map(package.exists, paths)):
+        return True
+    inside = package.root.relative_to(around.root).as_posix() if around is not None else ""
+    places = (posixpath.normpath(posixpath.join(inside, path)) for path in paths)
+    return around is not None and any(map(around.exists, places))
 
 
 def _paths(mesh: Mesh, name: str) -> Iterator[str]:
