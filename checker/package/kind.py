@@ -46,6 +46,11 @@ def is_file(path: Path) -> bool:
         return False
 
 
+def is_launch_name(name: str) -> bool:
+    """Return whether a file is a launch file of ROS 2 in Python, by its name."""
+    return name.endswith((".launch.py", "_launch.py"))
+
+
 def holds_loose_models(folder: Path) -> bool:
     """Return whether model files are in a folder, or in its `urdf/`, without a package around."""
     return any(
@@ -142,8 +147,8 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
 
     A file belongs to the outermost package around it within its repository: the nested model
     `parts/guard/model.sdf` is a part of the robot, not a package. Without a package around, it
-    belongs to the outermost folder of loose model files; other files are passed over. Those that
-    are gone count for the package that they were in.
+    belongs to the outermost folder of loose model or launch files; other files are passed over.
+    Those that are gone count for the package that they were in.
 
     Args:
         files: Relative to `here`, or absolute.
@@ -182,8 +187,13 @@ def _outermost(folder: Path) -> Path | None:
     packages = [place for place in around if looks_like_package(place)]
     if packages or not _holds_repository(around[-1]):
         return packages[-1] if packages else None
-    loose = [it for it in around if holds_loose_models(it) or holds_mjcf(it, _names(it))]
+    loose = [it for it in around if holds_loose_models(it) or _holds_loose_files(it)]
     return loose[-1] if loose else None
+
+
+def _holds_loose_files(folder: Path) -> bool:
+    names = _names(folder)
+    return holds_mjcf(folder, names) or any(map(is_launch_name, names))
 
 
 def _within_repository(folder: Path) -> Iterator[Path]:

@@ -15,6 +15,7 @@ from checker.package.kind import (
     MODEL_CONFIG,
     MODEL_MARKERS,
     is_file,
+    is_launch_name,
     looks_like_package,
 )
 from checker.package.mjcf_files import holds_mjcf
@@ -58,7 +59,7 @@ class Units(Record):
 
 
 def units_below(folder: Path) -> Units:
-    """Find packages, model folders and loose model files in a folder, however deep.
+    """Find packages, model folders, loose model and launch files in a folder, however deep.
 
     What is in a model folder or a submission is a part of it; models with a model.config in a model
     folder without a model of its own are separate units. A ROS package may contain models and
@@ -103,8 +104,8 @@ class _Search:
             folder: The folder to look into.
             inside: Whether it is in a ROS package.
             depth: Folders above it that were searched.
-            below_loose: Whether it is in a loose folder of URDF or MuJoCo files, to which its own
-                then belong.
+            below_loose: Whether it is in a loose folder of URDF, MuJoCo or launch files, to which
+                its own then belong.
         """
         self.folders += 1
         if self.folders > MAX_FOLDERS or depth > MAX_DEPTH:
@@ -123,10 +124,12 @@ class _Search:
                 yield from self._below_config(folder, files, folders, depth)
                 return
         inside = inside or is_package
-        # Loose model files of URDF and MuJoCo belong to the package around.
+        # Loose launch files and model files of URDF and MuJoCo belong to the package around.
         loose = [] if below_loose else files
         holds_urdf = not inside and _holds_urdf(folder, loose, folders)
-        is_loose = holds_urdf or (not inside and holds_mjcf(folder, loose))
+        is_loose = holds_urdf or (
+            not inside and (holds_mjcf(folder, loose) or any(map(is_launch_name, loose)))
+        )
         if is_loose:
             yield Unit(folder)
         yield from (Unit(folder, name) for name in files if is_checked_by_itself(name))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from checker.package.detected_target import is_described_for_ros_2
 from checker.package.inheritance import SUBMISSION_NAME
-from checker.package.kind import PackageKind, enclosing_package
+from checker.package.kind import PackageKind, enclosing_package, is_launch_name
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -29,19 +29,19 @@ def usual_profile(package: Package) -> str:
     """Return the profile that judges a package where the user names none.
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
-    type or its dependencies. Another one that names SubT nowhere is of ROS 1, or a model for any
-    Gazebo. A model of MuJoCo without a package is for MuJoCo, wherever it lies. Another model, a
-    world or a single file is judged as the package around it is; without one,
-    it is Gazebo's, even where model.config names a URDF file, and other URDF is of ROS 2 or ROS 1
-    by its content.
+    type or its dependencies, a loose folder by its launch files. Another one that names SubT
+    nowhere is of ROS 1, or a model for any Gazebo. A model of MuJoCo without a package is for
+    MuJoCo, wherever it lies. Another model, a world or a single file is judged as the package
+    around it is; without one, it is Gazebo's, even where model.config names a URDF file, and other
+    URDF is of ROS 2 or ROS 1 by its content.
     """
     if package.kind in _SUBMISSIONS:
         return SUBMISSION
     manifest = None if package.only else package.xml("package.xml")
     if isinstance(manifest, XmlDocument):
         return _of_manifest(package, manifest)
-    if package.kind is PackageKind.MUJOCO_MODEL:
-        return MUJOCO
+    if loose := _of_loose_files(package):
+        return loose
     around = _usual_around(package)
     if package.is_urdf and not package.exists("model.config"):
         by_content = around != SUBMISSION and is_described_for_ros_2(package)
@@ -49,6 +49,14 @@ def usual_profile(package: Package) -> str:
     if package.only and around == SUBMISSION:
         return SUBMISSION
     return ANY_SDF if around in (ROS_1, ANY_SDF) else MODEL
+
+
+def _of_loose_files(package: Package) -> str:
+    """Return the profile of models of MuJoCo, or of launch files, without a package."""
+    if package.kind is PackageKind.MUJOCO_MODEL:
+        return MUJOCO
+    is_launched = any(is_launch_name(file.path) for file in package.index.files)
+    return ROS_2 if package.is_loose and is_launched else ""
 
 
 def ros_2_package(package: Package) -> Package | None:

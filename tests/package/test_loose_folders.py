@@ -57,3 +57,38 @@ def test_urdf_files_in_folders_below_are_judged_once(tmp_path: Path) -> None:
     reports = checked(tmp_path, tmp_path / "examples", *files)
     found = {name: files_of(report) for name, report in reports.items()}
     assert found == {"examples": ["urdf/first.urdf", "xacro/second.urdf"], "arm": ["third"]}
+
+
+LAUNCH = """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='ros_gz_bridge', executable='parameter_bridge',
+        arguments=['/clock@rosgraph_msgs/msg/Clok[gz.msgs.Clock'])])
+"""
+MANIFEST = """<package format="3"><name>tool</name><version>1.0.0</version>
+<description>T</description>
+<maintainer email="a@example.org">A</maintainer><license>MIT</license>
+<export><build_type>ament_cmake</build_type></export></package>
+"""
+
+
+def test_launch_files_without_a_package_are_judged_once(tmp_path: Path) -> None:
+    for file in "sim.launch.py", "bridges/more.launch.py", "tool/launch/own.launch.py":
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_text(LAUNCH)
+    (tmp_path / "tool" / "package.xml").write_text(MANIFEST)
+    reports = check_package(tmp_path, Settings(trial=False)).packages
+    found = {
+        (report.name, place.file)
+        for report in reports
+        for finding in report.findings
+        if finding.rule == "BRG002"
+        for place in finding.places
+    }
+    top = tmp_path.name
+    assert found == {
+        (top, "sim.launch.py"),
+        (top, "bridges/more.launch.py"),
+        ("tool", "launch/own.launch.py"),
+    }

@@ -97,12 +97,14 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
 
 
 def launch_files(package: Package) -> Iterator[str]:
-    """Yield the launch files of ROS 2."""
+    """Yield the launch files of ROS 2, those of packages within left out."""
     if package.only:
         return
     for entry in package.index.files:
         path = entry.path
         lower = path.lower()
+        if package.lies_in_unit(path):
+            continue
         if lower.endswith(".py") and "launch" in lower:
             if _holds(package, path, _PYTHON):
                 yield path
