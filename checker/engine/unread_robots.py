@@ -77,7 +77,7 @@ def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
     """Yield what a launch file takes from packages that are not available."""
     for named in named_paths(graph):
         concerns = named.needed and (named.include or named.path.path.endswith(robot_suffixes()))
-        if concerns and (why := unavailable(package, named.path.package)):
+        if concerns and (why := unavailable(package, named.path)):
             what = "includes" if named.include else "takes the robot from"
             yield f"{graph.file} {what} {named.path}: {why}"
 

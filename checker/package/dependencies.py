@@ -205,7 +205,7 @@ def uses_in_build(package: Package) -> Iterator[Use]:
 
 
 def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
-    """Return names of packages that are not available, and all of whose files this package has.
+    """Return names of packages that exist nowhere, and all of whose files this package has.
 
     It was renamed, and still uses its own files by the name that it had.
 
@@ -218,7 +218,7 @@ def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
         name = use.package_name
         if use.path and package.workspace.package(name) is None:
             own[name] = own.get(name, True) and package.exists(use.path)
-    return frozenset(name for name, every in own.items() if every)
+    return frozenset(name for name, every in own.items() if every and not distributions_with(name))
 
 
 # What a package takes from another robot's package although it has the file itself.

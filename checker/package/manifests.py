@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 
 from checker.base.files import NotReadable
@@ -214,6 +215,11 @@ class Paperwork(Record, eq=False, dict=True):
         """package.xml; None if it is missing or not well-formed."""
         document = self.package.xml("package.xml")
         return read_package_xml(document) if isinstance(document, XmlDocument) else None
+
+    def undeclared(self, names: Iterable[str]) -> frozenset[str]:
+        """Return the packages that package.xml does not declare; none if it cannot be read."""
+        manifest = self.manifest
+        return frozenset(it for it in names if manifest is not None and not manifest.depends_on(it))
 
     @cached_property
     def config(self) -> ModelConfig | None:

@@ -9,6 +9,9 @@ a parameter file whose path is empty. Where a condition leaves the action out, f
 RViz shows or that `.gitignore` excludes, for files of a node that has a parameter about saving, and
 for paths passed to a launch file that is not available, unless it starts Gazebo, this is a warning.
 
+A package that no ROS distribution has and package.xml does not declare, and of which every file
+that is used is in this package, is taken as the former name of this package.
+
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
 ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
@@ -27,7 +30,10 @@ from checker.launch.ros2.named_paths import (
     named_paths,
     unavailable,
 )
+from checker.launch.ros2.used_packages import every_use
+from checker.package.dependencies import former_names
 from checker.package.git_ignored import ignored_by
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import (
     Concern,
@@ -45,17 +51,21 @@ _DATA = (".yaml", ".yml", ".world", ".sdf")
 
 
 @rule("LCH001", "launch-references-missing-file", Severity.ERROR, Concern.INTERFACE)
-def check(launch: Ros2Launch, package: Package) -> Findings:
+def check(launch: Ros2Launch, package: Package, paperwork: Paperwork) -> Findings:
     """Report files in share folders of available packages that are not there.
 
     What one node needs is as severe where another names it that does not start by default.
     """
     graphs = [(graph, [*named_paths(graph)]) for graph in launch.entries]
     needed = {str(named.path) for _, paths in graphs for named in paths if named.needed}
+    former = paperwork.undeclared(former_names(package, every_use(package, launch)))
     for graph, paths in graphs:
         for named in paths:
+            if named.path.package in former:
+                yield _misnamed(package, named)
+                continue
             is_data = named.needed and named.path.path.endswith(_DATA)
-            if is_data and (why := unavailable(package, named.path.package)):
+            if is_data and (why := unavailable(package, named.path)):
                 yield unchecked(f"{named.path} is not read: {why}")
             elif not is_missing(package, named.path):
                 continue
@@ -78,6 +88,17 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                     fix=None if found or ignored else _renamed(package, named),
                 )
         yield from _empty_paths(graph)
+
+
+def _misnamed(package: Package, named: NamedPath) -> Finding:
+    former, name = named.path.package, package.declared_name
+    return finding(
+        named,
+        f"the launch stops: there is no package {former!r}, and this package has "
+        f"{named.path.path}: write {name}",
+        severity=None if named.needed else Severity.WARNING,
+        key=former,
+    )
 
 
 def _others(package: Package, named: NamedPath) -> str:
@@ -181,6 +202,7 @@ ament_package()
             os.path.join(get_package_share_directory('nav2_bringup'), 'launch', 'x.launch.py'))),"""
     },
 ]
+_FORMER = "os.path.join(get_package_share_directory('acme_arm'), 'config', 'arm.yaml')"
 _COMPUTED = """from glob import glob
 from setuptools import setup
 
@@ -188,6 +210,7 @@ setup(name="acme_arm_bringup", data_files=[
     ("share/acme_arm_bringup/" + path.partition("/")[0], [path]) for path in glob("assets/**/*")])
 """
 BAD = [
+    {"@ros2": _STATE.replace("in_package('config', 'arm.yaml')", _FORMER) + "  # ^ LCH001"},
     {"@ros2": f"{_WORLD}  # ^ LCH001", "CMakeLists.txt": None, "setup.py": _COMPUTED},
     {"@ros2": _SAVED},
     {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},

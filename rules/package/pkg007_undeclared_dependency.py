@@ -102,7 +102,11 @@ def check(
         if name in former:
             if not manifest.depends_on(name):
                 yield finding(
-                    use.place, _renaming_message(package, use), severity=Severity.INFO, key=name
+                    use.place,
+                    _renaming_message(package, use),
+                    severity=Severity.INFO,
+                    key=name,
+                    covered_by=("LCH001", "REF002"),
                 )
             continue
         beside = name not in PROVIDED and package.workspace.package(name) is not None

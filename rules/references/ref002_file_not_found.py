@@ -25,16 +25,16 @@ resource_retriever: the share folder of the installed package.
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from checker.finding import Fix
 from checker.model.robot import Robot
+from checker.package.dependencies import Use, former_names
 from checker.package.downloaded import downloaded_by
 from checker.package.git_ignored import ignored_by
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.package.released import distributions_with
 from checker.package.uris import Unknown, own_path_on_machine, path_behind
 from checker.rule import (
     Concern,
@@ -56,7 +56,7 @@ _NAMED = re.compile(r"package://([^/]+)/(.+)")
 def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
     """Report URIs that lead to no file."""
     meshes = {shape.geometry.uri for shape in robot.shapes()}
-    misnamed = _former_names(package, paperwork, [uri.value for uri in robot.file_uris])
+    misnamed = _former_names(package, paperwork, robot.file_uris)
     for uri in robot.file_uris:
         path = path_behind(package, robot.folder_of(uri), uri.value)
         if isinstance(path, Unknown):
@@ -96,22 +96,13 @@ def _missing(
     )
 
 
-def _former_names(package: Package, paperwork: Paperwork, uris: list[str]) -> frozenset[str]:
-    """Return names of packages that exist nowhere, and all of whose files this package has."""
-    manifest = paperwork.manifest
-    if manifest is None:
-        return frozenset()
-    own: dict[str, bool] = {}
-    for match in filter(None, map(_NAMED.fullmatch, uris)):
-        own[match[1]] = own.get(match[1], True) and package.exists(match[2])
-    return frozenset(
-        name
-        for name, every in own.items()
-        if every
-        and package.workspace.package(name) is None
-        and not manifest.depends_on(name)
-        and not distributions_with(name)
-    )
+def _former_names(
+    package: Package, paperwork: Paperwork, uris: Iterable[Located[str]]
+) -> frozenset[str]:
+    """Return names that this package had before, which its package.xml does not declare."""
+    named = ((uri, _NAMED.fullmatch(uri.value)) for uri in uris)
+    uses = [Use(it[1], uri.span.place(), uri.value, it[2]) for uri, it in named if it]
+    return paperwork.undeclared(former_names(package, uses))
 
 
 def _misnamed(package: Package, uri: Located[str], name: str, mesh: bool) -> Finding:

@@ -144,19 +144,25 @@ def is_missing(package: Package, path: SharePath) -> bool:
     return not there and not may_be_made(holder, path.path)
 
 
-def unavailable(package: Package, name: str) -> str:
+def unavailable(package: Package, path: SharePath) -> str:
     """Return why a package cannot be read, and what helps; empty if that does not matter.
 
     Packages of ROS whose nodes are known contain no part of the robot.
 
     Args:
         package: The package being checked.
-        name: The name of the other package.
+        path: The file of the other package.
     """
+    name = path.package
     if name.startswith(_OF_ROS) or name in _known_packages() or package.named(name):
         return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
+    if package.exists(path.path):
+        own = package.declared_name
+        return (
+            f"package {name} is not available, and {own} has the file: write {own} if it is meant"
+        )
     return f"package {name} is not available; give its parent folder with --package-path DIR"
 
 

@@ -42,15 +42,15 @@ def used_packages(launch: Ros2Launch) -> Iterator[Use]:
     What a condition leaves out is among them; what other packages' files use is theirs to declare.
     """
     for graph in launch.entries:
-        for name, span, how in _package_names(graph):
+        for name, span, how, path in _package_names(graph):
             if name and is_known(name) and not span.source.file.startswith("../"):
-                yield Use(name, span.place(), how)
+                yield Use(name, span.place(), how, path)
 
 
-def _package_names(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
+def _package_names(graph: LaunchGraph) -> Iterator[tuple[str, Span, str, str]]:
     for node in graph.nodes:
         what = "component" if node.kind is NodeKind.COMPONENT else "node"
-        yield node.package.value, node.package.span, f"{what} {node.executable.value}"
+        yield node.package.value, node.package.span, f"{what} {node.executable.value}", ""
         for parameter in node.parameters:
             yield from _of_parameter(parameter)
     paths = [include.target for include in graph.includes] + [use.text for use in graph.files]
@@ -58,17 +58,17 @@ def _package_names(graph: LaunchGraph) -> Iterator[tuple[str, Span, str]]:
         yield from _of_path(text.value, text.span)
 
 
-def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, Span, str]]:
+def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, Span, str, str]]:
     if isinstance(parameter, ParameterFile):
         yield from _of_path(parameter.path, parameter.span)
         return
     text = parameter.value if isinstance(parameter.value, str) else ""
     if text.startswith(_COMMAND) and _XACRO.search(parameter.span.source.text):
-        yield "xacro", parameter.span, "command xacro"
+        yield "xacro", parameter.span, "command xacro", ""
     for word in text.split() if text.startswith(_COMMAND) else ():
         yield from _of_path(word.rstrip(")"), parameter.span)
 
 
-def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str]]:
+def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str, str]]:
     if (path := share_path(text)) is not None:
-        yield path.package, span, f"file {path.path}"
+        yield path.package, span, f"file {path.path}", path.path
