@@ -21,6 +21,9 @@ from checker.package.inheritance import SPAWNER
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 
+_LAUNCHED = (PackageKind.URDF_DESCRIPTION, PackageKind.PLUGIN, PackageKind.UNKNOWN)
+"""Kinds of packages of which any launch file may be the one that a person starts."""
+
 
 @part
 def spawner(package: Package) -> Spawner | NotAvailable:
@@ -49,7 +52,7 @@ def started(spawner: Spawner) -> StartedXml | NotAvailable:
 @part
 def entries(package: Package) -> LaunchEntries:
     """Return the launch files that a package of ROS can be started with."""
-    known = package.kind in (PackageKind.URDF_DESCRIPTION, PackageKind.UNKNOWN)
+    known = package.kind in _LAUNCHED
     return launch_entries(package) if known else LaunchEntries()
 
 

@@ -1,20 +1,22 @@
 """A launch file of ROS 1 that roslaunch refuses, or a program of a node that does not exist.
 
 roslaunch reads all files before it starts anything, so nothing starts where an included file does
-not exist, gets an arg that it does not declare, or lacks one that it requires, and where the file
-of a description does not exist (a warning if its path depends on an arg, which may be given). A
-node whose package has no program of its `type` does not start, and roslaunch goes on without it.
-Programs without the ending `.py` are only reported if the package has one of nearly the same name:
-CMake may build them. Packages of ROS 2 are not checked.
+not exist, gets an arg that it does not declare, or lacks one that it requires, where two nodes get
+one name with the defaults of all args, also through an include, and where the file of a description
+does not exist (a warning if its path depends on an arg, which may be given). A node whose package
+has no program of its `type` does not start, and roslaunch goes on without it. Programs without the
+ending `.py` are only reported if the package has one of nearly the same name: CMake may build them.
+Packages of ROS 2 are not checked.
 
 Fix: correct the path, the name of the arg or the `type`; pass an arg with
 `<arg name="…" value="…"/>` inside the include.
-Source: roslaunch XML specification, `<include>`, `<arg>` and `<node>`; roslib, `find_node`.
+Source: roslaunch XML specification, `<include>`, `<arg>` and `<node>`; roslaunch, `add_node`;
+roslib, `find_node`.
 """
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from checker.base.words import Suggestions
 from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, Node
@@ -54,6 +56,8 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
                 given = "$(arg " in missing.span.text
                 severity = Severity.WARNING if given else None
                 yield finding(missing, missing.message, key=missing.message, severity=severity)
+    for entry in launch.entries:
+        yield from _of_one_name(entry.graph.nodes)
     for node in launch.graph.nodes:
         yield from _without_program(package, node)
 
@@ -61,6 +65,23 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
 def _may_be_given(fault: LaunchFault) -> bool:
     """Return whether an arg is missing in the file that a person starts, and gives it to."""
     return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
+
+
+def _of_one_name(nodes: Iterable[Node]) -> Iterator[Finding]:
+    """Report nodes that one launch starts under the name of another."""
+    first: dict[str, Node] = {}
+    for node in nodes:
+        if not node.name or node.assumed_from or not is_known(node.full_name):
+            continue
+        other = first.setdefault(node.full_name, node)
+        if other is not node:
+            yield finding(
+                node,
+                f"roslaunch stops: it starts two nodes of the name {node.full_name}: "
+                "remove one, or give it another name",
+                key=node.full_name,
+                related=[(other.span, "the other one")],
+            )
 
 
 def _without_program(package: Package, node: Node) -> Iterator[Finding]:
@@ -107,6 +128,17 @@ def _node(program: str, mark: str = "", package: str = "acme_arm_description") -
     return _launch(f'<node name="watch" pkg="{package}" type="{program}"/>{mark}')
 
 
+def _two(second: str, mark: str = "", around: str = "") -> dict[str, object]:
+    """Return a launch file with a node, after it includes a file that starts one."""
+    path = "$(find acme_arm_description)/launch/one.launch"
+    node = '<node name="states" pkg="robot_state_publisher" type="robot_state_publisher"@/>'
+    included = {"launch/one.launch": f"<launch>{node.replace('@', '')}</launch>"}
+    return {
+        **_launch(f'<include file="{path}"{around}/>\n{node.replace("@", second)}{mark}'),
+        **included,
+    }
+
+
 _MARK = "  <!-- ^ LCH020 -->"
 _ARM = '<arg name="arm" value="1"/>'
 _LOAD = "$(find acme_arm_bringup)/urdf/$(arg model).xacro"
@@ -123,8 +155,13 @@ GOOD = [
     _node("planner"),
     _node("wacth.py", package="acme_tools"),
     _launch('<node name="watch" pkg="acme_arm_description" type="wacth.py" if="false"/>'),
+    _two(' ns="arm"'),
+    _two(' if="false"'),
+    _two("", around=' ns="arm"'),
 ]
 BAD = [
+    _two("", _MARK),
+    _two(' ns="arm"', _MARK, ' ns="arm"'),
     _include("", mark=_MARK),
     _include(f'{_ARM}\n<arg name="ram" value="1"/>{_MARK}'),
     _include(_ARM, "two.launch", _MARK),

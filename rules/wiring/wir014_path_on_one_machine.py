@@ -1,10 +1,11 @@
-"""A parameter of a node is a path on the machine of its author.
+"""A parameter of a node, or a file in a launch file, is a path on the machine of its author.
 
 On every other machine the node does not find the file: the map server has no map, the navigator no
 behaviour tree. A path in a home, such as `/home/me/maps/hall.yaml`, on a drive of Windows, or in
 the folders of a workspace is reported in a parameter file, if it is that of a file. The name of a
 parameter such as `output_file` says that the node writes it. Where a launch file names the
-parameter, it may replace the value: this is an info.
+parameter, it may replace the value: this is an info. In launch files of ROS 1 and ROS 2, defaults
+of arguments, parameters and the files that a command line gives a node to read are judged.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`.
@@ -12,8 +13,12 @@ Source: ROS 2, launch_ros `ParameterFile`; ros-navigation/navigation2@b978cff5.
 """
 
 import re
+from collections.abc import Iterator
 
+from checker.launch.ros1.package_launch import LaunchEntries
+from checker.launch.ros2.graph import ParameterFile, Ros2Launch
 from checker.launch.ros2.named_paths import is_written
+from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine, own_path_on_machine
 from checker.ros.wiring.parameters import blocks_in
@@ -21,19 +26,81 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _FILE = re.compile(r"[^/\\]\.[A-Za-z]\w{1,9}\Z")
+_READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|world|lua)\Z")
+"""Ends of files that a node reads where its command line names one."""
+_ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
 _BY_LAUNCH = {"yaml_filename": "map"}
 """Arguments of Nav2's own launch files that replace parameters of another name."""
 
 
 @rule("WIR014", "path-on-one-machine", Severity.WARNING, Concern.INTERFACE)
-def check(package: Package) -> Findings:
-    """Report the files of one machine that parameter files name."""
+def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -> Findings:
+    """Report the files of one machine that parameter files and launch files name."""
     for file in package.index.with_suffix(".yaml", ".yml"):
         for block in blocks_in(package, file.path, "ros__parameters"):
             for name, parameter in block.parameters.items():
                 for text in () if is_written(name) else parameter.texts:
                     if is_on_one_machine(text.value) and _FILE.search(text.value):
                         yield _finding(package, f"{name} of {block.node}", name, text)
+    named = [*_in_ros_2(launch)] if launch is not None else []
+    if not is_ros2_only(package):
+        named += _in_ros_1(entries)
+    for label, text in {text.span.place(): (label, text) for label, text in named}.values():
+        is_own = text.value in text.span.text and not text.span.source.file.startswith("../")
+        if is_own and is_on_one_machine(text.value) and _FILE.search(text.value):
+            yield _in_launch_file(package, label, text)
+
+
+def _in_ros_2(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
+    """Yield the texts that may be the path of a file, each with what it is."""
+    for graph in launch.entries:
+        for argument in graph.arguments:
+            if argument.default is not None and not is_written(argument.name):
+                yield _ARGUMENT.format(argument.name), argument.default
+        for node in graph.nodes:
+            for word in filter(_is_read, node.arguments):
+                yield _OF_COMMAND.format(node.executable.value), word
+            for it in node.parameters:
+                if isinstance(it, ParameterFile):
+                    yield "the parameter file", Located(it.path, it.span)
+                elif isinstance(it.value, str) and not is_written(it.name):
+                    yield f"parameter {it.name}", Located(it.value, it.span)
+
+
+def _in_ros_1(launch: LaunchEntries) -> Iterator[tuple[str, Located[str]]]:
+    graph = launch.graph
+    for entry in launch.entries:
+        for name, value in entry.graph.arguments.items():
+            if not is_written(name):
+                yield _ARGUMENT.format(name), value
+    for param in graph.params:
+        name = param.name.rpartition("/")[2]
+        if param.kind != "command" and not is_written(name):
+            yield (
+                f"parameter {name}" if name else "the parameter file",
+                Located(param.value, param.span),
+            )
+    for node in graph.nodes:
+        for word in filter(_is_read, node.words):
+            yield _OF_COMMAND.format(node.name), word
+
+
+def _is_read(word: Located[str]) -> bool:
+    return _READ.search(word.value) is not None
+
+
+def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding:
+    own, name = own_path_on_machine(package, text.value), package.declared_name
+    if text.span.source.file.endswith(".py"):
+        here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
+    else:
+        here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
+    return finding(
+        text,
+        f"{label} is {text.value}, on its author's machine, and is found on no other: "
+        + (f"write {here}" if own else "install the file with a package"),
+        key=text.value,
+    )
 
 
 def _finding(package: Package, label: str, name: str, text: Located[str]) -> Finding:
@@ -58,8 +125,18 @@ def _example(value: str, mark: str = "", name: str = "yaml_filename") -> dict[st
     }
 
 
+def _launched(content: str, **files: str) -> dict[str, object]:
+    return {"@urdf": True, "launch/nav.launch": f"<launch>\n{content}\n</launch>\n", **files}
+
+
+_HALL = "/home/ann/ws/src/arm/maps/hall.yaml"
+_OF_ROS_1 = "  <!-- ^ WIR014 -->"
 _MARK = "  # ^ WIR014"
 GOOD = [
+    _launched('<arg name="map" default="$(find acme_arm_description)/maps/hall.yaml"/>'),
+    _launched('<arg name="output_file" default="/home/ann/run.csv"/>'),
+    _launched('<node name="log" pkg="rosbag" type="record" args="-O /home/ann/run.bag"/>'),
+    {"@ros2": "        DeclareLaunchArgument('map', default_value='/opt/maps/hall.yaml'),"},
     _example("$(find-pkg-share acme_rover_bringup)/maps/hall.yaml"),
     _example("/home/ann/logs/run.csv", name="output_file"),
     _example("/opt/ros/jazzy/share/nav2_bringup/maps/depot.yaml"),
@@ -67,6 +144,11 @@ GOOD = [
     _example("/map/image.raw", name="topic"),
 ]
 BAD = [
+    _launched(f'<arg name="map" default="{_HALL}"/>{_OF_ROS_1}'),
+    _launched(f'<param name="map" value="{_HALL}"/>{_OF_ROS_1}', **{"maps/hall.yaml": "image: a"}),
+    _launched(f'<node name="view" pkg="rviz" type="rviz" args="-d /root/a.rviz"/>{_OF_ROS_1}'),
+    {"@ros2": f"        DeclareLaunchArgument('map', default_value='{_HALL}'),{_MARK}"},
+    {"@ros2": f"        Node(package='p', executable='e', parameters=['{_HALL}']),{_MARK}"},
     _example("/home/ann/maps/hall.yaml", _MARK),
     {**_example("/home/ann/ws/src/rover/maps/hall.yaml", _MARK), "maps/hall.yaml": "image: a\n"},
     _example('"/rover_ws/install/rover/share/rover/tree.xml"', _MARK, "default_bt_xml"),
