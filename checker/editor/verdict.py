@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from checker.base.words import count
 from checker.editor.session import State
-from checker.engine.real_paths import with_real_paths
+from checker.engine.real_paths import neighbours_of, with_real_paths
 from checker.engine.review import what_is_unread
 from checker.finding import Severity
 from checker.report.report import NO_TRIAL, Cause, NotChecked, PackageReport
@@ -60,4 +60,5 @@ def _report_of(state: State) -> PackageReport | None:
         tuple(with_real_paths(package, state.findings)),
         tuple(not_checked),
         suppressed=checked.outcome.suppressed,
+        neighbours=neighbours_of(package, state.findings),
     )

@@ -34,3 +34,10 @@ def with_real_paths(
                 for repeat in finding.repeats
             ),
         )
+
+
+def neighbours_of(package: Package, findings: Iterable[ReportedFinding]) -> dict[str, str]:
+    """Return the names of the siblings that have files with findings, by the files' real paths."""
+    files = {finding.places[0].file for finding in findings}
+    foreign = (file for file in files if file.startswith("../"))
+    return {package.path_on_disk(file): file.split("/")[1] for file in foreign}

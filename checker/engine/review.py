@@ -26,7 +26,7 @@ from checker.engine.other_robots import (
     rules_of_one_robot,
     with_only_robot,
 )
-from checker.engine.real_paths import with_real_paths
+from checker.engine.real_paths import neighbours_of, with_real_paths
 from checker.engine.run import Outcome, join_outcomes, run_rules, unfinished
 from checker.engine.subject import Subject
 from checker.engine.unread_robots import unread_robots
@@ -213,6 +213,7 @@ def _report(
         other_robots=robots[1:],
         other_trials=trials[1:],
         target_reason=settings.target_reason,
+        neighbours=neighbours_of(package, outcome.findings),
         launched=launched,
     )
 

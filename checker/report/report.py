@@ -230,6 +230,7 @@ class PackageReport(Record):
         target_reason: The simulator or ROS 2 distribution detected from the content of the package,
             and the evidence; empty if the user or a default chose it.
         launched: The graphs of its launch files of ROS 2.
+        neighbours: Names of the packages in whose files findings are, by the paths of these files.
     """
 
     name: str
@@ -253,6 +254,7 @@ class PackageReport(Record):
     disturbed: str = ""
     target_reason: str = ""
     launched: tuple[Launched, ...] = ()
+    neighbours: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def verdict(self) -> VerdictKind:

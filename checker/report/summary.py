@@ -64,9 +64,12 @@ def sentence(package: PackageReport) -> Sentence:
 
 def _errors(package: PackageReport) -> str:
     """Return `2 errors of the robot and 1 of the paperwork to fix, and 3 in base_robot`."""
-    inherited = Counter(owner for owner in map(_owner, package.errors) if owner)
+    owners = [_owner(package, found) for found in package.errors]
+    inherited = Counter(filter(None, owners))
     others = and_list([f"{number} in {plain(name)}" for name, number in sorted(inherited.items())])
-    own = Counter(found.concern for found in package.errors if not _owner(found))
+    own = Counter(
+        found.concern for found, owner in zip(package.errors, owners, strict=True) if not owner
+    )
     if not own:
         where = f": {others}" if len(inherited) > 1 else f" in {plain(*inherited)}"
         return f"{count(inherited.total(), 'error')} to fix{where}"
@@ -76,10 +79,10 @@ def _errors(package: PackageReport) -> str:
     return f"{and_list(phrases)} to fix" + (f", and {others}" if others else "")
 
 
-def _owner(found: ReportedFinding) -> str:
+def _owner(package: PackageReport, found: ReportedFinding) -> str:
     """Return the package that a finding is inherited from; empty for its own."""
     place = found.places[0]
-    return place.file.split("/")[1] if is_foreign(place) else ""
+    return package.neighbours.get(place.file, place.file.split("/")[1]) if is_foreign(place) else ""
 
 
 def _unseen(package: PackageReport) -> str:

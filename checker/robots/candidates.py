@@ -14,7 +14,7 @@ from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.formats.xacro.files import local_path
 from checker.launch.ros1.launch_file import Load
-from checker.package.kind import PackageKind
+from checker.package.kind import PackageKind, enclosing_package
 from checker.package.package import Package
 from checker.robots.leftovers import is_of_page
 from checker.source.text import SourceText
@@ -25,6 +25,8 @@ _SUFFIXES = (".urdf", ".xacro")
 _OF_MOVEIT = (".srdf", ".srdf.xacro")
 FOLDER_BESIDE_SDF = "urdf/"
 CANDIDATES_LIMIT = 50
+_LEVELS = 6
+"""Folders between a file and the package or model that it is in."""
 
 
 class Candidate(Record):
@@ -114,7 +116,9 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             chosen[path] = replace(taken, loaded=loaded, given=every)
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]
-        chosen |= {path: Candidate(path) for path in others}
+        own = [path for path in others if not _is_of_package_within(package, path)]
+        # A package all of whose files are those of models within shows these.
+        chosen |= {path: Candidate(path) for path in own or ([] if chosen else others)}
     if not chosen and package.kind is PackageKind.URDF_DESCRIPTION:
         chosen = {path: Candidate(path) for path in _made_of(package)}
     return [*chosen.values()][:CANDIDATES_LIMIT]
@@ -130,6 +134,16 @@ def _files(package: Package) -> list[str]:
     if package.kind is PackageKind.URDF_DESCRIPTION:
         return [path for path in paths if not is_of_page(package, path)]
     return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
+
+
+def _is_of_package_within(package: Package, path: str) -> bool:
+    """Return whether a package or model within, all in URDF, has the file: it is judged there."""
+    if not package.lies_in_unit(path):
+        return False
+    folder = enclosing_package((package.root / path).parent, _LEVELS)
+    if folder is None or folder == package.root:
+        return False
+    return package.workspace.at(folder).kind is PackageKind.URDF_DESCRIPTION
 
 
 def _outermost(package: Package) -> Iterator[str]:
@@ -190,7 +204,13 @@ def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:
         package: The package to look into.
         seen: Files that were read, or are parts of what was.
     """
-    left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]
+    left = [
+        path
+        for path in _files(package)
+        if path not in seen
+        and _holds_parts(package, path)
+        and not _is_of_package_within(package, path)
+    ]
     if not left:
         return
     elsewhere = _with_their_parts(package, left, set(_included_elsewhere(package)))

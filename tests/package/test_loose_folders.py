@@ -1,4 +1,4 @@
-"""Folders of URDF files without a package around them."""
+"""Folders of files without a package around them, and models within a package."""
 
 from __future__ import annotations
 
@@ -92,3 +92,15 @@ def test_launch_files_without_a_package_are_judged_once(tmp_path: Path) -> None:
         (top, "bridges/more.launch.py"),
         ("tool", "launch/own.launch.py"),
     }
+
+
+def test_the_robot_of_a_model_within_a_package_is_judged_there(tmp_path: Path) -> None:
+    folder = tmp_path / "tool"
+    for file in "urdf/arm.urdf", "models/box/box.urdf":
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        (folder / file).write_text(URDF.format(name=Path(file).stem))
+    (folder / "package.xml").write_text(MANIFEST)
+    (folder / "models/box/model.config").write_text("<model><sdf>box.urdf</sdf></model>")
+    reports = check_package(tmp_path, Settings(trial=False)).packages
+    found = {report.name: files_of(report) for report in reports}
+    assert found == {"tool": ["arm"], "box": ["box"]}

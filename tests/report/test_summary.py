@@ -120,3 +120,10 @@ def test_the_verdict_says_what_the_errors_are_about_and_where_they_are_inherited
     assert verdict_on((robot, base), (robot, "../other/a.sdf")) == (
         "Not ready: 2 errors to fix: 1 in base and 1 in other"
     )
+
+
+def test_a_package_around_is_called_by_its_name() -> None:
+    far = "../../urdf/arm.urdf"
+    found = replace(PACKAGE.findings[0], places=(Place(far),))
+    package = replace(PACKAGE, findings=(found,), neighbours={far: "arm_description"})
+    assert str(sentence(package)) == "Not ready: 1 error to fix in arm_description"
