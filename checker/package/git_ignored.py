@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import posixpath
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from checker.package.files_above import files_around
+from checker.source.text import SourceText
 
 if TYPE_CHECKING:
     from checker.package.package import Package
 
+_FILE = ".gitignore"
 _NAMES = re.compile(r"\A(?:\.\./)*\.gitignore\Z")
 _PATTERN = re.compile(r"\*?[\w.-]{1,100}")
 _KEPT = "!"
@@ -23,7 +26,7 @@ def ignored_by(package: Package, path: str) -> str:
     later line that keeps files of such a name (`!src/**/*.pcd`) may keep this one.
     """
     name = posixpath.basename(path)
-    for source in files_around(package, _NAMES):
+    for source in (*_beside(package, path), *files_around(package, _NAMES)):
         found = ""
         for number, line in enumerate(source.text.splitlines(), 1):
             pattern = line.strip()
@@ -34,6 +37,16 @@ def ignored_by(package: Package, path: str) -> str:
         if found:
             return found
     return ""
+
+
+def _beside(package: Package, path: str) -> Iterator[SourceText]:
+    """Yield those in the folders of a package that lead to a file, the nearest first."""
+    folder = posixpath.dirname(posixpath.normpath(path))
+    while folder and not folder.startswith((".", "/")):
+        source = package.read(f"{folder}/{_FILE}")
+        if isinstance(source, SourceText):
+            yield source
+        folder = posixpath.dirname(folder)
 
 
 def _fits(name: str, pattern: str) -> bool:

@@ -3,7 +3,8 @@
 The build stops there with an error, and nothing of the package can be started. This holds for the
 files and folders of `install()`, its targets, the sources of a target, the folder of
 `ament_python_install_package()`, and the files of `data_files`, which takes no folders. In a
-package of ROS 1, a missing file or folder is a warning: only `catkin_make install` needs it. No
+package of ROS 1, a missing file or folder is a warning: only `catkin_make install` needs it. So is
+a source that `.gitignore` excludes: a script may make it before the build. No
 accepted package that we checked has this fault.
 
 Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, installs the
@@ -147,7 +148,11 @@ def _missing_sources(package: Package, build: CMakeFile, stops: _Build) -> Itera
             if is_source and not package.exists(posixpath.normpath(word.value)):
                 target = call.arguments[0].value
                 message = f"{stops.name} stops: {word.value}, a source of {target}, does not exist"
-                yield finding(word, message)
+                if ignored := ignored_by(package, word.value):
+                    made = f", unless it is made before the build: {ignored} keeps it out of git"
+                    yield finding(word, message + made, severity=Severity.WARNING)
+                else:
+                    yield finding(word, message)
 
 
 def _targets(build: CMakeFile) -> Iterator[Call]:
