@@ -2,7 +2,8 @@
 
 The startup stops there: a lifecycle manager requests the state of each of its `node_names` and
 waits for the answer, so a name without a node blocks all others; `bt_navigator` does not become
-active without the servers of its behaviour tree. A namespace on only one of two nodes, or a `name`
+active without the servers of its behaviour tree, and a spawner of controllers waits for the
+controller manager of its own namespace. A namespace on only one of two nodes, or a `name`
 in the launch file, makes the names differ as well.
 
 It is reported where all nodes of the launch file are known, and no other launch file of the package
@@ -13,12 +14,15 @@ Fix: start the node that is missing, or correct its name or namespace.
 Source: navigation2, nav2_lifecycle_manager and nav2_bt_navigator; ROS 2 design, "Managed nodes".
 """
 
+from collections.abc import Iterator
+
+from checker.base.words import and_list
 from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
 from checker.package.package import Package
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
 from checker.ros.wiring.services import Wanted, offered_services, wanted_services
 from checker.ros.wiring.wiring import Wiring
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText
 
 _TESTS = "LaunchTestService("
@@ -31,6 +35,7 @@ def check(wiring: Wiring, launch: Ros2Launch, package: Package) -> Findings:
     source = package.read(wiring.graph.file)
     if isinstance(source, SourceText) and _TESTS in source.text:
         return
+    yield from _lost_spawners(wiring)
     there = {name for node in wiring.every_node for name in offered_services(node)}
     others = [graph for graph in launch.entries if graph is not wiring.graph]
     for node in wiring.nodes:
@@ -45,6 +50,20 @@ def check(wiring: Wiring, launch: Ros2Launch, package: Package) -> Findings:
                 each.span,
                 f"{node.label} waits for {what}: nothing in this launch offers {each.name}",
                 key=f"{node.label} {each.name}",
+            )
+
+
+def _lost_spawners(wiring: Wiring) -> Iterator[Finding]:
+    """Yield spawners that ask a controller manager in a namespace in which none runs."""
+    managers = wiring.managers
+    for spawner in filter(None, (node.spawner for node in wiring.nodes)):
+        if managers and spawner.manager and spawner.manager not in managers:
+            yield finding(
+                spawner.node,
+                f"spawner waits for {spawner.manager}, which nothing in this launch starts: the "
+                f"controller manager is {and_list([*managers])}; give both the same namespace",
+                key=spawner.manager,
+                related=[(span, f"this runs {name}") for name, span in managers.items()],
             )
 
 
@@ -103,6 +122,19 @@ def _tree(controller: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/nav.launch.xml": launch}
 
 
+_CONTROL = """<launch>
+  <node pkg="controller_manager" exec="ros2_control_node" namespace="left"/>
+  <node pkg="controller_manager" exec="spawner"@/>%
+</launch>
+"""
+
+
+def _spawner(more: str, mark: str = "") -> dict[str, object]:
+    """Return a spawner, and a controller manager in a namespace."""
+    launch = _CONTROL.replace("@", more).replace("%", mark)
+    return {"@bridge": True, "launch/control.launch.xml": launch}
+
+
 _WITHOUT = ' if="false"'
 _TEST = """from launch import LaunchDescription, LaunchService
 from launch.actions import ExecuteProcess
@@ -129,10 +161,15 @@ GOOD = [
     _manager_example("[map_server, amcl]"),
     _manager_example("[map_server]", ' namespace="r1"'),
     _tree(""),
+    _spawner(' namespace="left" args="arm"'),
+    _spawner(' args="arm -c /left/controller_manager"'),
+    _spawner(' args="arm -c $(env MANAGER)"'),
     {**_tree(_WITHOUT), "launch/control.launch.xml": _ELSEWHERE},
 ]
 BAD = [
     _manager_example(f"[map_server, amcl, planner_server]{_MARK}"),
     _manager_example(f"[map_server, amcl]{_MARK}", ' namespace="r1"'),
     _tree(' namespace="r1"', "  <!-- ^ WIR008 -->"),
+    _spawner(' args="arm"', "  <!-- ^ WIR008 -->"),
+    _spawner(' namespace="left" args="arm -c right/manager"', "  <!-- ^ WIR008 -->"),
 ]

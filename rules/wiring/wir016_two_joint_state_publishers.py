@@ -12,8 +12,11 @@ Fix: remove joint_state_publisher, or start it where nothing else publishes the 
 Source: joint_state_publisher; ros2_controllers, joint_state_broadcaster.
 """
 
+import posixpath
 from collections.abc import Iterator
 
+from checker.launch.ros1.graph import resolve_name
+from checker.model.controllers import Controller
 from checker.ros.wiring.endpoints import Endpoint
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
@@ -26,6 +29,9 @@ _PROGRAMS = (
 _STATES = "sensor_msgs/msg/JointState"
 _COLLECTS = "source_list"
 _DEFAULTS = "publish_default_positions"
+_LOCAL = "use_local_topics"
+_USUAL_NAME = "joint_state_broadcaster"
+"""A controller that is one by its name, where the file that states its type is not known."""
 
 
 @rule("WIR016", "two-joint-state-publishers", Severity.WARNING, Concern.INTERFACE)
@@ -64,8 +70,16 @@ def _known(wiring: Wiring) -> Iterator[Endpoint]:
     """Yield what certainly publishes measured positions: controllers, and plugins in Gazebo."""
     for each in wiring.endpoints:
         behind = not each.by.startswith("a bridge") and not isinstance(each.owner, WiredNode)
-        if behind and each.publishes and each.certain and _STATES in each.types:
+        local = isinstance(each.owner, Controller) and each.owner.flag(_LOCAL, default=False)
+        if behind and not local and each.publishes and each.certain and _STATES in each.types:
             yield each
+    configured = {run.controller.name for run in wiring.controllers}
+    for spawner in filter(None, (node.spawner for node in wiring.nodes)):
+        for name in spawner.names if spawner.manager else ():
+            if name.value == _USUAL_NAME and name.value not in configured:
+                topic = resolve_name("joint_states", posixpath.dirname(spawner.manager))
+                by = f"controller {name.value!r}"
+                yield Endpoint(topic, (_STATES,), True, by, name.span, spawner, certain=True)
 
 
 _HEAD = "LaunchDescription([\n"
@@ -83,20 +97,27 @@ _CONTROLLERS = """controller_manager:
 """
 
 
-def _beside(more: str) -> dict[str, object]:
+def _beside(more: str, parameters: str = "", name: str = "states") -> dict[str, object]:
     """Return a rover whose joints are measured, in addition to a joint_state_publisher."""
+    nodes = _NODES.replace("@", more).replace('"states"', f'"{name}"')
     return {
         "@bridge": True,
-        "@launch": {_HEAD: _NODES.replace("@", more), _IMPORTS: _CONDITION + _IMPORTS},
-        "config/base.yaml": _CONTROLLERS,
+        "@launch": {_HEAD: nodes, _IMPORTS: _CONDITION + _IMPORTS},
+        "config/base.yaml": _CONTROLLERS + parameters,
     }
 
 
 _MARK = "  # ^ WIR016\n             "
+_LOCALLY = "states:\n  ros__parameters: {use_local_topics: true}\n"
 GOOD = [
+    _beside("", _LOCALLY),
     _beside(' parameters=[{"source_list": ["arm/joint_states"]}]'),
     _beside(' parameters=[{"publish_default_positions": False}]'),
     _beside(' remappings=[("joint_states", "shown_states")]'),
     _beside(' condition=IfCondition("false")'),
 ]
-BAD = [_beside(_MARK), _beside(f'{_MARK}parameters=[{{"rate": 30}}]')]
+BAD = [
+    _beside(_MARK),
+    _beside(f'{_MARK}parameters=[{{"rate": 30}}]'),
+    _beside(_MARK, name="joint_state_broadcaster"),
+]

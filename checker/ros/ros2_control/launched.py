@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from checker.base.record import Record
+from checker.launch.ros1.graph import resolve_name
 from checker.launch.ros2.graph import LaunchGraph, Node, ParameterFile, is_known
 from checker.launch.ros2.package_files import local_file
 from checker.model.controllers import Controller, ControllerFile, controllers_of
@@ -51,6 +52,20 @@ class Spawner(Record, eq=False):
     def gives_parameters(self) -> bool:
         """True if its controllers may get parameters from it."""
         return bool(self.param_files or "--controller-ros-args" in self.options)
+
+    @property
+    def manager(self) -> str:
+        """Full name of the controller manager that it waits for; empty if that is not known.
+
+        Until Galactic, the name was absolute where no option states it.
+        """
+        stated = [*self.options.get("-c", ()), *self.options.get("--controller-manager", ())]
+        name = stated[-1] if stated else MANAGER
+        old = self.node.executable.value != _SPAWNERS[0] and not name.startswith("/")
+        moved = any(word.value.startswith("__ns") for word in self.node.arguments)
+        known = self.complete and not moved and not self.options.keys() & {"-n", "--namespace"}
+        full = resolve_name(name, self.node.namespace)
+        return full if known and not old and is_known(full) else ""
 
     @property
     def states_type(self) -> bool:

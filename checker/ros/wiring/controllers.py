@@ -11,7 +11,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.launch.ros1.graph import apply_remaps
+from checker.launch.ros1.graph import apply_remaps, resolve_name
 from checker.launch.ros2.graph import is_known
 from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
@@ -19,6 +19,7 @@ from checker.ros.ros2_control.launched import MANAGER_NODE
 from checker.ros.spawned import SpawnedRobot
 from checker.ros.wiring.endpoints import Endpoint, remap_rule
 from checker.ros.wiring.nodes import WiredNode
+from checker.source.text import Span
 
 _REMAPS = ("-r", "--remap")
 
@@ -105,6 +106,23 @@ def run_controllers(
             files = [ControllerFile(file.path, file.blocks) for file in node.files]
             for controller in controllers_of(files):
                 yield _run(controller, node.node.namespace, own, remaps, simulated=False)
+
+
+def manager_names(
+    nodes: Iterable[WiredNode], spawned: Iterable[SpawnedRobot]
+) -> Iterator[tuple[str, Span]]:
+    """Yield the full names of controller managers, each with its place; empty if not known.
+
+    Args:
+        nodes: The nodes of a launch.
+        spawned: Robots in Gazebo.
+    """
+    for robot in spawned:
+        for manager in robot.control.managers if robot.control is not None else ():
+            yield resolve_name(manager.node, manager.namespace.value), manager.span
+    for node in nodes:
+        if node.node.executable.value == MANAGER_NODE:
+            yield node.full_name, node.node.span
 
 
 def _run(

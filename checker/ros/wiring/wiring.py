@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from checker.base.record import Record
@@ -13,17 +13,18 @@ from checker.launch.ros2.graph import (
     is_known,
 )
 from checker.model.robot import Robot
-from checker.ros.ros2_control.robot_control import ControlReader
+from checker.ros.ros2_control.robot_control import ControlReader, runs_manager
 from checker.ros.simulated_topics import unknown_owner
 from checker.ros.simulation import Simulation, Simulations
-from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedReader
+from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN, SpawnedReader, SpawnedRobot
 from checker.ros.unread import unread_parts
 from checker.ros.wiring.classic import classic_endpoints, unknown_plugin
-from checker.ros.wiring.controllers import RunController, run_controllers
+from checker.ros.wiring.controllers import RunController, manager_names, run_controllers
 from checker.ros.wiring.endpoints import Endpoint, bridge_endpoints, node_endpoints
 from checker.ros.wiring.frames import joint_transforms, static_transforms
 from checker.ros.wiring.nodes import WiredNode, spawned_names, wired_node
 from checker.ros.wiring.transforms import Transform, transforms
+from checker.source.text import Span
 
 
 class Wiring(Record, eq=False, dict=True):
@@ -51,9 +52,30 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def controllers(self) -> tuple[RunController, ...]:
         """Controllers of ros2_control that its controller managers may run."""
+        return tuple(run_controllers(self.nodes, self._spawned))
+
+    @property
+    def _spawned(self) -> tuple[SpawnedRobot, ...]:
         simulation = self.simulation
-        spawned = (*simulation.robots, *simulation.classic_robots) if simulation is not None else ()
-        return tuple(run_controllers(self.nodes, spawned))
+        return (*simulation.robots, *simulation.classic_robots) if simulation is not None else ()
+
+    @cached_property
+    def managers(self) -> Mapping[str, Span]:
+        """Controller managers that it may run by their full names; none if one is not known."""
+        simulation = self.simulation
+        found = dict(manager_names(self.every_node, self._spawned))
+        worlds = simulation.worlds if simulation is not None else ()
+        plugins = (it for world in worlds for model in world.models for it in model.plugins)
+        programs = {(it.node.package.value, it.node.executable.value) for it in self.every_node}
+        unknown = (
+            "" in found,
+            any(node.facts is None for node in self.every_node),
+            bool(self.unread) or self._renamed_in_classic,
+            simulation is not None and (simulation.unknown_robots or simulation.unknown_worlds),
+            not self._spawned and not programs.isdisjoint(EVERY_SPAWN),
+            any(map(runs_manager, plugins)),
+        )
+        return {} if any(unknown) else found
 
     @cached_property
     def endpoints(self) -> tuple[Endpoint, ...]:
