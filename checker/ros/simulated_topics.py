@@ -89,7 +89,7 @@ def unknown_owner(robot: Robot) -> str:
     """Return which part of a robot may have topics that the table does not know; else nothing."""
     known = table("simulated_topics")
     for sensor in robot.sensors:
-        if sensor.plugins or _kind(sensor) not in known["sensors"]:
+        if not all(map(is_silent, sensor.plugins)) or _kind(sensor) not in known["sensors"]:
             return f"topics of the {sensor.type.value} sensor {sensor.name.value!r} are not known"
     for plugin in robot.plugins:
         name = plugin.class_name

@@ -214,7 +214,12 @@ def _included_example(topic: str) -> dict[str, object]:
     return {"@bridge": True, "launch/slam.launch.xml": _INCLUDED, "config/slam.yaml": yaml}
 
 
+_RELAY = """LaunchDescription([
+        Node(package="topic_tools", executable="relay",
+             parameters=[{"input_topic": "/odom", "output_topic": "/wheel/odometry"}]),
+"""
 GOOD = [
+    _filter("/wheel/odometry", launch=_RELAY),
     _included_example("/scan"),
     _component("/scan"),
     _filter("odom"),
@@ -231,6 +236,7 @@ BAD = [
     _included_example(f"/lidar/scan{_MARK}"),
     _component("scan", "  <!-- ^ WIR006 -->"),
     _filter(f"wheel/odometry{_MARK}"),
+    _filter(f"odometry{_MARK}", launch=_RELAY),
     _filter(f"odom{_MARK}", more=' namespace="rover",', key="/**"),
     _controlled_example(f"base/odometry{_MARK}"),
     _classic("<remapping>out:=scan</remapping>", "  <!-- ^ WIR006 -->"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from checker.base.record import Record
 from checker.launch.ros1.bridge import Direction
@@ -16,7 +16,8 @@ class Endpoint(Record, eq=False):
 
     Attributes:
         topic: Absolute, after remaps.
-        types: The types of its messages; several where a parameter or the distribution decides.
+        types: The types of its messages; several where a parameter or the distribution decides, and
+            `*` where it may be any.
         publishes: Whether it publishes; else it reads.
         by: The owner, for a message.
         span: What decides its topic, else the start of its owner.
@@ -45,6 +46,21 @@ def node_endpoints(node: WiredNode) -> Iterator[Endpoint]:
         if topic:
             span = each.setting.span if each.setting is not None else node.node.span
             yield Endpoint(topic, each.types, False, by, span, node, certain, each.parameter)
+
+
+def passed_endpoints(nodes: Iterable[WiredNode], known: Collection[Endpoint]) -> Iterator[Endpoint]:
+    """Yield what nodes publish that pass on the messages of other topics.
+
+    Args:
+        nodes: The nodes of a launch.
+        known: The endpoints that are known otherwise.
+    """
+    for node in nodes:
+        for topic, source in node.passed_topics:
+            given = (each.types for each in known if each.publishes and each.topic == source)
+            types = tuple(sorted({it for each in given for it in each})) or ("*",)
+            certain = node.node.starts is True
+            yield Endpoint(topic, types, True, node.label, node.node.span, node, certain)
 
 
 def bridge_endpoints(simulation: Simulation) -> Iterator[Endpoint]:

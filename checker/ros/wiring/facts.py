@@ -22,6 +22,8 @@ class NodeFacts(Record):
         name: The name of its node where the launch file sets none; empty if none is fixed.
         publishes: Topics that it may publish, each with its types.
         publishes_more: Types of topics that are only known when it runs; `*` for any.
+        passes: Topics that get the messages of others, whatever their types; where both names are
+            known, it publishes nothing else.
         subscribes: Topics that it may read, each with its types.
         transforms: The transforms that it publishes whose frames are parameters.
         defaults: The defaults of the parameters for topics and transforms.
@@ -34,6 +36,7 @@ class NodeFacts(Record):
     name: str = ""
     publishes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     publishes_more: tuple[str, ...] = ()
+    passes: Mapping[str, str] = field(default_factory=dict)
     subscribes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     transforms: tuple[TransformFact, ...] = ()
     defaults: Mapping[str, str] = field(default_factory=dict)

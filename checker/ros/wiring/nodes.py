@@ -113,6 +113,22 @@ class WiredNode(Record, eq=False, dict=True):
         return tuple((topic, types) for topic, types in resolved if topic)
 
     @cached_property
+    def passed_topics(self) -> tuple[tuple[str, str], ...]:
+        """The topics on which it passes on the messages of others, each with the one that it reads.
+
+        They are known where parameters state them, not the command line.
+        """
+        known = self.facts is not None and self.knows_parameters and not self.node.arguments
+        pairs = self.facts.passes.items() if self.facts is not None and known else ()
+        filled = ((self.fill_in(target), self.fill_in(source)) for target, source in pairs)
+        named = (
+            (self.resolve(target), self.resolve(source))
+            for target, source in filled
+            if target and source
+        )
+        return tuple((target, source) for target, source in named if target and source)
+
+    @cached_property
     def read(self) -> tuple[Input, ...]:
         """The known topics that it reads, as it names them."""
         return tuple(inputs(self)) if self.knows_parameters else ()
@@ -123,7 +139,8 @@ class WiredNode(Record, eq=False, dict=True):
             return f"what {self.program} publishes is not known"
         own = [types for types in self.facts.publishes.values() if message in types]
         known = sum(message in types for _, types in self.published_topics)
-        if len(own) > known or {message, "*"} & set(self.facts.publishes_more):
+        more = {message, "*"}.intersection(self.facts.publishes_more)
+        if len(own) > known or (more and not self.passed_topics):
             return f"some of the topics that {self.program} publishes are not known"
         return ""
 

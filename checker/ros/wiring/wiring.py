@@ -20,7 +20,12 @@ from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN, SpawnedReader, Spaw
 from checker.ros.unread import unread_parts
 from checker.ros.wiring.classic import classic_endpoints, unknown_plugin
 from checker.ros.wiring.controllers import RunController, manager_names, run_controllers
-from checker.ros.wiring.endpoints import Endpoint, bridge_endpoints, node_endpoints
+from checker.ros.wiring.endpoints import (
+    Endpoint,
+    bridge_endpoints,
+    node_endpoints,
+    passed_endpoints,
+)
 from checker.ros.wiring.frames import joint_transforms, static_transforms
 from checker.ros.wiring.nodes import WiredNode, spawned_names, wired_node
 from checker.ros.wiring.transforms import Transform, transforms
@@ -85,7 +90,7 @@ class Wiring(Record, eq=False, dict=True):
         for robot in self.in_classic if not self._renamed_in_classic else ():
             found += classic_endpoints(robot)
         found += bridge_endpoints(self.simulation) if self.simulation is not None else ()
-        return tuple(found)
+        return (*found, *passed_endpoints(self.every_node, found))
 
     @cached_property
     def transforms(self) -> tuple[Transform, ...]:
@@ -104,7 +109,7 @@ class Wiring(Record, eq=False, dict=True):
         return {
             each.topic: each.by
             for each in self.endpoints
-            if each.publishes and message in each.types
+            if each.publishes and {message, "*"}.intersection(each.types)
         }
 
     def more_publishers(self, message: str) -> str:
