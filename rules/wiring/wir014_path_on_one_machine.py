@@ -91,6 +91,8 @@ def _is_read(word: Located[str]) -> bool:
 
 def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding:
     own, name = own_path_on_machine(package, text.value), package.declared_name
+    if not package.exists("package.xml"):  # nothing finds a loose folder by its name
+        own = ""
     if text.span.source.file.endswith(".py"):
         here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
     else:
