@@ -24,10 +24,12 @@ def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
         arguments: What the rule is given: robots, or parts with a robot.
         group: The group of the rule.
     """
-    kinds = ("unloaded", "hardware_only") if group == _OF_MASSES else ("unloaded",)
     for value in arguments.values():
         for holder in (value, getattr(value, "robot", None)):
-            for clause in filter(None, (getattr(holder, kind, "") for kind in kinds)):
+            clause = getattr(holder, "unloaded", "")
+            if group == _OF_MASSES:
+                clause = clause or getattr(holder, "hardware_only", "")
+            if clause:
                 return str(clause)
     return ""
 
