@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -84,8 +85,8 @@ def compared(
     if not plan.speeds and not plan.moved:
         return plan.not_driven or f"its motion is {plan.kind}"
     gravity = (-_GRAVITY * math.sin(slope), 0.0, -_GRAVITY * math.cos(slope))
-    sloping = f'<option gravity="{" ".join(map(repr, gravity))}"'
-    scene = replace(scene, mjcf=scene.mjcf.replace("<option", sloping, 1))
+    sloping = f'gravity="{" ".join(map(repr, gravity))}"'
+    scene = replace(scene, mjcf=_STATED_GRAVITY.sub(sloping, scene.mjcf, count=1))
     trial = run_trial(scene, plan, TIMESTEP)
     if trial.refused or plan.moved:
         return trial.refused or trial
