@@ -25,6 +25,7 @@ STEADY = 1.0
 """Seconds at the end of a leg over which a speed is averaged."""
 _GRAVITY = 9.8
 """m/s², Gazebo's default."""
+_STATED_GRAVITY = re.compile(r'gravity="[^"]*"')
 
 
 @dataclass(frozen=True)
