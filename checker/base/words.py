@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from difflib import SequenceMatcher, get_close_matches
 
 # Did you mean: the known word that a misspelt one may represent.
@@ -88,6 +89,11 @@ def and_list(words: Sequence[str]) -> str:
     if len(words) < 2:
         return "".join(words)
     return ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def free_number(stem: str, taken: Container[str]) -> int:
+    """Return the least number from 2 on for which `stem_2` is not taken."""
+    return next(number for number in itertools.count(2) if f"{stem}_{number}" not in taken)
 
 
 def plain(text: str) -> str:

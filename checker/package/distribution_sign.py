@@ -61,8 +61,9 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 def former_distribution(package: Package) -> str:
     """Return the clause that a package is for a distribution before Humble; else empty."""
     sign = package.distribution_sign
-    former = sign is not None and sign.distro in _BEFORE_HUMBLE
-    return f"{sign.words}, whose packages are not known" if sign and former else ""
+    if sign is None or sign.distro not in _BEFORE_HUMBLE:
+        return ""
+    return f"{sign.words}, whose packages are not known"
 
 
 def sign_of_paths(package: Package) -> DistributionSign | None:

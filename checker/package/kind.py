@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
 from itertools import islice
 from os.path import abspath
@@ -187,12 +187,12 @@ def _outermost(folder: Path) -> Path | None:
     packages = [place for place in around if looks_like_package(place)]
     if packages or not _holds_repository(around[-1]):
         return packages[-1] if packages else None
-    loose = [it for it in around if holds_loose_models(it) or _holds_loose_files(it)]
+    loose = [it for it in around if holds_loose_models(it) or holds_loose_files(it, _names(it))]
     return loose[-1] if loose else None
 
 
-def _holds_loose_files(folder: Path) -> bool:
-    names = _names(folder)
+def holds_loose_files(folder: Path, names: Sequence[str]) -> bool:
+    """Return whether some files of a folder are models of MuJoCo, or launch files."""
     return holds_mjcf(folder, names) or any(map(is_launch_name, names))
 
 

@@ -14,11 +14,10 @@ from checker.package.kind import (
     IGNORED,
     MODEL_CONFIG,
     MODEL_MARKERS,
+    holds_loose_files,
     is_file,
-    is_launch_name,
     looks_like_package,
 )
-from checker.package.mjcf_files import holds_mjcf
 
 MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
@@ -127,9 +126,7 @@ class _Search:
         # Loose launch files and model files of URDF and MuJoCo belong to the package around.
         loose = [] if below_loose else files
         holds_urdf = not inside and _holds_urdf(folder, loose, folders)
-        is_loose = holds_urdf or (
-            not inside and (holds_mjcf(folder, loose) or any(map(is_launch_name, loose)))
-        )
+        is_loose = holds_urdf or (not inside and holds_loose_files(folder, loose))
         if is_loose:
             yield Unit(folder)
         yield from (Unit(folder, name) for name in files if is_checked_by_itself(name))

@@ -20,9 +20,8 @@ from checker.launch.ros2.graph import Ros2Launch
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.robots.urdf_files import UrdfFiles
-from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
-from checker.source.yaml import read_yaml
+from checker.source.yaml import read_root
 
 _ASSISTANT = ".setup_assistant"
 _ROBOTS_LIMIT = 8
@@ -178,8 +177,7 @@ class _Robots(Record, eq=False):
 
     def _assistants(self, path: str) -> Iterator[Wanted]:
         """Yield the description from which MoveIt's assistant made a file."""
-        source = self.package.read(_ASSISTANT)
-        root = read_yaml(source).root if isinstance(source, SourceText) else None
+        root = read_root(self.package.read(_ASSISTANT))
         match _lower(root.plain()) if root is not None else None:
             case {
                 "moveit_setup_assistant_config": {

@@ -25,6 +25,7 @@ from yaml.constructor import SafeConstructor
 from yaml.events import CollectionStartEvent, DocumentEndEvent, Event, NodeEvent
 from yaml.resolver import Resolver
 
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.source.text import SourceText, Span
 
@@ -110,6 +111,11 @@ def read_yaml(source: SourceText) -> YamlDocument:
         builder.fault(source.whole(), str(error).splitlines()[0])
         root = None
     return YamlDocument(source, root, tuple(builder.faults))
+
+
+def read_root(source: SourceText | NotReadable) -> YamlNode | None:
+    """Return the value of a YAML file; None if it is empty, or cannot be read."""
+    return read_yaml(source).root if isinstance(source, SourceText) else None
 
 
 def is_yaml(text: str) -> bool:

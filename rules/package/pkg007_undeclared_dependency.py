@@ -128,8 +128,9 @@ def check(
 
 def _plugins(package: Package, context: Context) -> Iterator[Use]:
     """Yield packages of controllers and hardware that no package of the workspace declares."""
-    manifests = [Paperwork(other).manifest for other in package.other_packages]
-    for use in plugin_uses(package):
+    uses = [*plugin_uses(package)]
+    manifests = [Paperwork(other).manifest for other in package.other_packages if uses]
+    for use in uses:
         name = use.package_name
         declared = any(it and (it.depends_on(name) or _brought(it, name)) for it in manifests)
         if not declared and distribution_of(context) in distributions_with(name):

@@ -14,8 +14,8 @@ whose `optical_frame_publisher` was copied with its name.
 import posixpath
 from collections import defaultdict
 from collections.abc import Container, Hashable, Iterator
-from itertools import count
 
+from checker.base.words import free_number
 from checker.finding import Fix
 from checker.launch.ros1.assumed_files import unknown_nodes
 from checker.launch.ros1.graph import LaunchGraph, Node, UnresolvedInclude
@@ -60,8 +60,7 @@ def _numbered(first: Node, other: Node, taken: Container[str]) -> Fix | None:
     name = element.attribute("name") if isinstance(element, Element) else None
     if name is None or element is first.span.holder or name.value != other.name:
         return None
-    free = (number for number in count(2) if f"{other.full_name}_{number}" not in taken)
-    return rename(name, f"{name.value}_{next(free)}")
+    return rename(name, f"{name.value}_{free_number(other.full_name, taken)}")
 
 
 def _included_twice(launch: LaunchGraph) -> Iterator[Finding]:

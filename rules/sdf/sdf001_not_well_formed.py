@@ -48,8 +48,7 @@ def check(package: Package) -> Findings:
             yield from _unread_encoding(path, document.source)
             for fault in document.tolerated:
                 severity = Severity.INFO if is_lenient(document.source) else None
-                fix = Fix(Safety.UNSAFE, (fault.edit,)) if fault.edit else None
-                yield finding(fault.span, _message(path, fault), severity=severity, fix=fix)
+                yield _finding(path, fault, severity)
 
 
 def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
@@ -68,8 +67,12 @@ def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
-        fix = Fix(Safety.UNSAFE, (fault.edit,)) if fault.edit else None
-        yield finding(fault.span, _message(path, fault), fix=fix)
+        yield _finding(path, fault)
+
+
+def _finding(path: str, fault: XmlFault, severity: Severity | None = None) -> Finding:
+    fix = Fix(Safety.UNSAFE, (fault.edit,)) if fault.edit else None
+    return finding(fault.span, _message(path, fault), severity=severity, fix=fix)
 
 
 def _message(path: str, fault: XmlFault) -> str:

@@ -18,8 +18,8 @@ Source: SDFormat specification 1.7, "unique sibling names" and "reserved names";
 
 import re
 from collections.abc import Iterator
-from itertools import count
 
+from checker.base.words import free_number
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument, sdf_version
 from checker.formats.sdf.names import KINDS, UNIQUE_SINCE, renames_of
@@ -92,9 +92,8 @@ def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Fin
 
 def _numbered(parent: Element, name: Located[str]) -> Fix | None:
     """Return the fix that puts a number behind the name of a visual, to which nothing refers."""
-    taken = {child.get("name") for child in parent.children}
-    free = (new for number in count(2) if (new := f"{name.value}_{number}") not in taken)
-    return rename(name, next(free))
+    taken = {child.get("name") or "" for child in parent.children}
+    return rename(name, f"{name.value}_{free_number(name.value, taken)}")
 
 
 def _is_refused(parent: Element, child: Element, twin: Element, version: Version) -> bool:

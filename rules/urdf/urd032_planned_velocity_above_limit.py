@@ -17,8 +17,7 @@ from checker.model.components import Joint
 from checker.package.package import Package
 from checker.robots.semantic import SemanticDescription
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
-from checker.source.text import SourceText
-from checker.source.yaml import YamlNode, read_yaml
+from checker.source.yaml import YamlNode, read_root
 
 _FILE = "joint_limits.yaml"
 
@@ -30,8 +29,7 @@ def check(semantic: SemanticDescription, package: Package, *, tolerance: float =
     Options:
         tolerance: Share of the URDF's limit by which the value may be above it.
     """
-    source = package.read(posixpath.join(posixpath.dirname(semantic.file), _FILE))
-    root = read_yaml(source).root if isinstance(source, SourceText) else None
+    root = read_root(package.read(posixpath.join(posixpath.dirname(semantic.file), _FILE)))
     limits = root.get("joint_limits") if root is not None else None
     for name, limit in limits.entries if limits is not None else ():
         joint = _fastest(semantic, name)

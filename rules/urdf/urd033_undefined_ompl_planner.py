@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
-from checker.source.text import Located, SourceText
-from checker.source.yaml import YamlNode, read_yaml
+from checker.source.text import Located
+from checker.source.yaml import YamlNode, read_root
 
 _FILE = "ompl_planning.yaml"
 _PLANNERS = "planner_configs"
@@ -27,8 +27,7 @@ _PLANNERS = "planner_configs"
 def check(package: Package) -> Findings:
     """Report planners without a definition, and definitions below groups."""
     for file in package.index.with_suffix(_FILE):
-        source = package.read(file.path)
-        root = read_yaml(source).root if isinstance(source, SourceText) else None
+        root = read_root(package.read(file.path))
         top = (root.get("ompl") or root) if root is not None else None
         for name, group in top.entries if top is not None else ():
             if top is not None and name.scalar != _PLANNERS:

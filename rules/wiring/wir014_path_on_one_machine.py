@@ -41,7 +41,7 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
             for name, parameter in block.parameters.items():
                 for text in () if is_written(name) else parameter.texts:
                     if is_on_one_machine(text.value) and _FILE.search(text.value):
-                        yield _finding(package, f"{name} of {block.node}", name, text)
+                        yield _in_parameters(package, f"{name} of {block.node}", name, text)
     named = [*_in_ros_2(launch)] if launch is not None else []
     if not is_ros2_only(package):
         named += _in_ros_1(entries)
@@ -97,25 +97,27 @@ def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding
         here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
     else:
         here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
-    return finding(
-        text,
-        f"{label} is {text.value}, on its author's machine, and is found on no other: "
-        + (f"write {here}" if own else "install the file with a package"),
-        key=text.value,
-    )
+    return _finding(label, text, f"write {here}" if own else "")
 
 
-def _finding(package: Package, label: str, name: str, text: Located[str]) -> Finding:
+def _in_parameters(package: Package, label: str, name: str, text: Located[str]) -> Finding:
     own = own_path_on_machine(package, text.value)
-    here = f"$(find-pkg-share {package.declared_name})/{own}" if own else ""
+    here = f"$(find-pkg-share {package.declared_name})/{own}"
     names = (name, _BY_LAUNCH.get(name, name))
     launch = package.workspace.launch_texts.values()
     replaced = any(f"{mark}{it}{mark}" in code for code in launch for it in names for mark in "'\"")
+    cure = f"give {here} in the launch file" if own else ""
+    return _finding(label, text, cure, Severity.INFO if replaced else None)
+
+
+def _finding(
+    label: str, text: Located[str], cure: str, severity: Severity | None = None
+) -> Finding:
     return finding(
         text,
         f"{label} is {text.value}, on its author's machine, and is found on no other: "
-        + (f"give {here} in the launch file" if here else "install the file with a package"),
-        severity=Severity.INFO if replaced else None,
+        f"{cure or 'install the file with a package'}",
+        severity=severity,
         key=text.value,
     )
 

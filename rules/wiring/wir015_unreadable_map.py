@@ -18,8 +18,7 @@ from checker.package.git_ignored import ignored_by
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
-from checker.source.text import SourceText
-from checker.source.yaml import YamlNode, read_yaml
+from checker.source.yaml import YamlNode, read_root
 
 _NUMBERS = ("resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 
@@ -28,15 +27,12 @@ _NUMBERS = ("resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 def check(package: Package) -> Findings:
     """Report images of maps that are not there, and entries that a map lacks."""
     for file in package.index.with_suffix(".yaml", ".yml"):
-        source = package.read(file.path)
-        root = read_yaml(source).root if isinstance(source, SourceText) else None
+        root = read_root(package.read(file.path))
         image = root.get("image") if root is not None else None
         if root is None or image is None or not any(map(root.get, _NUMBERS)):
             continue
-        launched = posixpath.basename(file.path) in "\n".join(
-            package.workspace.launch_texts.values()
-        )
-        severity = None if launched else Severity.WARNING
+        name, launch = posixpath.basename(file.path), package.workspace.launch_texts
+        severity = None if any(name in text for text in launch.values()) else Severity.WARNING
         if missing := [name for name in _NUMBERS if root.get(name) is None]:
             message = f"the map has no {and_list(missing)}, which map_server requires"
             yield finding(image, message, severity=severity, key="entries")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from itertools import pairwise, takewhile
 
 from checker.launch.ros2.graph import GAZEBO, Node, Process
@@ -92,19 +92,23 @@ def run_node(words: Words, process: Process) -> Made | None:
 
 def launched_file(words: Words) -> tuple[Words, list[tuple[PlacedText, PlacedText]]]:
     """Return package and file, or the path, of `ros2 launch …`, and the arguments that it gives."""
-    words = after_ros2(words, "launch")
-    before = ("", *(word.value for word in words))
-    given = [
-        word
-        for word, option in zip(words, before, strict=False)
-        if not word.value.startswith("-") and option != _PREFIX
-    ]
+    given = _operands(after_ros2(words, "launch"), (_PREFIX,))
     pairs = [(word, word.value.partition(":=")) for word in given if ":=" in word.value]
     arguments = [
         (PlacedText(name, word.span), PlacedText(value, word.span))
         for word, (name, _, value) in pairs
     ]
     return [word for word in given if ":=" not in word.value][:2], arguments
+
+
+def _operands(words: Words, with_value: Collection[str]) -> Words:
+    """Return the words that are neither options nor values of those that have one."""
+    before = ("", *(word.value for word in words))
+    return [
+        word
+        for word, option in zip(words, before, strict=False)
+        if not word.value.startswith("-") and option not in with_value
+    ]
 
 
 def _text(word: Located[str]) -> PlacedText:
@@ -129,16 +133,10 @@ def same_node(words: Words, process: Process) -> Node | None:
 
 def _started_controllers(words: Words) -> Iterator[Located[str]]:
     """Yield the controllers that a command of `ros2 control` starts, as arguments of a spawner."""
-    before = ("", *(word.value for word in words))
-    pairs = [*zip(words, before, strict=False)]
-    given = [
-        word
-        for word, option in pairs
-        if not word.value.startswith("-") and option not in _WITH_VALUE
-    ]
+    given = _operands(words, _WITH_VALUE)
     match [word.value for word in given]:
         case ["load_controller", _, *_]:
-            states = [word.value for word, option in pairs if option == _STATE]
+            states = [word.value for option, word in pairwise(words) if option.value == _STATE]
             yield from given[1:2] if states and states[-1] in _LOADED else ()
         case ["set_controller_state", _, state] if state in _ACTIVE:
             yield given[1]
