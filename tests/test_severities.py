@@ -138,6 +138,7 @@ LIFT = """<link name="fork"/>
 """
 GZ = MOTOR.format(name="gz", plugin="gz_ros2_control/GazeboSimSystem")
 MOCK = MOTOR.format(name="mock", plugin="mock_components/GenericSystem")
+LOST = '<gazebo reference="caster">{}</gazebo>'
 CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
     ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
@@ -153,6 +154,9 @@ CASES: list[tuple[str, Example, str]] = [
         {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
         "info",
     ),
+    ("URD006", {"@urdf": LOST.format("<mu1>0.9</mu1><mu2>1.2</mu2><kp>1e6</kp>")}, "warning"),
+    ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "error"),
+    ("URD006", {"@urdf": LOST.format('<sensor name="eye" type="camera"/>')}, "error"),
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),

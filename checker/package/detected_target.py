@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 CLASSIC, IGNITION, GZ = "classic", "ignition", "gz"
+_ROS_GZ = "ros_gz"
+"""The packages that start either Fortress, on Humble, or a later Gazebo."""
 _OLDEST = "humble"
 """The oldest distribution that is judged; it represents those before it."""
 _SUPPORT = "whose support ended in January 2025"
@@ -25,7 +27,8 @@ _SUPPORT = "whose support ended in January 2025"
 _LAUNCH = {
     CLASSIC: re.compile(r"(?<![\w/])(?:gazebo_ros|gzserver|gzclient|spawn_entity\.py)(?!\w)"),
     IGNITION: re.compile(r"\bros_ign_(?:gazebo|bridge)\b|\bign gazebo\b|\bIGN_GAZEBO_\w+"),
-    GZ: re.compile(r"\bros_gz_(?:sim|bridge)\b|\bgz sim\b|\bGZ_SIM_\w+"),
+    GZ: re.compile(r"\bgz sim\b|\bGZ_SIM_\w+"),
+    _ROS_GZ: re.compile(r"\bros_gz_(?:sim|bridge)\b"),
 }
 _DESCRIPTION = {
     CLASSIC: re.compile(
@@ -48,7 +51,8 @@ _DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
 _MANIFEST = {
     CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
     IGNITION: re.compile(_DEPENDENCY.format(r"ros_ign\w*|ign_ros2_control|ignition-\w+")),
-    GZ: re.compile(_DEPENDENCY.format(r"ros_gz\w*|gz_ros2_control|gz[-_]\w+")),
+    GZ: re.compile(_DEPENDENCY.format(r"gz_ros2_control|gz[-_]\w+")),
+    _ROS_GZ: re.compile(_DEPENDENCY.format(r"ros_gz\w*")),
 }
 _SIGNS = (
     (re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), _LAUNCH),
@@ -134,7 +138,7 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
         return DetectedTarget(
             False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
         )
-    if [*signs] == [IGNITION] and not distro:
+    if IGNITION in signs and {*signs} <= {IGNITION, _ROS_GZ} and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)

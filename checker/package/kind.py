@@ -31,6 +31,8 @@ MODEL_MARKERS = frozenset({MODEL_CONFIG, "model.sdf"})
 MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
 IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 """Files that keep the build tools out of a folder; colcon puts one into what it builds."""
+BUILT = frozenset({"build", "install", "log"})
+"""Folders that colcon makes; one of them with a file of `IGNORED` is not part of a package."""
 
 
 def looks_like_package(folder: Path) -> bool:

@@ -9,6 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from checker.package.index import EntryKind, FileEntry, FileIndex, IndexFault, LinkState
+from checker.package.kind import BUILT, IGNORED
 
 MAX_ENTRIES = 20_000
 MAX_DEPTH = 50
@@ -87,10 +88,12 @@ class _Walk:
         try:
             with os.scandir(location) as items:
                 kept = (item for item in items if item.name not in SKIPPED_FOLDERS)
-                return list(islice(kept, room))
+                found = list(islice(kept, room))
         except OSError as error:
             self._fault(prefix[:-1], f"cannot be listed: {error.strerror}")
             return []
+        marks = [item for item in found if item.name in IGNORED]
+        return marks if marks and Path(prefix).name in BUILT else found
 
     def _entry(self, path: str, item: os.DirEntry[str]) -> FileEntry | None:
         try:

@@ -65,17 +65,20 @@ def _mu2_meanings(robot: Robot) -> dict[str, _Across]:
 
 
 def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Iterator[Finding]:
-    for number, name in ((friction.first, "mu"), (friction.second, "mu2")):
-        if number is None:
+    first, second = friction.first, friction.second
+    if first is not None and second is not None and first.value == second.value:
+        second = None  # one mistake, reported once
+    for number in (first, second):
+        if number is None or 0 < number.value <= most:
             continue
-        free = name == "mu2" and across is _Across.FREE and number.value == 0
-        held = name == "mu2" and across is _Across.HELD and number.value > most
-        if not (0 < number.value <= most or free or held):
+        free = across is _Across.FREE and number.value == 0
+        held = across is _Across.HELD and number.value > most
+        if number is first or not (free or held):
             yield finding(
                 number,
-                f"{name} of {link.name.value!r} is {number.value:g}, expected more than 0 and at "
-                f"most {most:g}",
-                key=f"{name} {number.value:g}",
+                f"the friction of {link.name.value!r} is {number.value:g}, expected more than 0 "
+                f"and at most {most:g}",
+                key=f"{number.value:g}",
             )
 
 

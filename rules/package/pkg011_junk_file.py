@@ -1,9 +1,9 @@
 """A file that does not belong in a package.
 
-Backups, caches, editor settings and CAD sources are uploaded and installed with the robot. With a
-second model file, it is not clear which of the two is the robot. A CMakeLists.txt or package.xml in
-a subfolder builds nothing unless a CMakeLists.txt adds the folder: catkin does not search for
-packages within a package.
+Backups, caches, editor settings, folders that colcon built and CAD sources are uploaded and
+installed with the robot. With a second model file, it is not clear which of the two is the robot. A
+CMakeLists.txt or package.xml in a subfolder builds nothing unless a CMakeLists.txt adds the folder:
+catkin does not search for packages within a package.
 
 Fix: delete it, and add it to `.gitignore`.
 Source: common practice; the Model Migration Guide, step 7, shows the files of a package.
@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
 from checker.package.inheritance import Found
+from checker.package.kind import BUILT
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.cmake import read_cmake
@@ -51,13 +52,19 @@ def check(package: Package) -> Findings:
         if path.startswith(reported):
             continue
         name = posixpath.basename(path).lower()
-        known = FOLDERS.get(name) if entry.is_folder else _file(name)
+        known = _folder(package, path, name) if entry.is_folder else _file(name)
         if known is not None:
             reported += (f"{path}/",) if entry.is_folder else ()
             yield finding(package.place(path), f"{path} is {known}: delete it", key=known)
     if not package.only:
         yield from _second_models(package)
         yield from _build_files(package)
+
+
+def _folder(package: Package, path: str, name: str) -> str | None:
+    if name in BUILT and package.exists(f"{path}/COLCON_IGNORE"):
+        return "what colcon built, and is not checked"
+    return FOLDERS.get(name)
 
 
 def _file(name: str) -> str | None:
@@ -128,6 +135,12 @@ BAD = [
         "@reported": ["launch/spawner.rb~:1", "meshes/Wheel.STEP:1"],
     },
     {".vscode/settings.json": "{}", "@reported": [".vscode:1"]},
+    {
+        "install/COLCON_IGNORE": "",
+        "install/launch/spawner.rb~": "",
+        "@links": {"install/package.xml": "/home/me/acme/package.xml"},
+        "@reported": ["install:1"],
+    },
     {"model_old.sdf": "<sdf version='1.6'/>", "@reported": ["model_old.sdf:1"]},
     {"CMakeLists.txt": _ROOT, **_PLUGIN, "@reported": ["plugin/CMakeLists.txt:1"]},
     {"launch/package.xml": "<package/>", "@reported": ["launch/package.xml:1"]},

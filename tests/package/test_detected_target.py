@@ -20,6 +20,8 @@ RAY = """<robot name="arm">
 """
 CLASSIC_PLUGIN = RAY.format("libgazebo_ros_ray_sensor.so")
 GZ_PLUGIN = RAY.format("gz-sim-diff-drive-system")
+ROS_GZ = "        Node(package='ros_gz_sim', executable='create'),"
+GZ_SIM = "        ExecuteProcess(cmd=['gz sim', '-r']),"
 IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
 EXPORTED = '<launch><node name="s" pkg="gazebo_ros" type="spawn_model"/></launch>'
 URDF = "urdf/arm.urdf.xacro"
@@ -46,6 +48,8 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": True, URDF: f"<!-- {CLASSIC_PLUGIN} --><robot/>"}, ("ros2", "")),
         ({"@ros2": SPAWN, URDF: GZ_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
+        ({"@ros2": ROS_GZ, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
+        ({"@ros2": GZ_SIM, URDF: IGNITION_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: GZ_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, "launch/gazebo.launch": EXPORTED}, ("ros2", "")),
         ({"@ros2": SPAWN, "Dockerfile": "FROM ros:jazzy\n"}, ("ros2", "jazzy")),

@@ -105,7 +105,7 @@ def test_what_no_simulator_gets_does_not_tip_over(
 
 
 _FOR_SOLVER = """<link name="foot"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
-<gazebo reference="lamp"><mu1>1</mu1></gazebo>
+<gazebo reference="lamp"><mu1>0.1</mu1></gazebo>
 <transmission name="gear"><joint name="hinge"/></transmission>
 """
 _PLUGIN = '<gazebo><plugin name="p" filename="libgazebo_ros_control.so"/></gazebo>'

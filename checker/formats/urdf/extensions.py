@@ -53,11 +53,17 @@ _WITHOUT_EFFECT = frozenset(
     {
         *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
         *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
+        *("dampingFactor", "kd", "kp", "maxContacts", "maxVel", "minDepth"),
+        *("selfCollide", "self_collide"),
     }
 )
-"""Elements that change neither how a robot moves nor what it senses."""
+"""Elements without which a robot moves and senses in the same way: looks, and tuned contacts."""
+_GRIPS = 0.5
+"""Coefficient of friction from which a part holds as well as with Gazebo's default of 1."""
 
 
 def simulates(tag: Element) -> bool:
-    """Return whether a `<gazebo>` changes what is simulated, not only how a link looks."""
-    return any(child.tag not in _WITHOUT_EFFECT for child in tag.children)
+    """Return whether a robot moves or senses in another way without this `<gazebo>` tag."""
+    frictions = (extension_number(tag, "mu1"), extension_number(tag, "mu2"))
+    slips = any(number is not None and number.value < _GRIPS for number in frictions)
+    return slips or any(child.tag not in _WITHOUT_EFFECT | {"mu1", "mu2"} for child in tag.children)
