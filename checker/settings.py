@@ -21,10 +21,11 @@ from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
-from checker.package.detected_target import classic_reason, detect_target, ignition_sign
-from checker.package.gazebo_sign import classic_sign, fortress_sign
+from checker.package.detected_target import detect_target
 from checker.package.index import normal_path
+from checker.package.model_target import model_target
 from checker.package.package import Package
+from checker.package.simulator_signs import CLASSIC
 from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
@@ -123,7 +124,7 @@ class Settings(Record):
         Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
         ROS 2 package is made for decides where the user names neither release nor distribution;
         for models in no such package, Gazebo Classic or Fortress where the files around them name
-        only that.
+        only that, and Classic where the packages of the workspace are for it alone.
         """
         usual = usual_profile(package)
         is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
@@ -134,25 +135,22 @@ class Settings(Record):
         whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
         if whole is not None:
             settings = settings._with_package(whole)
-            if settings.profile == CLASSIC_ROS_2 and (sign := ignition_sign(package)):
-                return replace(settings, profile=FORTRESS_MODEL, distro="", target_reason=sign)
-        elif wanted == MODEL and not self.distro and (sign := classic_sign(package)):
-            return replace(settings, profile=CLASSIC_MODEL, target_reason=classic_reason(sign))
-        elif wanted == MODEL and not self.distro and (sign := fortress_sign(package)):
-            reason = f"Gazebo Fortress: {sign}"
-            return replace(settings, profile=FORTRESS_MODEL, target_reason=reason)
-        return replace(settings, profile=settings._of_model) if wanted == MODEL else settings
+        if wanted != MODEL:
+            return settings
+        in_classic = settings.profile == CLASSIC_ROS_2
+        if not self.distro or in_classic:
+            gazebo, sign = model_target(package, whole, in_classic=in_classic)
+            if sign:
+                profile = CLASSIC_MODEL if gazebo == CLASSIC else FORTRESS_MODEL
+                return replace(settings, profile=profile, distro="", target_reason=sign)
+        profile = CLASSIC_MODEL if in_classic else gazebo_profile(settings.distro)
+        return replace(settings, profile=profile)
 
     def _with_package(self, package: Package) -> Settings:
         """Return the settings with the target detected from the content of a ROS 2 package."""
         target = detect_target(package, self.distro)
         profile = CLASSIC_ROS_2 if target.is_classic else self.profile
         return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)
-
-    @property
-    def _of_model(self) -> str:
-        """The profile of a model in such a package."""
-        return CLASSIC_MODEL if self.profile == CLASSIC_ROS_2 else gazebo_profile(self.distro)
 
     @property
     def description(self) -> str:

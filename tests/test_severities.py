@@ -138,6 +138,16 @@ LIFT = """<link name="fork"/>
 """
 GZ = MOTOR.format(name="gz", plugin="gz_ros2_control/GazeboSimSystem")
 MOCK = MOTOR.format(name="mock", plugin="mock_components/GenericSystem")
+HINGE = """
+<link name="hinge"/>
+<joint name="hinge" type="fixed"><parent>base_link</parent><child>hinge</child></joint>
+"""
+UNCOLOURED = """
+<visual name="v">
+  <geometry><sphere><radius>1</radius></sphere></geometry>
+  <material><script><name>Gazebo/Red</name></script></material>
+</visual>
+"""
 LOST = '<gazebo reference="caster">{}</gazebo>'
 CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
@@ -185,6 +195,9 @@ CASES: list[tuple[str, Example, str]] = [
         "info",
     ),
     ("SDF001", {"worlds/example.sdf": "<sdf><!-- a -- b --></sdf>"}, "info"),
+    ("SDF001", {"bt/a.xml": "<root><BehaviorTree/><!-- a -- b --></root>"}, "info"),
+    ("SDF001", {"arm.urdf": ""}, "warning"),
+    ("SDF001", {"arm.urdf": "", "launch/a.launch": "<launch name='arm.urdf'/>"}, "error"),
     ("SDF001", {"launch/a.launch": "<launch><!-- a -- b --></launch>"}, "error"),
     ("SDF002", {"model.sdf": sdf("1.7")}, "warning"),
     ("SDF002", {"model.sdf": sdf("1.9")}, "error"),
@@ -211,6 +224,20 @@ def test_severity_depends_on_the_case(
     assert [str(finding.severity) for finding in report.findings] == [severity], [
         finding.message for finding in report.findings
     ]
+
+
+@pytest.mark.parametrize(
+    ("rule", "fragment", "classic", "later"),
+    [("SDF009", HINGE, "info", "warning"), ("SDF005", UNCOLOURED, "warning", "error")],
+)
+def test_classic_neither_renames_nor_refuses(
+    rule: str, fragment: str, classic: str, later: str, tmp_path: Path
+) -> None:
+    package = write_example(fragment, tmp_path)
+    for profile, severity in (("gazebo-classic", classic), ("gazebo-fortress", later)):
+        settings = Settings(profile=profile, profile_chosen=True, select=(rule,))
+        (report,) = check_package(package, settings).packages
+        assert [found.severity.value for found in report.findings] == [severity]
 
 
 @pytest.mark.parametrize(("distro", "severity"), [("", "info"), ("jazzy", "warning")])

@@ -15,7 +15,6 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
-from checker.package.detected_target import simulator_signs
 from checker.package.distribution_sign import DistributionSign, distribution_sign
 from checker.package.formats import xml_suffixes
 from checker.package.index import (
@@ -47,6 +46,7 @@ from checker.package.references import (
     spawner_references,
 )
 from checker.package.repository import units_below
+from checker.package.simulator_signs import simulator_signs
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake

@@ -54,7 +54,11 @@ def configuration_number(name: str) -> int | None:
 def described_package(text: str, *names: str) -> str:
     """Return the other package that a description of the template's form is about, else nothing."""
     match = _TEMPLATE.search(text) or _SUBJECT.match(text)
-    if match is None or match[1].casefold() in map(str.casefold, names):
+    if match is None:
+        return ""
+    other = match[1].casefold()
+    # `arm_interfaces` may say that its interfaces are those of the package `arm`.
+    if any(name.casefold() == other or name.casefold().startswith(f"{other}_") for name in names):
         return ""
     if _MEANT.search(text[max(0, match.start() - _LOOK_BACK) : match.start()]):
         return ""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from checker.package.detected_target import is_described_for_ros_2
 from checker.package.inheritance import SUBMISSION_NAME
 from checker.package.kind import PackageKind, enclosing_package, is_launch_name
+from checker.package.simulator_signs import is_described_for_ros_2
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 

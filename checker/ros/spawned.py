@@ -168,16 +168,19 @@ def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
 
 
 def _descriptions_of(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
-    """Return the descriptions that a node spawns: its own, or what is published on a topic."""
+    """Return the descriptions that a node spawns: its own, or what is published on a topic.
+
+    Of a file that two nodes publish with other arguments, one arrives: the first is taken.
+    """
     own = [description for description in loaded if description.node is node]
     words = [word.value for word in node.arguments]
     if own or "-topic" not in words:
         return own
-    return [
-        description
-        for description in loaded
-        if _publishes(description) and description.node.starts is not False
-    ]
+    published = (it for it in loaded if _publishes(it) and it.node.starts is not False)
+    by_file: dict[str, LoadedDescription] = {}
+    for description in published:
+        by_file.setdefault(description.load.path, description)
+    return [*by_file.values()]
 
 
 def _publishes(description: LoadedDescription) -> bool:

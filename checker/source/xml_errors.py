@@ -19,14 +19,18 @@ from checker.source.xml_positions import XmlFault
 GAZEBO_FILES = (".sdf", ".world", ".config")
 """Endings of files that only Gazebo reads."""
 _LENIENT_ROOTS = ("<library", "<class_libraries", "<mujoco", "<mujocoinclude")
+_BEHAVIOR_TREE = re.compile(r"<BehaviorTree\b")
 _FIRST_TAG = re.compile(r"<[A-Za-z_]+")
 
 
 def is_lenient(source: SourceText) -> bool:
-    """Return whether only tinyxml2 reads a file: Gazebo's, MuJoCo's, and those of pluginlib."""
+    """Return whether only tinyxml2 reads a file: those of Gazebo, MuJoCo, pluginlib and Nav2."""
+    if source.file.endswith(GAZEBO_FILES):
+        return True
     first = _FIRST_TAG.search(source.text)
-    has_root = first is not None and first.group() in _LENIENT_ROOTS
-    return has_root or source.file.endswith(GAZEBO_FILES)
+    root = first.group() if first is not None else ""
+    is_tree = root == "<root" and _BEHAVIOR_TREE.search(source.text) is not None
+    return is_tree or root in _LENIENT_ROOTS
 
 
 _LATE_DECLARATION = re.compile(r"\s+(<\?xml\s[^>]*?\?>)")

@@ -71,8 +71,12 @@ def check(
 
 
 def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:
-    """Return the boxes of shapes, those of wheels longer by the axle that is not modelled."""
-    wheels = {link.scoped_name for link in robot.wheels}
+    """Return the boxes of shapes, those of wheels longer by the axle that is not modelled.
+
+    What turns without end is a wheel, whatever its name.
+    """
+    turning = (tie.child for tie in robot.tree.ties if tie.joint.type.value == "continuous")
+    wheels = {*turning, *(link.scoped_name for link in robot.wheels)}
     return [
         shape.box.grown(reach) if shape.link.scoped_name in wheels else shape.box
         for shape in shapes
@@ -219,6 +223,7 @@ def _arms(mount: str, mark: str = "", between: str = "fixed") -> object:
 GOOD = [
     _arms("fixed"),
     _WHEEL,
+    _WHEEL.replace("left_wheel", "left_front_link"),
     _camera("0.4 0 0.17"),
     _camera("0.4 0 0.15"),
     _camera("0.4 0 0.165"),

@@ -49,7 +49,7 @@ def check(
     whole = union(box for box in boxes.values() if box is not None)
     for name, inertia in masses.weighed.items():
         inertial, centre, box = inertia.link.inertial, inertia.centre, boxes[name]
-        if inertial is None or centre is None:
+        if inertial is None or centre is None or masses.robot.is_still(inertia.link):
             continue
         outside = math.inf if box is None else box.gap(Box(centre, centre))
         far = box is not None and whole is not None and outside > whole.diagonal
@@ -95,10 +95,17 @@ _FINGER = """
 </link>
 <joint name="grip" type="fixed"><parent link="upper_arm"/><child link="finger"/></joint>
 """
+_LAMP = f"""
+<model name="lamp">
+  <static>true</static>
+  <link name="bulb">{_body(9)}</link>
+</model>
+"""
 GOOD = [
     *map(_body, (0, 0.29, 0.31, 0.37)),
     _body(0.1).replace("0.6 0.4 0.2", "0.001 0.001 0.001"),
     {"@urdf": _FINGER.format("0.0064528", "")},
+    _LAMP,
 ]
 BAD = [
     _body(0.43, _MARK),

@@ -11,6 +11,8 @@ Source: ros2_control pull request 755, ros2controlcli; gazebo_ros2_control pull 
 from collections.abc import Mapping, Sequence
 
 from checker.launch.ros2.graph import Ros2Launch
+from checker.package.distribution_sign import BEFORE_HUMBLE
+from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -20,8 +22,11 @@ _OPTION = "--set-state"
 
 
 @rule("LCH017", "old-controller-state", Severity.ERROR, Concern.INTERFACE)
-def check(launch: Ros2Launch) -> Findings:
+def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report states that `ros2 control` of Humble and later does not know."""
+    sign = package.distribution_sign
+    if sign is not None and sign.distro in BEFORE_HUMBLE:
+        return
     for graph in launch.entries:
         for process in graph.processes:
             for state in filter(None, map(_old_state, process.commands)):
@@ -44,7 +49,7 @@ def _old_state(words: Sequence[Located[str]]) -> Located[str] | None:
     return asked[0] if asked and asked[0].value in _STATES else None
 
 
-def _command(words: str) -> object:
+def _command(words: str) -> dict[str, object]:
     start = f"ExecuteProcess(cmd={words.split()}, output='screen')"
     return {"@ros2": f"        {start},", "@profile": "ros2"}
 
@@ -58,6 +63,10 @@ def _marked(words: str, *, as_line: bool = False) -> object:
 GOOD = [
     _command("ros2 control load_controller --set-state active arm_controller"),
     _command("ros2 run acme start"),
+    {
+        **_command("ros2 control load_controller --set-state start arm_controller"),
+        "README.md": "A rover for ROS 2 Galactic.\n",
+    },
     _command("ros2 control load_controller arm_controller"),
 ]
 BAD = [

@@ -3,16 +3,18 @@
 A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, `<` for `&lt;` inside a value, control characters and a second root
-element. In files that only Gazebo or pluginlib reads these are infos; the other parsers of ROS
-refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
+element. In files that only Gazebo, pluginlib or Nav2 reads these are infos; the other parsers of
+ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
 faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
-and of templates: files with `[PLACEHOLDER]` in a folder `templates`.
+and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty file that no launch
+file names is a warning.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
 `ClassLoader::processSingleXMLPluginFile`, which reads with tinyxml2.
 """
 
+import posixpath
 import re
 from collections.abc import Iterator
 
@@ -43,7 +45,7 @@ def check(package: Package) -> Findings:
         elif isinstance(document, NotReadable):
             yield finding(_top(path), f"{path} {document.reason}")
         elif isinstance(document, XmlFault):
-            yield from _refused(path, document)
+            yield from _refused(path, document, package)
         else:
             yield from _unread_encoding(path, document.source)
             for fault in document.tolerated:
@@ -58,16 +60,26 @@ def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
         )
 
 
-def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
+def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
     if path.endswith(".launch") and fault.span.source.text.startswith("#!"):
         return  # a script
-    if not fault.span.source.text.strip() and path.startswith("urdf/"):
-        # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
+    is_empty = not fault.span.source.text.strip()
+    # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
+    if is_empty and (path.startswith("urdf/") or not _is_used(path, package)):
         yield finding(fault.span, f"{path} is empty", severity=Severity.WARNING)
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
         yield _finding(path, fault)
+
+
+def _is_used(path: str, package: Package) -> bool:
+    """Return whether a file is the model or manifest of a package, or a launch file names it."""
+    name = posixpath.basename(path)
+    model = package.model_path
+    if name == "package.xml" or (isinstance(model, Found) and model.path == path):
+        return not package.only
+    return any(name in text for text in package.workspace.launch_texts.values())
 
 
 def _finding(path: str, fault: XmlFault, severity: Severity | None = None) -> Finding:

@@ -2,11 +2,13 @@
 
 A required part has no default: the parser refuses the file, or builds an incomplete part. A part
 without a name cannot be found. A visual without geometry loads and shows nothing, so that is a
-warning where the profile names no Gazebo release. KIN001 reports the ends of joints. No accepted
+warning where the profile names no Gazebo release. Gazebo Classic completes all but joints with
+defaults: for it a missing value is a warning. KIN001 reports the ends of joints. No accepted
 package that we checked has this fault.
 
 Fix: add the element or attribute that the message names.
-Source: SDFormat specification, "Required: 1" at the element or attribute.
+Source: SDFormat specification, "Required: 1" at the element or attribute; libsdformat 9,
+`readXml`.
 """
 
 from collections.abc import Iterator
@@ -33,7 +35,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     for element, kind in sdf.typed_as(context.reads):
         if kind is None:
             continue
-        findings = [*_attributes(element, kind), *_children(element, kind, without)]
+        completed = context.release == "classic" and element.tag != "joint"
+        valued = Severity.WARNING if completed else Severity.ERROR
+        findings = [*_attributes(element, kind), *_children(element, kind, without, valued)]
         # What has no place in the version that the file is read as, the parser only copies.
         if findings and type_of(element, context.reads) is not None:
             yield from findings
@@ -51,8 +55,10 @@ def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
             )
 
 
-def _children(element: Element, kind: ElementType, without: Severity) -> Iterator[Finding]:
-    """Report the children of an element; `without` is the severity of a missing geometry."""
+def _children(
+    element: Element, kind: ElementType, without: Severity, valued: Severity
+) -> Iterator[Finding]:
+    """Report missing children: a geometry with the severity `without`, a value with `valued`."""
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
     for child in kind.required_children:
         name = child.name
@@ -63,7 +69,7 @@ def _children(element: Element, kind: ElementType, without: Severity) -> Iterato
             yield finding(
                 element,
                 f"{_element_label(element)} lacks <{name}>",
-                severity=without if name in CHOICES else None,
+                severity=without if name in CHOICES else valued,
                 key=f"{element.tag}/{name}",
             )
         for part in stated:

@@ -4,10 +4,11 @@ Plugins, bridges and joints find a part by its name. libsdformat refuses a file 
 of one kind share a name, or in which two children of a world do. Links, joints, frames and nested
 models of a model have one set of names: in files before SDF 1.7 libsdformat renames the second
 (joint `arm` next to a link `arm` becomes `arm_joint`), so that it cannot be found by its written
-name; from 1.7 on it refuses the file. That other siblings share a name is against the specification
-since SDF 1.7, and works. Names of the form `__x__`, the name `world`, and names with `::` have a
-special meaning for the parser; before SDF 1.8 `::` was part of a valid name, and is reported in
-submissions only. Plugins may share a name, and names inside a plugin are not compared.
+name; from 1.7 on it refuses the file. Gazebo Classic renames nothing: there it is an info. That
+other siblings share a name is against the specification since SDF 1.7, and works. Names of the form
+`__x__`, the name `world`, and names with `::` have a special meaning for the parser; before SDF 1.8
+`::` was part of a valid name, and is reported in submissions only. Plugins may share a name, and
+names inside a plugin are not compared.
 
 No accepted package that we checked has this fault.
 
@@ -44,12 +45,13 @@ Version = tuple[int, int]
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report siblings with the same name, and reserved names."""
     version = sdf_version(sdf.document)
+    classic = context.release == "classic"
     # Until 1.8 such a name was valid: newer parsers make nested models of it.
     divides = version >= (1, 8) or context.is_subt
     for element, kind in sdf.typed_as(context.reads):
         if kind is None or kind.free:
             continue
-        yield from _twins(element, kind, version)
+        yield from _twins(element, kind, version, classic=classic)
         name = _name(element) if element.tag == "include" else element.attribute("name")
         if name is None or (element.tag != "include" and "name" not in kind.attributes):
             continue
@@ -62,8 +64,12 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             )
 
 
-def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Finding]:
-    new_names = renames_of(parent, version) if parent.tag == "model" else {}
+def _twins(
+    parent: Element, kind: ElementType, version: Version, *, classic: bool
+) -> Iterator[Finding]:
+    renames = parent.tag == "model" and not classic
+    new_names = renames_of(parent, version) if renames else {}
+    weaker = Severity.INFO if classic else Severity.WARNING
     alike: dict[tuple[str, str], Element] = {}
     sharing: dict[str, Element] = {}
     for child in parent.children:
@@ -84,7 +90,7 @@ def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Fin
         yield finding(
             name,
             message,
-            severity=None if _is_refused(parent, child, twin, version) else Severity.WARNING,
+            severity=None if _is_refused(parent, child, twin, version) else weaker,
             related=[(_name(twin) or twin, "the first with this name")],
             fix=_numbered(parent, name) if child.tag == twin.tag == "visual" else None,
         )

@@ -159,6 +159,22 @@ def _classic(plugin: str) -> dict[str, object]:
     }
 
 
+_PUBLISHED = """  <node pkg="robot_state_publisher" exec="robot_state_publisher"{}>
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/rover.urdf {}')"/>
+  </node>
+"""
+_PUBLISHED_TWICE = f"""<launch>
+  <include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/>
+{_PUBLISHED.format("", "")}{_PUBLISHED.format(' namespace="r2"', "in_sim:=1")}
+  <node pkg="ros_gz_sim" exec="create" args="-topic robot_description -name rover"/>
+  <node pkg="controller_manager" exec="spawner" args="base_controller"/>
+</launch>
+"""
+_WITH_ARGUMENT = (
+    '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
+    '  <xacro:arg name="in_sim" default="0"/>'
+)
 _TF = "<publish_odom_tf>{}</publish_odom_tf>"
 _XML_MARK = "  <!-- ^ WIR001 -->"
 
@@ -294,6 +310,15 @@ GOOD = [
     },
     _filter("publish_tf: false", name=' name="ekf_filter_node",'),
     _controlled_example("false"),
+    {
+        **_controlled_example("true"),
+        "@bridge": True,
+        "launch/rover.launch.py": None,
+        "launch/rover.launch.xml": _PUBLISHED_TWICE,
+        "urdf/rover.urdf": DRIVEN_URDF.replace("</robot>\n", _CONTROL).replace(
+            '<robot name="rover">', _WITH_ARGUMENT
+        ),
+    },
     _on_hardware("publish_tf: false"),
     _on_hardware("publish_tf: true", manager=' namespace="r1",'),
     _classic('filename="libgazebo_ros_diff_drive.so">'),

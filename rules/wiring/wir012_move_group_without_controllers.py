@@ -19,6 +19,8 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 _PROGRAM = "moveit_ros_move_group/move_group"
 _FILE = "moveit_controllers.yaml"
 _NEEDED = "moveit_controller_manager"
+_TAKEN = (_NEEDED, "moveit_simple_controller_manager")
+"""The parameter, and those of the plugin that is taken without it where it alone is installed."""
 
 
 @rule("WIR012", "move-group-without-controllers", Severity.WARNING, Concern.INTERFACE)
@@ -31,7 +33,7 @@ def check(wiring: Wiring, package: Package) -> Findings:
         if (
             node.program == _PROGRAM
             and node.knows_parameters
-            and _NEEDED not in node.settings
+            and not any(name.startswith(_TAKEN) for name in node.settings)
             and (executes is None or executes.text != "false")
         ):
             yield finding(
@@ -61,6 +63,7 @@ def _example(more: str, mark: str = "", file: str = _FILE) -> dict[str, object]:
 GOOD = [
     _example(f', "{_NEEDED}": "moveit_simple_controller_manager/MoveItSimpleControllerManager"'),
     _example(', "allow_trajectory_execution": False'),
+    _example(', "moveit_simple_controller_manager": {"controller_names": ["arm"]}'),
     _example("", file="controllers_of_moveit.yaml"),
 ]
 BAD = [_example("", "  # ^ WIR012")]

@@ -111,6 +111,30 @@ def test_a_world_of_ignition_is_not_for_classic(
         assert Settings().for_package(world).profile == expected
 
 
+@pytest.mark.parametrize(
+    ("plugin", "classic", "later", "expected"),
+    [
+        ("libgazebo_ros_factory.so", "'x'", "'x'", "gazebo-classic"),
+        ("libgazebo_ros_factory.so", "'hall.sdf'", "'hall.sdf'", "gazebo-classic"),
+        ("libgazebo_ros_factory.so", "'x'", "'hall.sdf'", "gazebo-harmonic"),
+        ("libown.so", "'hall.sdf'", "'x'", "gazebo-classic"),
+        ("libown.so", "'x'", "'x'", "gazebo-harmonic"),
+        ("gz-sim-physics-system", "'hall.sdf'", "'hall.sdf'", "gazebo-harmonic"),
+    ],
+)
+def test_a_world_of_classic_beside_launch_files_of_both(
+    plugin: str, classic: str, later: str, expected: str, tmp_path: Path
+) -> None:
+    files = {
+        "@ros2": f"{SPAWN}\n        Node(package='p', executable={classic}),",
+        "launch/gz.launch.py": f"{ROS_GZ}\n        Node(package='p', executable={later}),",
+    }
+    write_example({**files, "worlds/hall.sdf": WORLD.format(plugin)}, tmp_path)
+    with open_input(tmp_path) as given:
+        (world,) = (it for it in given.packages if it.name == "hall.sdf")
+        assert Settings().for_package(world).profile == expected
+
+
 AMENT = """<package format="3">
   <name>{}</name><version>1.0.0</version><description>A lift</description>
   <maintainer email="a@example.org">A</maintainer><license>BSD</license>
@@ -284,6 +308,26 @@ def test_models_without_a_package_are_for_fortress_where_the_readme_names_only_t
 )
 def test_models_without_a_package_are_for_the_usual_gazebo(readme: str, tmp_path: Path) -> None:
     assert {each.profile for each in models_of(tmp_path, readme)} == {"gazebo-harmonic"}
+
+
+@pytest.mark.parametrize(
+    ("files", "profile"),
+    [
+        ({"@ros2": SPAWN}, "gazebo-classic"),
+        ({"@ros2": True, "scripts/spawn.py": "from gazebo_msgs.srv import A"}, "gazebo-classic"),
+        ({"@ros2": SPAWN, URDF: GZ_PLUGIN}, "gazebo-harmonic"),
+    ],
+)
+def test_models_without_a_package_are_for_classic_where_all_packages_beside_are(
+    files: Mapping[str, object], profile: str, tmp_path: Path
+) -> None:
+    write_example(files, tmp_path / "src")
+    models = tmp_path / "models" / "rover"
+    models.mkdir(parents=True)
+    (models / "model.sdf").write_text(MODEL)
+    with open_input(tmp_path) as opened:
+        (model,) = (it for it in opened.packages if it.name == "rover")
+        assert Settings().for_package(model).profile == profile
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,96 @@
+"""The Gazebo that a model or world is made for, where that is not what its package is made for."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from checker.package.detected_target import classic_reason
+from checker.package.gazebo_sign import classic_sign, fortress_sign
+from checker.package.simulator_signs import (
+    CLASSIC,
+    DESCRIPTION,
+    GZ,
+    IGNITION,
+    LAUNCH,
+    ROS_GZ,
+    signs_in_files,
+)
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+_OF_IGNITION = re.compile(r"\blibignition-gazebo\d*-[\w-]+-system\.so\b")
+
+
+def model_target(package: Package, around: Package | None, *, in_classic: bool) -> tuple[str, str]:
+    """Return the Gazebo of a model, `CLASSIC` or `IGNITION`, and what shows it; else nothing.
+
+    Args:
+        package: The model or world.
+        around: The package of ROS 2 that it is in, if any.
+        in_classic: Whether that package is for Gazebo Classic.
+    """
+    classic = fortress = ""
+    if in_classic:
+        fortress = _ignition_sign(package)
+    elif around is not None:
+        classic = _classic_model_sign(package, around)
+    else:
+        classic = classic_sign(package)
+        fortress = "" if classic else fortress_sign(package)
+        classic = classic or ("" if fortress else _classic_beside(package))
+    if classic:
+        return CLASSIC, classic_reason(classic)
+    return (IGNITION, f"Gazebo Fortress: {fortress}") if fortress else ("", "")
+
+
+def _classic_beside(package: Package) -> str:
+    """Return what shows that packages beside a model are for Classic, and none for a later Gazebo.
+
+    Args:
+        package: A model or world in no package.
+    """
+    signs: dict[str, str] = {}
+    for other in package.workspace.packages.values():
+        for simulator, words in other.simulator_signs.items():
+            signs.setdefault(simulator, f"{words} in {other.name}")
+    return signs[CLASSIC] if [*signs] == [CLASSIC] else ""
+
+
+def _classic_model_sign(package: Package, around: Package) -> str:
+    """Return what shows that a model or world is for Classic, in a package that names more; or "".
+
+    A launch file that names it shows which simulator gets it; where none does, or launch files of
+    both, its own plugins.
+
+    Args:
+        package: The model or world.
+        around: The package of ROS 2 that it is in.
+    """
+    starting = [text for text in package.workspace.launch_texts.values() if package.name in text]
+    in_classic = any(LAUNCH[CLASSIC].search(text) for text in starting)
+    in_later = any(
+        LAUNCH[later].search(text) for text in starting for later in (IGNITION, GZ, ROS_GZ)
+    )
+    if in_later and not in_classic:
+        return ""
+    paths = (file.path for file in package.index.with_suffix(".sdf", ".world"))
+    own = dict(signs_in_files(package, paths, DESCRIPTION))
+    if [*own] == [CLASSIC] and (in_classic or CLASSIC in around.simulator_signs):
+        return own[CLASSIC]
+    is_alone = in_classic and not in_later and not own
+    return f"a launch file of Gazebo Classic names {package.name}" if is_alone else ""
+
+
+def _ignition_sign(package: Package) -> str:
+    """Return what shows that a model or world in a package for Classic is for Ignition; else empty.
+
+    Nothing does where it has its own package.xml, or a launch file names it.
+    """
+    launch = package.workspace.launch_texts.values()
+    if package.exists("package.xml") or any(package.name in text for text in launch):
+        return ""
+    paths = (file.path for file in package.index.with_suffix(".sdf", ".world"))
+    found = signs_in_files(package, paths, {IGNITION: _OF_IGNITION})
+    return next((words for _, words in found), "")

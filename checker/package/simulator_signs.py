@@ -1,0 +1,93 @@
+"""The simulators that the files of a package name: Gazebo Classic, Fortress, or a later one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from checker.source.text import SourceText, blank_markup
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+CLASSIC, IGNITION, GZ = "classic", "ignition", "gz"
+ROS_GZ = "ros_gz"
+"""The packages that start either Fortress, on Humble, or a later Gazebo."""
+LAUNCH = {
+    CLASSIC: re.compile(r"(?<![\w/])(?:gazebo_ros|gzserver|gzclient|spawn_entity\.py)(?!\w)"),
+    IGNITION: re.compile(r"\bros_ign_(?:gazebo|bridge)\b|\bign gazebo\b|\bIGN_GAZEBO_\w+"),
+    GZ: re.compile(r"\bgz sim\b|\bGZ_SIM_\w+"),
+    ROS_GZ: re.compile(r"\bros_gz_(?:sim|bridge)\b"),
+}
+DESCRIPTION = {
+    CLASSIC: re.compile(
+        r"\blibgazebo_ros(?:2_control|_\w+)\.so\b|\bgazebo_ros2_control/GazeboSystem\b"
+    ),
+    IGNITION: re.compile(r"\bignition-gazebo\d*-[\w-]+-system\b|\bign_ros2_control\b"),
+    GZ: re.compile(
+        r"\bgz-sim\d*-[\w-]+-system\b|(?<!\w)gz_ros2_control\b"
+        r"""|\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""
+    ),
+}
+_OF_ROS_2 = re.compile(
+    rf"<ros2_control\b|gazebo_ros2_control\b"
+    rf"|{DESCRIPTION[IGNITION].pattern}|{DESCRIPTION[GZ].pattern}"
+)
+"""Elements that are only in a URDF for ROS 2 or for Gazebo after Classic."""
+_OF_ROSLAUNCH = re.compile(r"\$\(find\s|<node\b[^<>]{0,400}?\stype\s{0,8}=")
+_DEPENDENCY = r"(?<=depend>)\s*(?:{})\s*(?=</)"
+_MANIFEST = {
+    CLASSIC: re.compile(_DEPENDENCY.format("gazebo_(?:ros|plugins|ros_pkgs|ros2_control)")),
+    IGNITION: re.compile(_DEPENDENCY.format(r"ros_ign\w*|ign_ros2_control|ignition-\w+")),
+    GZ: re.compile(_DEPENDENCY.format(r"gz_ros2_control|gz[-_]\w+")),
+    ROS_GZ: re.compile(_DEPENDENCY.format(r"ros_gz\w*")),
+}
+_NODE = {CLASSIC: re.compile(r"\b(?:from|import) gazebo_msgs\b")}
+_SIGNS = (
+    (re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), LAUNCH),
+    (re.compile(r"\.(?:urdf|xacro|sdf|world|gazebo)\Z"), DESCRIPTION),
+    (re.compile(r"\Apackage\.xml\Z"), _MANIFEST),
+    (re.compile(r"\.py\Z"), _NODE),
+)
+
+
+def simulator_signs(package: Package) -> dict[str, str]:
+    """Return which simulators the package names, each with the first place that does."""
+    found: dict[str, str] = {}
+    for names, patterns in _SIGNS:
+        paths = (file.path for file in package.index.files if names.search(file.path.lower()))
+        for target, words in signs_in_files(package, paths, patterns):
+            found.setdefault(target, words)
+    return found
+
+
+def signs_in_files(
+    package: Package, paths: Iterable[str], patterns: dict[str, re.Pattern[str]]
+) -> Iterator[tuple[str, str]]:
+    """Yield for each file and pattern that it holds the simulator, and the first place in words."""
+    for path in paths:
+        source = package.read(path)
+        if not isinstance(source, SourceText):
+            continue
+        text = _without_comments(source)
+        if path.endswith(".launch") and _OF_ROSLAUNCH.search(text):
+            continue  # left by an exporter or a port: nothing of ROS 2 reads it
+        for target, pattern in patterns.items():
+            if match := pattern.search(text):
+                yield target, f"{source.where(match.start())} names {match.group().strip()}"
+
+
+_LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
+
+
+def _without_comments(source: SourceText) -> str:
+    if source.file.lower().endswith((".py", ".yaml", ".yml")):
+        return _LINE_COMMENT.sub(lambda match: " " * len(match.group()), source.text)
+    return blank_markup(source.text)
+
+
+def is_described_for_ros_2(package: Package) -> bool:
+    """Return whether a URDF without a package has `<ros2_control>` or plugins of later Gazebos."""
+    paths = (file.path for file in package.index.with_suffix(".urdf", ".xacro"))
+    return any(signs_in_files(package, paths, {GZ: _OF_ROS_2}))
