@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -123,6 +123,21 @@ class NodeBlock(Record, eq=False):
                     at + 1 for at in reached if at < len(parts) and wanted in ("*", parts[at])
                 }
         return len(parts) in reached
+
+
+def unread_blocks(
+    blocks: Iterable[NodeBlock], namespace: str, names: Collection[str]
+) -> list[NodeBlock]:
+    """Return the blocks for nodes of some names, where none of a name is for its namespace.
+
+    Args:
+        blocks: The blocks of one file.
+        namespace: The namespace in which the nodes run.
+        names: The names of the nodes, without namespace.
+    """
+    own = [block for block in blocks if block.node in names]
+    read = {block.node for block in own if block.is_for(block.node, namespace)}
+    return [it for it in own if it.node not in read and "$(" not in it.name + namespace]
 
 
 def read_blocks(root: YamlNode) -> Iterator[NodeBlock]:

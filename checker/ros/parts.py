@@ -28,7 +28,7 @@ from checker.ros.ros2_control.robot_control import (
 from checker.ros.simulation import Simulations
 from checker.ros.simulation import simulations as read_simulations
 from checker.ros.spawned import SpawnedReader
-from checker.ros.wiring.wiring import Wiring
+from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.ros.wiring.wiring import wirings as read_wirings
 
 _YAML = (".yaml", ".yml")
@@ -181,6 +181,12 @@ def wirings(
     known = None if isinstance(simulations, NotAvailable) else simulations
     found = tuple(read_wirings(launch, known, control, spawned))
     return found or NotAvailable("no launch file starts a node", applicable=False)
+
+
+@part
+def wirings_together(wirings: tuple[Wiring, ...]) -> Wirings:
+    """Return the wiring of all launch files of ROS 2."""
+    return Wirings(wirings)
 
 
 @part

@@ -42,7 +42,7 @@ def check(
     """Report masses that are not positive and finite, and moments that no body can have.
 
     If the profile names no simulator, values that libsdformat accepts are a warning. Gazebo Classic
-    loads a static model with any moments.
+    loads a static model with any moments; of an object that is no robot it is a warning there.
 
     Options:
         tolerance: Rounding error, as a share of the pseudo-inertia's largest eigenvalue, by which
@@ -71,7 +71,8 @@ def check(
             yield from _mass(inertia, inertial, readable)
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = merges and inertia.piece_eigenvalue >= -share
-        possible = Severity.WARNING if merged else Severity.ERROR
+        scenery = context.release == "classic" and robot.is_prop and not merges
+        possible = Severity.WARNING if merged or scenery else Severity.ERROR
         if context.release == "classic" and still:
             continue
         if context.release in ("", "classic") and _is_rounded(inertia, inertial):

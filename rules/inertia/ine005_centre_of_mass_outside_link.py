@@ -30,6 +30,7 @@ def check(
     error_above: float = 0.5,
     warning_above: float = 0.15,
     share: float = 0.02,
+    shift: float = 0.05,
 ) -> Findings:
     """Report centres of mass outside the box around a link's shapes, relative to its diagonal.
 
@@ -40,6 +41,8 @@ def check(
             outside is a warning, a closer one is skipped.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its centre of mass is farther away than the robot is large.
+        shift: Share of the diagonal around the robot; a link of the base is a warning if it moves
+            the robot's centre of mass no farther.
     """
     if masses.robot.is_static:
         return
@@ -61,8 +64,13 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:
-            mounted = masses.robot.is_mounted(name)
-            grave = far or (outside > error_above * box.diagonal and not mounted)
+            slight = (
+                name in masses.robot.tree.base
+                and whole is not None
+                and (masses.share(name) * outside <= shift * whole.diagonal)
+            )
+            harmless = slight or masses.robot.is_mounted(name)
+            grave = far or (outside > error_above * box.diagonal and not harmless)
             yield finding(
                 inertial.pose,
                 f"the centre of mass of link {inertia.link.name.value!r} is {outside:.3g} m "

@@ -6,7 +6,8 @@ default engine of Gazebo Sim, ignores `<kinematic>`: the link falls. No accepted
 checked has this fault.
 
 An arm without gravity may be intended, to replace springs that balance the real one. For links
-other than the base and the wheels, it is an info. A model without joints, sensors and plugins is an
+other than the base and the wheels, it is an info, and so is a model all of whose links have none. A
+model without joints, sensors and plugins is an
 object that may be held in the air: there it is not reported.
 
 Fix: remove `<gravity>` and `<kinematic>` from the link.
@@ -35,8 +36,12 @@ def check(robot: Robot, context: Context) -> Findings:
     """
     carrying = _carrying_links(robot)
     is_object = not (robot.joints or robot.sensors or robot.all_plugins)
+    floats = len(robot.links) > 1 and not any(link.gravity.value for link in robot.links)
+    if floats and not is_object:
+        message = "no gravity acts on any link: the whole model floats"
+        yield finding(robot.links[0].gravity, message, severity=Severity.INFO, key="gravity")
     for link in robot.links:
-        if not link.gravity.value and not is_object:
+        if not (link.gravity.value or is_object or floats):
             stated = link.gravity.span.text
             name = link.name.value
             carries = link.scoped_name in carrying
@@ -74,7 +79,13 @@ GOOD = [
     '<link name="mast"><gravity>true</gravity></link>',
     f'<sdf version="1.6"><model name="box">{_OBJECT}</model></sdf>',
 ]
+_FIGURE = """<sdf version="1.6"><model name="figure">
+<link name="hip"><gravity>0</gravity></link>  <!-- ^ KIN016 -->
+<link name="leg"><gravity>0</gravity></link>
+<joint name="knee" type="revolute"><parent>hip</parent><child>leg</child></joint>
+</model></sdf>"""
 BAD = [
+    _FIGURE,
     f'<sdf version="1.6"><model name="acme_rover_sensor_config_1">{_BASE}</model></sdf>',
     """<link name="mast"><gravity>0</gravity></link>  <!-- ^ KIN016 -->
 <joint name="foot" type="fixed"><parent>base_link</parent><child>mast</child></joint>""",

@@ -8,6 +8,8 @@ only maintainers without a name occur. An entry that is left from the template o
 such as "The acme_rover_sensor_config_2 package" or a link to that package's page on ros.org, is
 incomplete as well; the link is an info as long as it is a comment.
 
+A Python package of ROS 2 that names no build type is taken for one of CMake.
+
 Fix: write the entry that the finding names: a version such as `1.0.0`, a maintainer with an email
 address, a license such as `Apache-2.0`, or the build tool, `catkin` in ROS 1 and `ament_cmake` in
 ROS 2.
@@ -58,14 +60,26 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     manifest = paperwork.manifest
     if manifest is None:
         return
-    yield from _required(manifest, None if context.is_subt else Severity.WARNING)
+    yield from _required(manifest, None if context.is_subt else Severity.INFO)
     yield from _people(manifest)
     yield from _left_from_copying(package, manifest)
     if not manifest.build_type.value and not manifest.depends_on("catkin"):
+        yield from _without_build_tool(package, manifest, context)
+
+
+def _without_build_tool(
+    package: Package, manifest: PackageManifest, context: Context
+) -> Iterator[Finding]:
+    """Report that colcon takes a Python package for one of CMake, or catkin none at all."""
+    if not context.distro:
+        message = "package.xml does not declare <buildtool_depend>catkin</buildtool_depend>"
+        yield finding(manifest, message, severity=Severity.WARNING)
+    elif package.exists("setup.py") and not package.exists("CMakeLists.txt"):
         yield finding(
             manifest,
-            "package.xml does not declare <buildtool_depend>catkin</buildtool_depend>",
-            severity=Severity.WARNING,
+            "package.xml names no build type, so colcon looks for a CMakeLists.txt and stops: add "
+            "<export><build_type>ament_python</build_type></export>",
+            key="build_type",
         )
 
 
@@ -167,7 +181,29 @@ _PAGES = "<url>http://wiki.ros.org"
 _LICENSE = "Apache-2.0</license>"
 _MARK = "  <!-- ^ PKG006 -->"
 
+_PYTHON = """<package format="3">
+  <name>acme_arm</name>
+  <version>1.0.0</version>
+  <description>An arm.</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <exec_depend>rclpy</exec_depend>{}
+</package>
+"""
+_EXPORT = "<export><build_type>ament_python</build_type></export>"
+
+
+def _python(export: str) -> dict[str, object]:
+    return {
+        "package.xml": _PYTHON.format(export),
+        "setup.py": "from setuptools import setup\n",
+        "CMakeLists.txt": None,
+        "@profile": "ros2",
+    }
+
+
 GOOD = [
+    _python(_EXPORT),
     {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, _LICENSE)},
     {
         "package.xml": _manifest(
@@ -180,6 +216,7 @@ GOOD = [
     },
 ]
 BAD = [
+    {**_python(""), "@reported": ["package.xml:1"]},
     {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
     {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
     {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"TODO</license>{_MARK}")},

@@ -13,8 +13,7 @@ the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
 """
 
-from checker.model.controllers import ControllerFile
-from checker.model.ros_parameters import NodeBlock
+from checker.model.ros_parameters import unread_blocks
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
@@ -33,7 +32,7 @@ def check(control: RobotControl) -> Findings:
     namespace = manager.namespace
     names = {manager.node, *(controller.name for controller in control.controllers)}
     for file in control.files if control.is_named else ():
-        for block in _unread(file, namespace.value, names):
+        for block in unread_blocks(file.blocks, namespace.value, names):
             yield finding(
                 block.span,
                 f"the parameters are for {block.name}, but the controller manager runs in "
@@ -41,15 +40,6 @@ def check(control: RobotControl) -> Findings:
                 key=namespace.value,
                 related=[(namespace, "the namespace")],
             )
-
-
-def _unread(file: ControllerFile, namespace: str, names: set[str]) -> list[NodeBlock]:
-    """Return the blocks of these nodes, all of whose blocks are for another namespace."""
-    blocks = [block for block in file.blocks if block.node in names]
-    read = {block.node for block in blocks if block.is_for(block.node, namespace)}
-    return [
-        block for block in blocks if block.node not in read and "$(" not in block.name + namespace
-    ]
 
 
 _PARAMETERS = "<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>\n"

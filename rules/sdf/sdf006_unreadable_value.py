@@ -5,11 +5,13 @@ Parsers refuse the file, or read only the first part, so that the robot weighs 1
 kg. Words after the numbers that are expected have no effect: a warning; from libsdformat 12 on a
 pose may not have any, but may have a comma behind a number: a warning, because the specification
 has none. This rule also checks numbers that the specification limits (a stddev below 0), as the
-newest version that the target reads has them, and words that it lists (the type of a light).
+newest version that the target reads has them, and words that it lists (the type of a light). Gazebo
+Classic limits no numbers: it takes a `mu` of -1 as no limit of the friction.
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
-Source: SDFormat specification, type, min and max of each element; what libsdformat 12 loads.
+Source: SDFormat specification, type, min and max of each element; what libsdformat 12 loads;
+gazebo-classic, `FrictionPyramid::SetMuPrimary`.
 """
 
 import re
@@ -101,7 +103,8 @@ def _text(
     if all(fault.lossy for fault in faults):
         # A file of an older version is read by the newest description that the target has.
         newest = type_of(element, context.reads) or kind
-        faults += values_out_of_bounds(text, newest.bounds)
+        outside = values_out_of_bounds(text, newest.bounds)
+        faults += outside if context.release != "classic" else ()
     by_word = kind.value_type == "pose" and _counts_words_of_poses(context)
     plain = Located(_COMMA.sub("", text.value), text.span)
     is_taken = by_word and not misread_values(plain, value_type)

@@ -15,34 +15,21 @@ Source: robot_localization, slam_toolbox and navigation2: parameters that name t
 ros2_controllers, topics of the controllers.
 """
 
-import re
-from collections.abc import Iterator
-
-from checker.ros.wiring.endpoints import Endpoint
-from checker.ros.wiring.nodes import WiredNode
+from checker.ros.wiring.sensed import alike, sources, topics_read_by, unpublished_inputs
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
-
-_TYPES = (
-    "nav_msgs/msg/Odometry",
-    *(f"sensor_msgs/msg/{name}" for name in ("Imu", "LaserScan", "PointCloud2", "Range")),
-)
 
 
 @rule("WIR006", "unpublished-input-topic", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report inputs of known nodes whose messages are on a topic of another name."""
     published = {each.topic for each in wiring.endpoints if each.publishes}
-    for wanted in wiring.endpoints:
-        stated = wanted.parameter and not wanted.publishes and wanted.certain
-        message = next((it for it in wanted.types if it in _TYPES), "")
-        if not stated or not message or wanted.topic in published:
-            continue
-        others = sorted(_others(wiring, wanted, message), key=lambda it: not _alike(wanted, it))
+    for wanted, message in unpublished_inputs(wiring, published):
+        others = sources(wiring, wanted, message, topics_read_by(wiring, wanted.owner))
         if not others:
             continue
         unknown = wiring.more_publishers(message) or wiring.unknown_parts
-        if unknown and not _alike(wanted, others[0]):
+        if unknown and not alike(wanted, others[0]):
             yield unchecked(f"the publishers of {wanted.topic} are not all known: {unknown}")
             continue
         kind = message.rpartition("/")[2]
@@ -54,23 +41,6 @@ def check(wiring: Wiring) -> Findings:
             key=f"{wanted.by} {wanted.topic}",
             related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
         )
-
-
-def _others(wiring: Wiring, wanted: Endpoint, message: str) -> Iterator[Endpoint]:
-    """Yield what publishes a type itself: robots and drivers, on topics not read already."""
-    own = {it.topic for it in wiring.endpoints if it.owner is wanted.owner and not it.publishes}
-    reads = {id(it.owner) for it in wiring.endpoints if not it.publishes and message in it.types}
-    for each in wiring.endpoints:
-        of_type = each.publishes and each.certain and message in each.types
-        passes_on = isinstance(each.owner, WiredNode) and id(each.owner) in reads
-        if of_type and each.topic not in own and not passes_on:
-            yield each
-
-
-def _alike(first: Endpoint, second: Endpoint) -> bool:
-    """Return whether two names differ only in separators and case."""
-    one, two = (re.sub(r"[\W_]", "", it.topic).casefold() for it in (first, second))
-    return one == two
 
 
 _HEAD = "LaunchDescription([\n"

@@ -5,7 +5,8 @@ behaviour tree. A path in a home, such as `/home/me/maps/hall.yaml`, on a drive 
 the folders of a workspace is reported in a parameter file, if it is that of a file. The name of a
 parameter such as `output_file` says that the node writes it. Where a launch file names the
 parameter, it may replace the value: this is an info. In launch files of ROS 1 and ROS 2, defaults
-of arguments, parameters and the files that a command line gives a node to read are judged.
+of arguments, parameters and the files that a command line gives a node to read are judged, and
+those in commands of ROS 2.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`.
@@ -16,7 +17,7 @@ import re
 from collections.abc import Iterator
 
 from checker.launch.ros1.package_launch import LaunchEntries
-from checker.launch.ros2.graph import ParameterFile, Ros2Launch
+from checker.launch.ros2.graph import LaunchGraph, ParameterFile, Ros2Launch
 from checker.launch.ros2.named_paths import is_written
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.package import Package
@@ -57,14 +58,23 @@ def _in_ros_2(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
         for argument in graph.arguments:
             if argument.default is not None and not is_written(argument.name):
                 yield _ARGUMENT.format(argument.name), argument.default
+        yield from _commanded(graph)
         for node in graph.nodes:
-            for word in filter(_is_read, node.arguments):
-                yield _OF_COMMAND.format(node.executable.value), word
             for it in node.parameters:
                 if isinstance(it, ParameterFile):
                     yield "the parameter file", Located(it.path, it.span)
                 elif isinstance(it.value, str) and not is_written(it.name):
                     yield f"parameter {it.name}", Located(it.value, it.span)
+
+
+def _commanded(graph: LaunchGraph) -> Iterator[tuple[str, Located[str]]]:
+    """Yield the files that commands and nodes are given to read."""
+    for process in graph.processes:
+        for word in filter(_is_read, (it for words in process.commands for it in words)):
+            yield "a word of a command", word
+    for node in graph.nodes:
+        for word in filter(_is_read, node.arguments):
+            yield _OF_COMMAND.format(node.executable.value), word
 
 
 def _in_ros_1(launch: LaunchEntries) -> Iterator[tuple[str, Located[str]]]:
@@ -148,6 +158,10 @@ GOOD = [
     _example("/map/image.raw", name="topic"),
 ]
 BAD = [
+    {
+        "@ros2": "        ExecuteProcess(cmd=['gzserver', '/home/ann/ws/src/arm/hall.world']),"
+        "  # ^ WIR014"
+    },
     _launched(f'<arg name="map" default="{_HALL}"/>{_OF_ROS_1}'),
     _launched(f'<param name="map" value="{_HALL}"/>{_OF_ROS_1}', **{"maps/hall.yaml": "image: a"}),
     _launched(f'<node name="view" pkg="rviz" type="rviz" args="-d /root/a.rviz"/>{_OF_ROS_1}'),

@@ -1,9 +1,9 @@
 """A map that the map server cannot read.
 
 The file of a map names its image, relative to its own folder, and how to read it. Without the
-image, or without one of the numbers, map_server does not start, and neither does the rest of Nav2.
-A map that was saved in a home may keep its absolute path. It is a warning where no launch file
-names the map, and where `.gitignore` keeps its image out of the repository.
+image, or without one of the numbers, map_server does not start, in ROS 1 and ROS 2, and neither
+does the rest of Nav2. A map that was saved in a home may keep its absolute path. It is a warning
+where no launch file names the map, and where `.gitignore` keeps its image out of the repository.
 
 Fix: write the image's name alone, and put the image beside the file: `image: hall.pgm`.
 Source: navigation2, nav2_map_server/src/map_io.cpp, `loadMapYaml`.

@@ -85,6 +85,7 @@ class LaunchFaultKind(enum.Enum):
     ACTION = "an element is not an action"
     ATTRIBUTE = "an attribute or keyword is not known, or missing"
     CONDITION = "a condition is neither true nor false"
+    COMPARISON = "a substitution is tested as if it were its value"
     INCLUDE_LOOP = "a file includes itself"
     LIMIT = "the launch file is larger than this reader supports"
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from checker.base.record import Record
+from checker.launch.ros2.classes import SUBSTITUTIONS
 from checker.launch.ros2.graph import Condition
 from checker.source.text import Span
 
@@ -176,6 +177,11 @@ class Made:
     span: Span
     keywords: dict[str, Span] = field(default_factory=dict)
     rest: tuple[Value, ...] = ()
+
+
+def is_substitution(value: Value) -> bool:
+    """Return whether a value is a substitution, whose text is known only to launch."""
+    return isinstance(value, Made) and value.name in SUBSTITUTIONS
 
 
 class Guarded(Record, eq=False):

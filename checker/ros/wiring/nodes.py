@@ -19,6 +19,8 @@ from checker.ros.wiring.inputs import Input, inputs
 from checker.ros.wiring.parameters import LoadedFile, Setting, settings_of
 
 _REFERENCE = re.compile(r"\{([\w.]+)\}")
+_MUX = "twist_mux/twist_mux"
+"""Reads the topics that a list of its parameters names."""
 _DEEPEST = 4
 """Parameters whose defaults are the values of one another."""
 _OWN_RULES = ("-r", "--remap", "-p", "--param", "--params-file", "__node", "__ns", "__name")
@@ -132,6 +134,14 @@ class WiredNode(Record, eq=False, dict=True):
     def read(self) -> tuple[Input, ...]:
         """The known topics that it reads, as it names them."""
         return tuple(inputs(self)) if self.knows_parameters else ()
+
+    @property
+    def knows_inputs(self) -> bool:
+        """True if it reads nothing but what `read` names."""
+        facts = self.facts
+        if facts is None or facts.passes or self.program == _MUX:
+            return False
+        return not facts.subscribes or self.knows_parameters
 
     def publishes_more(self, message: str) -> str:
         """Return why it may publish a type on a topic not in `published_topics`; else nothing."""

@@ -57,10 +57,11 @@ class Wiring(Record, eq=False, dict=True):
     @cached_property
     def controllers(self) -> tuple[RunController, ...]:
         """Controllers of ros2_control that its controller managers may run."""
-        return tuple(run_controllers(self.nodes, self._spawned))
+        return tuple(run_controllers(self.nodes, self.spawned))
 
     @property
-    def _spawned(self) -> tuple[SpawnedRobot, ...]:
+    def spawned(self) -> tuple[SpawnedRobot, ...]:
+        """Robots that it puts into Gazebo."""
         simulation = self.simulation
         return (*simulation.robots, *simulation.classic_robots) if simulation is not None else ()
 
@@ -68,7 +69,7 @@ class Wiring(Record, eq=False, dict=True):
     def managers(self) -> Mapping[str, Span]:
         """Controller managers that it may run by their full names; none if one is not known."""
         simulation = self.simulation
-        found = dict(manager_names(self.every_node, self._spawned))
+        found = dict(manager_names(self.every_node, self.spawned))
         worlds = simulation.worlds if simulation is not None else ()
         plugins = (it for world in worlds for model in world.models for it in model.plugins)
         programs = {(it.node.package.value, it.node.executable.value) for it in self.every_node}
@@ -77,7 +78,7 @@ class Wiring(Record, eq=False, dict=True):
             any(node.facts is None for node in self.every_node),
             bool(self.unread) or self._renamed_in_classic,
             simulation is not None and (simulation.unknown_robots or simulation.unknown_worlds),
-            not self._spawned and not programs.isdisjoint(EVERY_SPAWN),
+            not self.spawned and not programs.isdisjoint(EVERY_SPAWN),
             any(map(runs_manager, plugins)),
         )
         return {} if any(unknown) else found
@@ -155,6 +156,23 @@ class Wiring(Record, eq=False, dict=True):
     def knows_nodes(self) -> bool:
         """True if it starts only nodes whose names are known."""
         return not self.unread and all(node.full_name for node in self.every_node)
+
+
+class Wirings(Record, eq=False):
+    """The wiring of all launch files of a package, which users start side by side."""
+
+    all: tuple[Wiring, ...]
+
+    @property
+    def unknown_readers(self) -> str:
+        """Why there may be more readers of a topic than its endpoints; else nothing."""
+        nodes = [node for each in self.all for node in each.every_node]
+        unread = [reason for each in self.all for reason in each.unread]
+        unread += [
+            f"what {node.program} reads is not known" for node in nodes if not node.knows_inputs
+        ]
+        unread += filter(None, (each.unknown_parts for each in self.all))
+        return next(iter(unread), "")
 
 
 def wirings(

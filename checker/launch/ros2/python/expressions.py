@@ -25,6 +25,7 @@ from checker.launch.ros2.values import (
     Value,
     add_place,
     chosen_value,
+    is_substitution,
 )
 
 if TYPE_CHECKING:
@@ -345,6 +346,11 @@ def _compared(run: Interpreter, kind: ast.cmpop, left: Value, right: Value, node
             return left is right
         if isinstance(kind, ast.IsNot | ast.NotEq):
             return left is not right
+    if isinstance(kind, ast.Eq | ast.NotEq) and (is_substitution(left) or is_substitution(right)):
+        differs = isinstance(kind, ast.NotEq)
+        if isinstance(left, str) or isinstance(right, str):
+            run.misuse(node, "true" if differs else "false")
+        return differs
     if isinstance(kind, ast.In | ast.NotIn) and isinstance(right, dict):
         right = [*right]
     work = COMPARISONS[type(kind)]

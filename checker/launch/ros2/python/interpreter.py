@@ -33,6 +33,7 @@ from checker.launch.ros2.values import (
     Value,
     add_place,
     chosen_value,
+    is_substitution,
 )
 from checker.source.python_places import span_of_node
 from checker.source.text import Located, SourceText, Span
@@ -73,6 +74,7 @@ class Interpreter:
         may_change: Whether the last call may have changed what is launched: it got something that
             can hold actions, or starts programs.
         notes: What was skipped.
+        misused: Tests of a substitution as if it were its value, each with its result.
     """
 
     def __init__(self, source: SourceText, allowance: Allowance, world: World) -> None:
@@ -85,6 +87,7 @@ class Interpreter:
         self.by_argument = False
         self.may_change = False
         self.notes: list[Unknown] = []
+        self.misused: dict[Span, str] = {}
 
     def module_scope(self, tree: ast.Module | None = None) -> Scope:
         """Return the names that the file defines."""
@@ -143,9 +146,16 @@ class Interpreter:
 
     def test(self, node: ast.expr, scope: Scope) -> tuple[bool | None, Condition]:
         """Return whether a test is true, and the test as a condition."""
-        truth = self.truth(evaluate(self, node, scope))
+        value = evaluate(self, node, scope)
+        if is_substitution(chosen_value(value)):
+            self.misuse(node, "true")
+        truth = self.truth(value)
         text = Located(ast.unparse(node)[:200], self.span(node))
         return truth, Condition(text, wanted=True, holds=truth)
+
+    def misuse(self, node: ast.AST, result: str) -> None:
+        """Note that the code tests an object of launch, not the value that it gets there."""
+        self.misused[self.span(node)] = f"`{ast.unparse(node)[:80]}` is always {result}"
 
     def watched(self, node: ast.expr, scope: Scope) -> Value:
         """Evaluate a value to assign; `by_argument` is about it alone."""

@@ -76,6 +76,8 @@ def _line(source: SourceText, reason: str) -> Span:
 
 
 def _tell(run: Interpreter, found: Gathered) -> None:
+    kind = LaunchFaultKind.COMPARISON
+    found.faults += (LaunchFault(kind, *it) for it in run.misused.items())
     found.unread += (Unread(note.reason, note.span) for note in run.notes)
 
 
