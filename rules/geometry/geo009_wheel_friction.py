@@ -78,7 +78,7 @@ def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Ite
                 number,
                 f"the friction of {link.name.value!r} is {number.value:g}, expected more than 0 "
                 f"and at most {most:g}",
-                key=f"{number.value:g}",
+                key=f"{'mu' if number is first else 'mu2'} {number.value:g}",
             )
 
 
