@@ -9,7 +9,8 @@ from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.formats.mjcf.model import MjcfModel
 from checker.formats.mjcf.models import MODELS_LIMIT, MjcfFiles
-from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
+from checker.launch.ros1.package_launch import LaunchEntries
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, SharePath
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
 from checker.package.formats import robot_suffixes
@@ -39,11 +40,17 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
         yield NotChecked(FILES, beyond, Cause.NOT_AT_HAND)
     if not was_read and package.kind not in _WITHOUT_ROBOT:
         yield from _without_robot(subject)
+    elif not was_read:
+        for reason in _of_roslaunch_files(subject):
+            yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
 
 
 def _without_robot(subject: Subject) -> Iterator[NotChecked]:
     package = subject.package
-    sources = (_of_launch_files(subject), _of_templates(package), _of_mujoco(subject))
+    sources = (
+        *(_of_launch_files(subject), _of_roslaunch_files(subject)),
+        *(_of_templates(package), _of_mujoco(subject)),
+    )
     reasons = list(dict.fromkeys(reason for source in sources for reason in source))
     for reason in reasons:
         yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
@@ -71,6 +78,16 @@ def _of_launch_files(subject: Subject) -> Iterator[str]:
         for simulation in simulations.launched:
             file = simulation.graph.file if simulation.graph is not None else ""
             yield from (f"{file}: {reason}" for reason in simulation.unknown_robots)
+
+
+def _of_roslaunch_files(subject: Subject) -> Iterator[str]:
+    """Yield what launch files of ROS 1 include from packages that are not available."""
+    launch = subject.one(LaunchEntries)
+    for include in () if isinstance(launch, NotAvailable) else launch.graph.unresolved_includes:
+        path = SharePath(include.package, include.file)
+        if include.package and (why := unavailable(subject.package, path)):
+            file = include.span.source.file
+            yield f"{file} includes $(find {include.package})/{include.file}: {why}"
 
 
 def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:

@@ -9,6 +9,7 @@ has registered is not found.
 """
 
 from checker.base.words import Suggestions
+from checker.package.package import Package
 from checker.ros.control.controllers import Controller, ControlSystem
 from checker.rule import (
     Concern,
@@ -19,15 +20,22 @@ from checker.rule import (
     rule,
     unchecked,
 )
+from checker.source.text import SourceText
+
+_HARDWARE = "hardware_interface::RobotHW"
 
 
 @rule("CTL001", "controller-of-unknown-joint", Severity.ERROR, Concern.INTERFACE)
-def check(control: ControlSystem) -> Findings:
-    """Report joints of controllers that no robot of the package has, or that do not move."""
+def check(control: ControlSystem, package: Package) -> Findings:
+    """Report joints of controllers that no robot of the package has, or that do not move.
+
+    Where the package has a `RobotHW` of its own, which may name joints otherwise, it is an info.
+    """
     if control.joints is None:
         yield unchecked(control.unread_robot)
         return
     names = Suggestions(control.joints)
+    own_hardware = Severity.INFO if _has_own_hardware(package) else None
     for controller in control.controllers:
         for joint in controller.joints:
             known = control.joints.get(joint.value)
@@ -37,15 +45,20 @@ def check(control: ControlSystem) -> Findings:
                     f"{_label(controller)} controls joint {joint.value!r}, "
                     "which the robot does not have",
                     names,
-                    severity=_severity(controller),
+                    severity=own_hardware or _severity(controller),
                 )
             elif not control.moves(joint.value):
                 yield finding(
                     joint,
                     f"{_label(controller)} controls joint {joint.value!r}, which is "
                     f"{known.type.value}: expected a joint that a motor can move",
-                    severity=_severity(controller),
+                    severity=own_hardware or _severity(controller),
                 )
+
+
+def _has_own_hardware(package: Package) -> bool:
+    sources = (package.read(it.path) for it in package.index.with_suffix(".h", ".hpp", ".cpp"))
+    return any(isinstance(it, SourceText) and _HARDWARE in it.text for it in sources)
 
 
 def _label(controller: Controller) -> str:
@@ -78,6 +91,11 @@ GOOD = [
     {"@urdf": True, _CONFIG: "arm:\n  drive:\n    type: my_controllers/Drive\n    wheels: 4\n"},
 ]
 BAD = [
+    {
+        "@urdf": True,
+        "src/arm.cpp": "class Arm : public hardware_interface::RobotHW {};",
+        _CONFIG: _config("elbow  # ^ CTL001"),
+    },
     {"@urdf": True, _CONFIG: _config("shoulder_joint  # ^ CTL001")},
     {"@urdf": True, _CONFIG: _config("shuolder  # ^ CTL001")},
     {"@urdf": f'<link name="plate"/>{_FIXED}', _CONFIG: _config("mount  # ^ CTL001")},

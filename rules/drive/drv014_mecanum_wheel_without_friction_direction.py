@@ -6,20 +6,26 @@ shorter than its track turned at 0.000 rad/s in Gazebo Fortress, where about 1 r
 A friction direction at 45° in the base's frame, with two different coefficients, has the effect
 of rollers.
 
-Wheels with links below them are left out, since these may be rollers.
+Wheels with links below them are left out, since these may be rollers. Up to Fortress the frame is
+that of `ignition:expressed_in`: with `gz:expressed_in` the direction turns with the wheel.
 
 Fix: give the wheel's collision
 `<fdir1 gz:expressed_in="base_link">1 -1 0</fdir1>`, `<mu>1</mu>` and `<mu2>0</mu2>` in
-`<surface><friction><ode>`; front right and rear left wheels have `1 1 0`.
+`<surface><friction><ode>`, up to Fortress with `ignition:expressed_in`; front right and rear left
+wheels have `1 1 0`.
 Source: Gazebo Sim's example of the MecanumDrive system; the turn was measured with
-ign-physics 5 (DART).
+ign-physics 5 (DART), which reads `ignition:expressed_in` alone.
 """
 
-from checker.formats.friction import FrictionReader
+from checker.formats.friction import FRAME_ATTRIBUTES, FrictionReader
 from checker.model.locomotion.drive import body_velocity
 from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+
+_NEW, _OLD = FRAME_ATTRIBUTES
+_OLDER = ("dome", "fortress")
+"""Releases that know the attribute by its old name."""
 
 
 @rule(
@@ -28,7 +34,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
     Severity.WARNING,
     Concern.ROBOT,
 )
-def check(robot: Robot) -> Findings:
+def check(robot: Robot, context: Context) -> Findings:
     """Report wheels of a Mecanum drive whose collisions have no friction direction."""
     if robot.locomotion.kind is not DriveKind.MECANUM or not robot.is_for_gazebo:
         return
@@ -41,7 +47,13 @@ def check(robot: Robot) -> Findings:
     for wheel in (wheel for drive in robot.locomotion.wheel_drives for wheel in drive.wheels):
         names = {link.scoped_name for link in wheel.body}
         shapes = [(link, shape) for link in wheel.body for shape in link.collisions]
-        directed = any(reader.friction_of(*each).direction for each in shapes)
+        frictions = [reader.friction_of(*each) for each in shapes]
+        directed = any(friction.direction for friction in frictions)
+        unread = (it.frame_attribute for it in frictions if it.frame_attribute is not None)
+        for attribute in unread if context.release in _OLDER else ():
+            if attribute.value == _NEW:
+                message = f"{context.release.capitalize()} does not read {_NEW}: write {_OLD}"
+                yield finding(attribute, message, key="frame")
         if shapes and not directed and not names & parents:
             yield finding(
                 shapes[0][1],
@@ -86,5 +98,17 @@ _DIRECTED = """
 _WHOLE = (
     '<plugin filename="gz-sim-velocity-control-system" name="gz::sim::systems::VelocityControl"/>'
 )
-GOOD = [_robot(_DIRECTED), _robot(below=_ROLLERS), _robot(plugin=_WHOLE)]
-BAD = [_robot(mark="  <!-- ^ DRV014 -->")]
+_MARK = "  <!-- ^ DRV014 -->"
+GOOD = [
+    {"@fragment": _robot(_DIRECTED), "@profile": "gazebo-harmonic"},
+    {"@fragment": _robot(_DIRECTED.replace(_NEW, _OLD)), "@profile": "gazebo-fortress"},
+    _robot(below=_ROLLERS),
+    _robot(plugin=_WHOLE),
+]
+BAD = [
+    _robot(mark=_MARK),
+    {
+        "@fragment": _robot(_DIRECTED.replace("</fdir1>", f"</fdir1>{_MARK}")),
+        "@profile": "gazebo-fortress",
+    },
+]

@@ -27,7 +27,7 @@ _CMAKE = re.compile(
 """Among others a call with a variable, next to the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
 _SETUP = re.compile(
-    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%|\bfor\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
+    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%|\bfor\s[\w\s,()]{1,60}\sin\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
 )
 """Among others names that are put together, and scripts that are not listed."""
 _NOT_PLAIN = {
@@ -98,7 +98,8 @@ def _node(executable: str, build: str, mark: str = "", package: str = "acme_arm_
 
 _SETUP_PY = """from glob import glob
 from setuptools import setup
-setup(name='acme_nodes', data_files=[('share/acme_nodes/launch', glob('launch/*'))],
+setup(name='acme_nodes', description='Nodes for an arm.',
+      data_files=[('share/acme_nodes/launch', glob('launch/*'))],
       entry_points={'console_scripts': ['watch = acme_nodes.watch:main']})
 """
 

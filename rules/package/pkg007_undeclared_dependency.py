@@ -219,7 +219,8 @@ def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
             continue
         for other in package.workspace.packages:
             slip = is_slip_for(name, other) or (is_plugin and _is_own(package, name, other))
-            if slip and other != package.name:
+            # `rover_msgs` of another repository is not a slip for `rover`.
+            if slip and other != package.name and not name.startswith(f"{other}_"):
                 message = f"there is no package {name}; did you mean {other!r}?"
                 fix = rename(dependency.package, other)
                 yield finding(dependency.package, message, key=name, fix=fix)

@@ -101,7 +101,7 @@ def _no_states(launched: LaunchedControl, package: Package) -> Iterator[Finding]
     complete = launched.is_complete and all(spawner.complete for spawner in launched.spawners)
     broadcasters = [it for it in launched.controllers if it.type.value == _STATE_BROADCASTER]
     own = [it.name for it in launched.controllers if it.name in spawned]
-    started = {it.name for it in broadcasters} & package.workspace.launch_words
+    started = {it.name for it in broadcasters} & {*spawned, *package.workspace.launch_words}
     for broadcaster in broadcasters if complete and own and not started else ():
         yield finding(
             broadcaster.span,

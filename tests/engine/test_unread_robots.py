@@ -17,6 +17,11 @@ ARM = "urdf/arm.urdf.xacro"
 OF_ANOTHER = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
             parameters=[{'robot_description': Command(['xacro ', os.path.join(
                 get_package_share_directory('acme_hand'), 'urdf', 'hand.urdf.xacro')])}]),"""
+CATKIN = """<package format="2"><name>acme_demo</name><version>1.0.0</version>
+<description>A demo.</description><maintainer email="a@example.org">A</maintainer>
+<license>Apache-2.0</license><buildtool_depend>catkin</buildtool_depend>
+<exec_depend>acme_hand</exec_depend></package>
+"""
 WITHOUT_ROBOT = {
     "@ros2": True,
     ARM: None,
@@ -62,6 +67,21 @@ def test_a_launch_file_names_the_package_that_is_missing(tmp_path: Path, ignored
     (reason,) = reasons(checked(example, tmp_path))
     assert "acme_hand)/urdf/hand.urdf.xacro" in reason
     assert ("COLCON_IGNORE" if ignored else "--package-path DIR") in reason
+
+
+@pytest.mark.parametrize("more", [{}, {"src/node.cpp": "", "CMakeLists.txt": "add_library(a b)"}])
+def test_a_launch_file_of_ros_1_does_so_too(tmp_path: Path, more: dict[str, object]) -> None:
+    folder = tmp_path / "acme_demo"
+    folder.mkdir()
+    launch = '<launch><include file="$(find acme_hand)/launch/hand.launch"/></launch>'
+    files = {"package.xml": CATKIN, "launch/demo.launch": launch, **more}
+    for name, text in files.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(str(text))
+    (report,) = check_package(folder, Settings(trial=False)).packages
+    assert report.verdict is VerdictKind.INCOMPLETE
+    (reason,) = reasons(report)
+    assert reason.startswith("launch/demo.launch includes $(find acme_hand)/launch/hand.launch:")
 
 
 def test_a_template_is_no_robot(tmp_path: Path) -> None:
