@@ -47,15 +47,18 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 
     A container file counts before CI, and both before the README. Files at the top of the folder
     with the package's siblings count like its own; those of the folders around it, as far as the
-    user gave them, only where these name none. Where nothing else names one, paths do, as in
-    `file:///opt/ros/humble/share`.
+    user gave them, only where these name none, or name one of several that these name. Where
+    nothing else names one, paths do, as in `file:///opt/ros/humble/share`.
     """
     nearest, *further = files_above(package, NAMES) or [()]
+    several: set[str] = set()
     for sources in ((*own_files(package, NAMES), *nearest), *further):
         signs = _signs(sources, _NAMED)
-        if signs:
-            return _only(signs)
-    return sign_of_paths(package)
+        one = _only(signs)
+        if one is not None:
+            return one if not several or one.distro in several else None
+        several |= {sign.distro for sign in signs}
+    return None if several else sign_of_paths(package)
 
 
 def former_distribution(package: Package) -> str:

@@ -4,9 +4,9 @@ A controller claims the interfaces of its joints when it is activated: `wheel_jo
 `<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
 controller that no launch file names, this is a warning: nothing starts it.
 
-Fix: write the joint's name as in `<ros2_control>`, or add the `<command_interface>` or
-`<state_interface>` that the controller needs: drives need `velocity` of wheels and `position` of
-steering joints.
+Fix: write one name of the joint in URDF, `<ros2_control>` and controller, or add the
+`<command_interface>` or `<state_interface>` that the controller needs: drives need `velocity` of
+wheels and `position` of steering joints.
 Source: ros2_control, ResourceManager; ros2_controllers, `command_interface_configuration` and
 `state_interface_configuration` of each controller.
 """
@@ -71,7 +71,12 @@ def _faults(
             message = f"{controller.label} names joint {name!r}, which"
             key = f"{name} {controller.name}"
             if name in control.robot.joints_by_name:
-                yield finding(claim.joint, f"{message} is in no <ros2_control> tag", key=key)
+                message += " is in no <ros2_control> tag"
+                meant = _meant(control, name)
+                if meant is not None:
+                    message += f": write {name!r} there for {meant.name.value!r}"
+                related = [(meant, "the joint in <ros2_control>")] if meant is not None else []
+                yield finding(claim.joint, message, key=key, related=related)
             else:
                 message += " the robot does not have"
                 yield misspelt(claim.joint, message, suggestions, key=key)
@@ -83,6 +88,13 @@ def _faults(
                 "<ros2_control>",
                 suggestions,
             )
+
+
+def _meant(control: RobotControl, name: str) -> HardwareJoint | None:
+    """Return the joint of `<ros2_control>` that the robot lacks and whose name is near."""
+    strays = {it.name.value: it for it in control.joints.values() if control.joint(it) is None}
+    near = Suggestions(strays).closest(name)
+    return strays.get(near) if near else None
 
 
 def _missing(
@@ -123,10 +135,12 @@ _PARAMETERS = "<parameters>$(find acme_arm_description)/config/arm.yaml</paramet
 
 
 def _arm(
-    parameters: str, kind: str = "joint_trajectory_controller/JointTrajectoryController"
+    parameters: str,
+    kind: str = "joint_trajectory_controller/JointTrajectoryController",
+    more: str = "",
 ) -> object:
     return {
-        "@urdf": ros2_control(_INTERFACES, GAZEBO) + gazebo_control(_PARAMETERS),
+        "@urdf": ros2_control(_INTERFACES + more, GAZEBO) + gazebo_control(_PARAMETERS),
         "config/arm.yaml": f"""controller_manager:
   ros__parameters:
     arm_controller:
@@ -154,6 +168,7 @@ GOOD = [
 ]
 BAD = [
     _arm("joints: [elbow]  # ^ R2C009"),
+    _arm("joints: [elbow]  # ^ R2C009", more='<joint name="elbow_"/>'),
     _arm(
         "joints: [shoulder]  # ^ R2C009\n"
         "    command_interfaces: [position]\n    state_interfaces: [position, velocity]"

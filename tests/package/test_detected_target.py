@@ -331,7 +331,11 @@ def test_models_without_a_package_are_for_classic_where_all_packages_beside_are(
 
 
 @pytest.mark.parametrize(
-    ("near", "expected"), [("", "humble"), ("ROS 2 Jazzy", "jazzy"), ("Humble? ros:iron", "iron")]
+    ("near", "expected"),
+    [
+        *(("", "humble"), ("ROS 2 Jazzy", "jazzy"), ("Humble? ros:iron", "iron")),
+        *(("ROS 2 Humble, ROS 2 Jazzy", "humble"), ("ROS 2 Iron, ROS 2 Jazzy", "")),
+    ],
 )
 def test_the_readme_of_the_folder_that_is_given_tells(
     near: str, expected: str, tmp_path: Path
