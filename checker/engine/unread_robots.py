@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
@@ -47,11 +48,13 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
 
 def _without_robot(subject: Subject) -> Iterator[NotChecked]:
     package = subject.package
-    sources = (
-        *(_of_launch_files(subject), _of_roslaunch_files(subject)),
-        *(_of_templates(package), _of_mujoco(subject)),
+    sources = chain(
+        _of_launch_files(subject),
+        _of_roslaunch_files(subject),
+        _of_templates(package),
+        _of_mujoco(subject),
     )
-    reasons = list(dict.fromkeys(reason for source in sources for reason in source))
+    reasons = list(dict.fromkeys(sources))
     for reason in reasons:
         yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
     if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):

@@ -22,7 +22,8 @@ class Friction(Record, eq=False):
         second: Across it (`mu2`).
         direction: The first friction direction in the frame of the collision (`fdir1`), of any
             length; None for the world's axes.
-        frame_attribute: The attribute of `fdir1` that names another frame, if any.
+        frame_attribute: The name of the attribute of `fdir1` that gives another frame, where its
+            value is written; None without one.
     """
 
     first: Located[float] | None = None
@@ -54,9 +55,7 @@ class FrictionReader:
         for element in extensions:
             first_number = extension_number(element, "mu1")
             if first_number is not None:
-                along = element.child("fdir1")
-                second_number = extension_number(element, "mu2")
-                return Friction(first_number, second_number, _direction(along), _frame(along))
+                return _friction(first_number, extension_number(element, "mu2"), element)
         return Friction()
 
 
@@ -64,24 +63,26 @@ def _of_surface(stated: Element) -> Friction:
     for engine, first, second in _SDF:
         element = stated.child(engine)
         if element is not None:
-            along = element.child("fdir1")
             numbers = (stated_number(element, first), stated_number(element, second))
-            return Friction(*numbers, _direction(along), _frame(along))
+            return _friction(*numbers, element)
     return Friction()
 
 
-def _frame(direction: Element | None) -> Located[str] | None:
-    """Return the attribute that names the frame of a direction: its name, at its value."""
-    for name in FRAME_ATTRIBUTES if direction is not None else ():
-        written = direction.attribute(name) if direction is not None else None
-        if written is not None:
-            return Located(name, written.span)
-    return None
+def _friction(
+    first: Located[float] | None, second: Located[float] | None, element: Element
+) -> Friction:
+    """Return the friction of two coefficients, with the `fdir1` beside them."""
+    along = element.child("fdir1")
+    if along is None:
+        return Friction(first, second)
+    frames = ((name, along.attribute(name)) for name in FRAME_ATTRIBUTES)
+    frame = next((Located(name, it.span) for name, it in frames if it is not None), None)
+    return Friction(first, second, _direction(along), frame)
 
 
-def _direction(element: Element | None) -> Vector | None:
+def _direction(element: Element) -> Vector | None:
     """Return the direction that an element states; None for zeros and for what is no direction."""
-    match numbers_of_words(element.text.value) if element is not None else []:
+    match numbers_of_words(element.text.value):
         case [float(x), float(y), float(z)] if 0.0 < math.hypot(x, y, z) < math.inf:
             return (x, y, z)
     return None

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 _DISTROS = "foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling"
-BEFORE_HUMBLE = ("foxy", "galactic")
+_BEFORE_HUMBLE = ("foxy", "galactic")
 _BEFORE_NOETIC = "indigo|jade|kinetic|lunar|melodic"
 _BEFORE = (
     r"(?:\bros[ -]?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}|\bros_distribution\W{1,4}"
@@ -64,7 +64,7 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 def former_distribution(package: Package) -> str:
     """Return the clause that a package is for a distribution before Humble; else empty."""
     sign = package.distribution_sign
-    if sign is None or sign.distro not in BEFORE_HUMBLE:
+    if sign is None or sign.distro not in _BEFORE_HUMBLE:
         return ""
     return f"{sign.words}, whose packages are not known"
 

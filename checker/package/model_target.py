@@ -20,6 +20,7 @@ from checker.package.simulator_signs import (
 if TYPE_CHECKING:
     from checker.package.package import Package
 
+_LATER = (IGNITION, GZ, ROS_GZ)
 _OF_IGNITION = re.compile(r"\blibignition-gazebo\d*-[\w-]+-system\.so\b")
 
 
@@ -68,15 +69,12 @@ def _classic_model_sign(package: Package, around: Package) -> str:
         package: The model or world.
         around: The package of ROS 2 that it is in.
     """
-    starting = [text for text in package.workspace.launch_texts.values() if package.name in text]
+    starting = package.workspace.launches_with(package.name)
     in_classic = any(LAUNCH[CLASSIC].search(text) for text in starting)
-    in_later = any(
-        LAUNCH[later].search(text) for text in starting for later in (IGNITION, GZ, ROS_GZ)
-    )
+    in_later = any(LAUNCH[later].search(text) for text in starting for later in _LATER)
     if in_later and not in_classic:
         return ""
-    paths = (file.path for file in package.index.with_suffix(".sdf", ".world"))
-    own = dict(signs_in_files(package, paths, DESCRIPTION))
+    own = _own_signs(package, DESCRIPTION)
     if [*own] == [CLASSIC] and (in_classic or CLASSIC in around.simulator_signs):
         return own[CLASSIC]
     is_alone = in_classic and not in_later and not own
@@ -88,9 +86,12 @@ def _ignition_sign(package: Package) -> str:
 
     Nothing does where it has its own package.xml, or a launch file names it.
     """
-    launch = package.workspace.launch_texts.values()
-    if package.exists("package.xml") or any(package.name in text for text in launch):
+    if package.exists("package.xml") or package.workspace.launches_with(package.name):
         return ""
+    return _own_signs(package, {IGNITION: _OF_IGNITION}).get(IGNITION, "")
+
+
+def _own_signs(package: Package, patterns: dict[str, re.Pattern[str]]) -> dict[str, str]:
+    """Return which simulators a model or world names, each with the first place that does."""
     paths = (file.path for file in package.index.with_suffix(".sdf", ".world"))
-    found = signs_in_files(package, paths, {IGNITION: _OF_IGNITION})
-    return next((words for _, words in found), "")
+    return dict(reversed([*signs_in_files(package, paths, patterns)]))

@@ -131,6 +131,10 @@ class Workspace(Record, eq=False, dict=True):
             for path, text in package.launch_texts.items()
         }
 
+    def launches_with(self, name: str) -> list[str]:
+        """Return the texts of the launch files that contain a name, as that of a file."""
+        return [text for text in self.launch_texts.values() if name in text]
+
     @cached_property
     def launch_words(self) -> frozenset[str]:
         """Every word of the launch files of all available packages, comments included."""

@@ -8,11 +8,17 @@ Source: ros_control, `hardware_interface::ResourceManager::getHandle`: a joint t
 has registered is not found.
 """
 
+from collections.abc import Iterator, Mapping
+
+from msgspec.structs import replace
+
 from checker.base.words import Suggestions
+from checker.model.components import Joint
 from checker.package.package import Package
 from checker.ros.control.controllers import Controller, ControlSystem
 from checker.rule import (
     Concern,
+    Finding,
     Findings,
     Severity,
     finding,
@@ -34,25 +40,31 @@ def check(control: ControlSystem, package: Package) -> Findings:
     if control.joints is None:
         yield unchecked(control.unread_robot)
         return
-    names = Suggestions(control.joints)
-    own_hardware = Severity.INFO if _has_own_hardware(package) else None
+    found = [*_unknown(control, control.joints)]
+    if found and _has_own_hardware(package):
+        found = [replace(it, severity=Severity.INFO) for it in found]
+    yield from found
+
+
+def _unknown(control: ControlSystem, joints: Mapping[str, Joint]) -> Iterator[Finding]:
+    names = Suggestions(joints)
     for controller in control.controllers:
         for joint in controller.joints:
-            known = control.joints.get(joint.value)
+            known = joints.get(joint.value)
             if known is None:
                 yield misspelt(
                     joint,
                     f"{_label(controller)} controls joint {joint.value!r}, "
                     "which the robot does not have",
                     names,
-                    severity=own_hardware or _severity(controller),
+                    severity=_severity(controller),
                 )
             elif not control.moves(joint.value):
                 yield finding(
                     joint,
                     f"{_label(controller)} controls joint {joint.value!r}, which is "
                     f"{known.type.value}: expected a joint that a motor can move",
-                    severity=own_hardware or _severity(controller),
+                    severity=_severity(controller),
                 )
 
 

@@ -50,6 +50,7 @@ def check(
         rounding: The same for URDF, which is not read by libsdformat: numbers rounded to three
             digits do no harm.
     """
+    classic = context.release == "classic"
     readable = Severity.ERROR if context.release else Severity.WARNING
     robot = inertias.robot
     misread = _misread(robot)
@@ -69,12 +70,12 @@ def check(
             continue
         if inertia.mass < 0.0 or not still:
             yield from _mass(inertia, inertial, readable)
+        if classic and still:
+            continue
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = merges and inertia.piece_eigenvalue >= -share
-        scenery = context.release == "classic" and robot.is_prop and not merges
+        scenery = classic and robot.is_prop and not merges
         possible = Severity.WARNING if merged or scenery else Severity.ERROR
-        if context.release == "classic" and still:
-            continue
         if context.release in ("", "classic") and _is_rounded(inertia, inertial):
             continue
         yield from _moments(robot, inertia, inertial, possible, share)

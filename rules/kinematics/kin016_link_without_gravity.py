@@ -7,8 +7,8 @@ checked has this fault.
 
 An arm without gravity may be intended, to replace springs that balance the real one. For links
 other than the base and the wheels, it is an info, and so is a model all of whose links have none. A
-model without joints, sensors and plugins is an
-object that may be held in the air: there it is not reported.
+model without joints, sensors and plugins is an object that may be held in the air: there it is not
+reported.
 
 Fix: remove `<gravity>` and `<kinematic>` from the link.
 Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`; what

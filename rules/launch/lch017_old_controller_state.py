@@ -11,7 +11,7 @@ Source: ros2_control pull request 755, ros2controlcli; gazebo_ros2_control pull 
 from collections.abc import Mapping, Sequence
 
 from checker.launch.ros2.graph import Ros2Launch
-from checker.package.distribution_sign import BEFORE_HUMBLE
+from checker.package.distribution_sign import former_distribution
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
@@ -24,8 +24,7 @@ _OPTION = "--set-state"
 @rule("LCH017", "old-controller-state", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report states that `ros2 control` of Humble and later does not know."""
-    sign = package.distribution_sign
-    if sign is not None and sign.distro in BEFORE_HUMBLE:
+    if former_distribution(package):
         return
     for graph in launch.entries:
         for process in graph.processes:

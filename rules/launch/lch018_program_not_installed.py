@@ -27,7 +27,8 @@ _CMAKE = re.compile(
 """Among others a call with a variable, next to the name of the project."""
 _PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
 _SETUP = re.compile(
-    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%|\bfor\s[\w\s,()]{1,60}\sin\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
+    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%"
+    r"|\bfor\s[\w\s,()]{1,60}\sin\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
 )
 """Among others names that are put together, and scripts that are not listed."""
 _NOT_PLAIN = {

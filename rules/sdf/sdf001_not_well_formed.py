@@ -79,7 +79,7 @@ def _is_used(path: str, package: Package) -> bool:
     model = package.model_path
     if name == "package.xml" or (isinstance(model, Found) and model.path == path):
         return not package.only
-    return any(name in text for text in package.workspace.launch_texts.values())
+    return bool(package.workspace.launches_with(name))
 
 
 def _finding(path: str, fault: XmlFault, severity: Severity | None = None) -> Finding:

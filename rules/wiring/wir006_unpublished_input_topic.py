@@ -15,7 +15,13 @@ Source: robot_localization, slam_toolbox and navigation2: parameters that name t
 ros2_controllers, topics of the controllers.
 """
 
-from checker.ros.wiring.sensed import alike, sources, topics_read_by, unpublished_inputs
+from checker.ros.wiring.sensed import (
+    alike,
+    sources,
+    topics_read_by,
+    unpublished_inputs,
+    where_published,
+)
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -32,12 +38,10 @@ def check(wiring: Wiring) -> Findings:
         if unknown and not alike(wanted, others[0]):
             yield unchecked(f"the publishers of {wanted.topic} are not all known: {unknown}")
             continue
-        kind = message.rpartition("/")[2]
-        names = ", ".join(dict.fromkeys(it.topic for it in others))
         yield finding(
             wanted.span,
             f"{wanted.by} reads {wanted.topic} ({wanted.parameter}), which nothing in this launch "
-            f"publishes: {kind} is on {names}",
+            f"publishes: {where_published(message, others)}",
             key=f"{wanted.by} {wanted.topic}",
             related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
         )

@@ -31,8 +31,8 @@ def check(package: Package) -> Findings:
         image = root.get("image") if root is not None else None
         if root is None or image is None or not any(map(root.get, _NUMBERS)):
             continue
-        name, launch = posixpath.basename(file.path), package.workspace.launch_texts
-        severity = None if any(name in text for text in launch.values()) else Severity.WARNING
+        launched = package.workspace.launches_with(posixpath.basename(file.path))
+        severity = None if launched else Severity.WARNING
         if missing := [name for name in _NUMBERS if root.get(name) is None]:
             message = f"the map has no {and_list(missing)}, which map_server requires"
             yield finding(image, message, severity=severity, key="entries")

@@ -13,7 +13,13 @@ Source: navigation2, parameters `odom_topic` and `topic`; ros2_controllers, topi
 controllers.
 """
 
-from checker.ros.wiring.sensed import alike, sources, topics_read_by, unpublished_inputs
+from checker.ros.wiring.sensed import (
+    alike,
+    sources,
+    topics_read_by,
+    unpublished_inputs,
+    where_published,
+)
 from checker.ros.wiring.wiring import Wirings
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -35,12 +41,10 @@ def check(wirings: Wirings) -> Findings:
             if unknown and not any(alike(wanted, it) for it in others):
                 yield unchecked(f"the publishers of {wanted.topic} are not all known: {unknown}")
                 continue
-            kind = message.rpartition("/")[2]
-            names = ", ".join(dict.fromkeys(it.topic for it in others))
             yield finding(
                 wanted.span,
                 f"{wanted.by} reads {wanted.topic} ({wanted.parameter}), which no launch file of "
-                f"the package publishes: {kind} is on {names}",
+                f"the package publishes: {where_published(message, others)}",
                 key=wanted.topic,
                 related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
             )
@@ -62,7 +66,7 @@ _BRIDGE = """- ros_topic_name: base/odom
 
 
 def _example(
-    topic: str, mark: str = "", bridge: str = _BRIDGE, more: str = ""
+    topic: str, mark: str = "", bridge: str = _BRIDGE, more: str = _LIDAR
 ) -> dict[str, object]:
     return {
         "@bridge": bridge,

@@ -13,8 +13,6 @@ Source: navigation2, `cmd_vel_out_topic` of nav2_collision_monitor; ros2_control
 `~/cmd_vel` of diff_drive_controller.
 """
 
-from collections.abc import Sequence
-
 from checker.ros.wiring.endpoints import Endpoint
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wirings
@@ -39,22 +37,18 @@ def check(wirings: Wirings) -> Findings:
     if reason := wirings.unknown_readers:
         yield unchecked(f"the readers of {lost[0].topic} are not all known: {reason}")
         return
-    yield from _unread(lost, drives)
+    for sender in lost:
+        yield finding(
+            sender.span,
+            f"{sender.by} publishes {sender.topic}, which nothing reads: "
+            f"{drives[0].by} reads {drives[0].topic}, on which nothing publishes",
+            key=sender.topic,
+            related=[(drives[0].span, f"reads {drives[0].topic}")],
+        )
 
 
 def _is_drive(endpoint: Endpoint) -> bool:
     return endpoint.certain and not isinstance(endpoint.owner, WiredNode)
-
-
-def _unread(lost: Sequence[Endpoint], drives: Sequence[Endpoint]) -> Findings:
-    for published in lost:
-        yield finding(
-            published.span,
-            f"{published.by} publishes {published.topic}, which nothing reads: "
-            f"{drives[0].by} reads {drives[0].topic}, on which nothing publishes",
-            key=published.topic,
-            related=[(drives[0].span, f"reads {drives[0].topic}")],
-        )
 
 
 _NAVIGATION = """<launch>

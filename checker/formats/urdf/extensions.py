@@ -54,10 +54,13 @@ _WITHOUT_EFFECT = frozenset(
         *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
         *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
         *("dampingFactor", "kd", "kp", "maxContacts", "maxVel", "minDepth"),
-        *("selfCollide", "self_collide"),
+        *("mu1", "mu2", "selfCollide", "self_collide"),
     }
 )
-"""Elements without which a robot moves and senses in the same way: looks, and tuned contacts."""
+"""Elements without which a robot moves and senses in the same way: looks, and tuned contacts.
+
+A friction below `_GRIPS` makes a difference.
+"""
 _GRIPS = 0.5
 """Coefficient of friction from which a part holds as well as with Gazebo's default of 1."""
 
@@ -66,4 +69,4 @@ def simulates(tag: Element) -> bool:
     """Return whether a robot moves or senses in another way without this `<gazebo>` tag."""
     frictions = (extension_number(tag, "mu1"), extension_number(tag, "mu2"))
     slips = any(number is not None and number.value < _GRIPS for number in frictions)
-    return slips or any(child.tag not in _WITHOUT_EFFECT | {"mu1", "mu2"} for child in tag.children)
+    return slips or not _WITHOUT_EFFECT.issuperset(child.tag for child in tag.children)

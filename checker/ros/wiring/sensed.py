@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from checker.ros.wiring.endpoints import Endpoint
 from checker.ros.wiring.nodes import WiredNode
@@ -57,6 +57,12 @@ def sources(
 def topics_read_by(wiring: Wiring, owner: object) -> set[str]:
     """Return the topics that a node of a launch reads."""
     return {it.topic for it in wiring.endpoints if it.owner is owner and not it.publishes}
+
+
+def where_published(message: str, others: Iterable[Endpoint]) -> str:
+    """Return where the messages of a type are, for a message: `Odometry is on /base/odom`."""
+    names = dict.fromkeys(it.topic for it in others)
+    return f"{message.rpartition('/')[2]} is on {', '.join(names)}"
 
 
 def alike(first: Endpoint, second: Endpoint) -> bool:
