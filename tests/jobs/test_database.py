@@ -6,6 +6,7 @@ import socket
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from threading import Barrier
 from time import monotonic, sleep, time
 
 import pytest
@@ -39,6 +40,21 @@ def test_many_may_prepare_a_new_database_at_once(url: str) -> None:
     assert {"subt_salts", "subt_workers"} <= set(names)
     for engine in engines:
         engine.dispose()
+
+
+def test_many_may_open_a_new_file_at_once(tmp_path: Path) -> None:
+    together = Barrier(6)
+
+    def opened(url: str) -> None:
+        engine = open_database(url)
+        together.wait()
+        with engine.connect() as connection:
+            connection.execute(sa.text("CREATE TABLE IF NOT EXISTS names (name)"))
+        engine.dispose()
+
+    with ThreadPoolExecutor(6) as pool:
+        for number in range(60):
+            list(pool.map(opened, 6 * [f"sqlite:///{tmp_path}/{number}.sqlite"]))
 
 
 def test_its_clock_is_about_right(url: str) -> None:

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import logging
 import os
+import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -42,6 +44,7 @@ _POOL: Mapping[str, Any] = {
     "hide_parameters": True,  # names of files are their senders', and errors get into logs
 }
 _BUSY_MILLISECONDS = 30_000
+_SWITCH_SECONDS = 0.02
 _NO_ADDRESS = (
     "SUBT_CHECK_DATABASE_URL is not the address of a shared database, expected sqlite:///FILE or "
     "postgresql://…"
@@ -177,8 +180,26 @@ def _sqlite(address: sa.URL) -> sa.Engine:
         # Writers queue up from the start of a transaction, and readers never wait for them.
         connection.isolation_level = "IMMEDIATE"
         connection.execute(f"PRAGMA busy_timeout={_BUSY_MILLISECONDS}")
-        connection.execute("PRAGMA journal_mode=WAL")
+        _write_ahead(connection)
         connection.execute("PRAGMA synchronous=FULL")
         connection.execute("PRAGMA foreign_keys=ON")
 
     return engine
+
+
+def _write_ahead(connection: Any) -> None:
+    """Switch the file to a write-ahead log.
+
+    SQLite reports "locked" at once, whatever the timeout, to all but one of those that switch a new
+    file in the same moment: each would wait for the other.
+    """
+    deadline = monotonic() + _BUSY_MILLISECONDS / 1000
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode=WAL")
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode != sqlite3.SQLITE_BUSY or monotonic() > deadline:
+                raise
+            sleep(_SWITCH_SECONDS)
+        else:
+            return
