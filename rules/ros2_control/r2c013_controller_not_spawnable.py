@@ -6,7 +6,7 @@ type of each: by `<name>: {type: …}` in its own parameters, or by the file tha
 ros2_controllers is not configured either if no file has parameters that it requires.
 
 Without a controller manager, spawners wait forever: either `ros2_control_node` runs it, or a plugin
-in Gazebo. Both together do not work: the node cannot load the hardware of Gazebo.
+in Gazebo. Both together: WIR022.
 
 A joint state broadcaster that is configured, but not started with the other controllers, is a
 warning: nothing publishes /joint_states, and no moving link has a transform.
@@ -25,7 +25,6 @@ from checker.package.package import Package
 from checker.ros.ros2_control.distributions import (
     controller_types,
     distribution_of,
-    is_of_gazebo,
 )
 from checker.ros.ros2_control.launched import LaunchedControl
 from checker.rule import (
@@ -46,12 +45,11 @@ _STATE_BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
 @rule("R2C013", "controller-not-spawnable", Severity.ERROR, Concern.INTERFACE)
 def check(launched: LaunchedControl, package: Package, context: Context) -> Findings:
-    """Report controllers without type or parameters, and launch files without or with two managers.
+    """Report controllers without type or parameters, and launch files without a manager.
 
     Files that could not be read may say more: then nothing is reported of what they could hold. A
     launch file without a manager is a warning.
     """
-    yield from _two_managers(launched)
     yield from _no_states(launched, package)
     yield from _no_parameters(launched, package, distribution_of(context))
     in_gazebo = [control for control in launched.controls if control.managers]
@@ -77,23 +75,6 @@ def check(launched: LaunchedControl, package: Package, context: Context) -> Find
                 words = name.value.rpartition("_")[0]
                 is_meant = len(idle) == 1 and bool(words) and idle[0].startswith(words)
                 yield replace(found, fix=found.fix or (rename(name, idle[0]) if is_meant else None))
-
-
-def _two_managers(launched: LaunchedControl) -> Iterator[Finding]:
-    simulated = [
-        hardware
-        for control in launched.controls
-        for hardware in control.hardware
-        if control.managers and is_of_gazebo(hardware.plugin.value)
-    ]
-    if launched.simulates and simulated:
-        for node in launched.managers:
-            yield finding(
-                node,
-                "two controller managers run: in Gazebo, and in ros2_control_node, which cannot "
-                "load the hardware of Gazebo",
-                related=[(simulated[0].plugin, "the hardware")],
-            )
 
 
 def _no_states(launched: LaunchedControl, package: Package) -> Iterator[Finding]:
@@ -272,5 +253,4 @@ BAD = [
     },
     _arm(_NODE, _spawner("grip_controller", mark=_MARK)),
     _arm(_STATES, _spawner("arm_controller").replace("Node(", f"Node({_MARK}\n            ")),
-    _arm(_NODE.replace("Node(", f"Node({_MARK}\n            "), _CREATE, gazebo=True),
 ]

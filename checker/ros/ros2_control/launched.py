@@ -149,14 +149,6 @@ class LaunchedControl(Record, eq=False, dict=True):
         """Controller managers that it starts as nodes."""
         return tuple(filter(_is_manager, self.nodes))
 
-    @property
-    def simulates(self) -> bool:
-        """True if it puts a robot into Gazebo."""
-        return any(
-            node.package.value == "ros_gz_sim" and node.executable.value == "create"
-            for node in self.nodes
-        )
-
     @cached_property
     def spawns_manager(self) -> bool | None:
         """Whether a plugin of what it spawns runs a controller manager; None if not known."""
