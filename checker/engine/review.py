@@ -46,6 +46,7 @@ from checker.report.report import (
     ReportedFinding,
 )
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
+from checker.robots.unspawned import unstarted_world
 from checker.rule import Rule
 from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
@@ -83,7 +84,8 @@ def run_and_set_aside(
     held = settings.baseline.packages.get(subject.package.name, ())
     matcher = SuppressionMatcher(subject.package, settings.suppress, every, held)
     unloaded = subject.package.unloaded_files
-    run = partial(run_rules, allowance=subject.allowance)
+    unstarted = unstarted_world(subject.package)
+    run = partial(run_rules, unstarted=unstarted, allowance=subject.allowance)
     outcome = run(first, subject, judge, matcher, unloaded)
     for description in other_descriptions(subject):
         other = with_only_robot(subject, description)

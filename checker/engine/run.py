@@ -65,6 +65,7 @@ def run_rules(
     matcher: SuppressionMatcher | None = None,
     unloaded: Collection[str] = (),
     *,
+    unstarted: str = "",
     allowance: Allowance | None = None,
 ) -> Outcome:
     """Run the rules of profile and settings; one that crashes stops no other.
@@ -75,6 +76,7 @@ def run_rules(
         judge: The selection of rules, and the severities of findings.
         matcher: The matcher of findings that do not count.
         unloaded: Files that nothing loads: what is found in them is information.
+        unstarted: That nothing starts the whole, as a clause: what is found is no error.
         allowance: What each rule may use; the usual when None.
     """
     allowance = allowance or Allowance()
@@ -85,7 +87,7 @@ def run_rules(
         if not judge.is_selected(rule):
             not_checked += judge.switched_off(rule)
             continue
-        result = _run_isolated(rule, parts, judge, allowance)
+        result = _run_isolated(rule, parts, judge, allowance, unstarted)
         severity = judge.severity(rule)
         if isinstance(result, NotChecked):
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
@@ -203,7 +205,7 @@ def join_outcomes(*outcomes: Outcome) -> Outcome:
 
 
 def _run_isolated(
-    rule: Rule, parts: Parts, judge: Judge, allowance: Allowance
+    rule: Rule, parts: Parts, judge: Judge, allowance: Allowance, unstarted: str
 ) -> list[Finding | Unchecked] | NotChecked:
     """Run one rule; what goes wrong inside it is the checker's fault and states it."""
     try:
@@ -214,7 +216,7 @@ def _run_isolated(
         options = options_of(rule, judge.settings)
         with allowance.piece():
             said = [
-                (unloaded_in(each, rule.group), [*rule.check(**each, **options)])
+                (unloaded_in(each, rule.group) or unstarted, [*rule.check(**each, **options)])
                 for each in arguments
             ]
             return [*less_of_unloaded(said, rule.severity)]

@@ -1,10 +1,12 @@
-"""Files that `.gitignore` keeps out of a repository, by the ends of their names."""
+"""Files that `.gitignore` keeps out of a repository."""
 
 from __future__ import annotations
 
+import os
 import posixpath
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from checker.package.files_above import files_around
@@ -15,27 +17,27 @@ if TYPE_CHECKING:
 
 _FILE = ".gitignore"
 _NAMES = re.compile(r"\A(?:\.\./)*\.gitignore\Z")
-_PATTERN = re.compile(r"\*?[\w.-]{1,100}")
-_KEPT = "!"
 
 
 def ignored_by(package: Package, path: str) -> str:
-    """Return the line of a `.gitignore` that excludes a file of this name: `.gitignore:3`.
+    """Return the line of a `.gitignore` that excludes a file: `.gitignore:3`; else nothing.
 
-    Lines that are a name, or its end after an asterisk (`*.pcd`), count; others are not read. A
-    later line that keeps files of such a name (`!src/**/*.pcd`) may keep this one.
+    Args:
+        package: The package, up to whose workspace each folder above is looked at.
+        path: The path of the file from the package's folder.
     """
-    name = posixpath.basename(path)
+    from pathspec import GitIgnoreSpec
+
+    location = Path(os.path.normpath(package.root / path))
     for source in (*_beside(package, path), *files_around(package, _NAMES)):
-        found = ""
-        for number, line in enumerate(source.text.splitlines(), 1):
-            pattern = line.strip()
-            if pattern.startswith(_KEPT):
-                found = "" if _fits(name, posixpath.basename(pattern.lstrip(_KEPT))) else found
-            elif _fits(name, pattern):
-                found = f"{source.file}:{number}"
-        if found:
-            return found
+        folder = Path(os.path.normpath(package.root / source.file)).parent
+        if location.is_relative_to(folder):
+            lines = source.text.splitlines()
+            found = GitIgnoreSpec.from_lines(line or "#" for line in lines).check_file(
+                location.relative_to(folder).as_posix()
+            )
+            if found.index is not None:
+                return f"{source.file}:{found.index + 1}" if found.include else ""
     return ""
 
 
@@ -47,9 +49,3 @@ def _beside(package: Package, path: str) -> Iterator[SourceText]:
         if isinstance(source, SourceText):
             yield source
         folder = posixpath.dirname(folder)
-
-
-def _fits(name: str, pattern: str) -> bool:
-    if not _PATTERN.fullmatch(pattern):
-        return False
-    return name == pattern or (pattern[0] == "*" and name.endswith(pattern[1:]))

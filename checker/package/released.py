@@ -16,6 +16,11 @@ def distributions_with(name: str) -> tuple[str, ...]:
     return _released().get(name, ())
 
 
+def is_listed(distro: str) -> bool:
+    """Return whether it is known what a distribution has released; of Iron and older it is not."""
+    return any(distro in having for having in _released().values())
+
+
 def is_of_system(name: str) -> bool:
     """Return whether rosdep installs a package of the operating system by this name."""
     return name in _system()

@@ -81,6 +81,12 @@ def package_around(package: Package) -> Package | None:
     return whole if whole is not None and whole.root == around else None
 
 
+def names_mentioned_around(package: Package) -> frozenset[str]:
+    """Return the names that files of a package mention, and of the one that a model is in."""
+    around = package_around(package)
+    return package.mentioned_names | (around.mentioned_names if around else frozenset())
+
+
 def _of_manifest(package: Package, manifest: XmlDocument) -> str:
     if _is_ros_2(package, manifest):
         return ROS_2

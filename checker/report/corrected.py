@@ -52,7 +52,9 @@ _ELEMENTS = re.compile(r"(?:<.*)?(?:/>|</[^<>]*>)")
 def _after(edits: Sequence[Edit]) -> str | None:
     """Return the line of some edits with all made; None where it is not known as a whole."""
     text = edits[0].place.snippet
-    for edit in sorted(set(edits), key=lambda each: each.place.column, reverse=True):
+    # Findings of several robots may each bring the same edit.
+    once = {(it.place.column, it.place.end_column, it.replacement): it for it in edits}
+    for _, edit in sorted(once.items(), reverse=True):
         place, start = edit.place, edit.place.column - 1
         end = place.end_column - 1
         if place.line != place.end_line or not end <= len(place.snippet) < SNIPPET_LIMIT:

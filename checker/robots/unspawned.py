@@ -1,13 +1,15 @@
-"""SDF models in a package of ROS 2 that nothing names, and whose launch files spawn others."""
+"""SDF models and worlds that nothing names, where launch files spawn or start others."""
 
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterator
 
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph
 from checker.launch.ros2.package_launch import launch_graphs
+from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.target import package_around
 from checker.robots.shown_only import SPAWNS, spawns_others
@@ -17,6 +19,26 @@ _NAMING = (
     *(".py", ".launch", ".xml", ".sdf", ".world", ".xacro", ".urdf", ".yaml", ".yml", ".json"),
     *(".md", ".rst", ".sh", ".cpp", ".cc", ".hpp", ".h", ".rb", ".erb", ".config"),
 )
+_WORLD = re.compile(r"[\w-]\.world\b|\bworlds?/[\w-]{1,80}\.sdf\b|[\w-]*world[\w-]*\.sdf\b")
+
+
+def unstarted_world(package: Package) -> str:
+    """Return the clause that no launch file starts a world, where one starts another; else empty.
+
+    Args:
+        package: The world as a single file.
+    """
+    around = package_around(package) if package.kind is PackageKind.WORLD else None
+    if around is None:
+        return ""
+    file = package.name
+    own = (package.root / file).relative_to(around.root).as_posix()
+    stem = re.escape(file.partition(".")[0])
+    named = re.compile(rf"""^(?!.*\u2500 ).*(?:{re.escape(file)}|["']{stem}["'])""", re.MULTILINE)
+    starts_another = any(map(_WORLD.search, package.workspace.launch_texts.values()))
+    if not starts_another or any(map(named.search, _texts(around, own))):
+        return ""
+    return f"only in {file}, which no launch file starts"
 
 
 def unspawned(package: Package, path: str) -> str:

@@ -105,8 +105,10 @@ def _driven(robot: Robot) -> Iterator[_Part]:
 
 def _others(robot: Robot) -> Iterator[Finding]:
     driven = {link.scoped_name for part in _driven(robot) for link in part.links}
+    fixed = {it.scope + it.child.value for it in robot.joints if it.type.value == "fixed"}
     for link in robot.wheels if robot.locomotion.wheel_drives else ():
-        if link.scoped_name not in driven and not link.collisions:
+        is_frame = link.scoped_name in fixed and not link.visuals
+        if link.scoped_name not in driven and not link.collisions and not is_frame:
             yield finding(
                 link,
                 f"wheel {link.name.value!r} has no collision, and no plugin drives it",
@@ -145,7 +147,11 @@ _TRACK = """
 </plugin>
 """
 
-GOOD = [_rover(_ROUND), _rover("") + _TYRE]
+_FRAME = """
+<link name="wheel_base"/>
+<joint name="bracket" type="fixed"><parent>body</parent><child>wheel_base</child></joint>
+"""
+GOOD = [_rover(_ROUND), _rover("") + _TYRE, _rover(_ROUND) + _FRAME]
 BAD = [
     _rover("<visual name='v'/>", "  <!-- ^ GEO002 -->"),
     """

@@ -54,8 +54,12 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield unchecked(robot.unread_plugins)
     for drive in robot.locomotion.wheel_drives:
         left = _left_of(drive, least_cosine)
-        yield from _reversed_axes(robot, drive, left, least_cosine)
-        yield from _swapped_sides(drive, left, least_share)
+        turned = [*_reversed_axes(robot, drive, left, least_cosine)]
+        swapped = [*_swapped_sides(drive, left, least_share)]
+        if turned and len(turned) == len(swapped) == len(drive.wheels):
+            yield _faces_backwards(drive)
+        else:
+            yield from (*turned, *swapped)
         yield from _on_both_sides(drive)
         yield from _steering_findings(robot, drive, least_cosine)
     yield from _against_its_side(robot, least_cosine, least_share)
@@ -128,6 +132,17 @@ def _reversed_axes(
             key="all" if every else "",
             fix=_turned_round(robot, joint),
         )
+
+
+def _faces_backwards(drive: WheelDrive) -> Finding:
+    """Report a drive whose wheels are all on the other side and all turn the other way."""
+    return finding(
+        drive.plugin,
+        f"{drive.plugin.label} drives towards -x: all of its axes point to the right, and all of "
+        "its wheels are on the other side than it lists: swap left and right, and turn the axes",
+        key=f"{drive.path} backwards",
+        related=[(wheel.joint, "this joint") for wheel in drive.wheels],
+    )
 
 
 def _turned_round(robot: Robot, joint: Joint) -> Fix | None:
@@ -368,6 +383,12 @@ BAD = [
     ),
     _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN))),
     _urdf(_Y, _Y, _marked(_classic(_DIFF, _STRAIGHT))),
+    _urdf(
+        _BACK,
+        _BACK,
+        _classic(_DIFF, _CROSSED, _MODERN).replace('.so">', f'.so">{_MARK}'),
+        right=_BACK,
+    ),
     _urdf(_BACK + _MARK, _Y, _classic(_DIFF, _ROS_2)),
     _urdf(_Y, _BACK + _MARK, _classic(_SKID, _FOUR)),
     _urdf(_Y, _BACK + _MARK),

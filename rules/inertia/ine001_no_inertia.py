@@ -2,7 +2,8 @@
 
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. The mass of a link
-does not matter if fixed joints connect it to the world, or if the model is static. In URDF a link
+does not matter if fixed joints connect it to the world, or if the model is static. Outside of
+submissions it is a warning but for a wheel: the robot moves, only differently. In URDF a link
 without `<inertial>` weighs nothing (URD007), and URD012 reports an incomplete `<inertial>`. From
 SDF 1.11 on `<inertial auto="true">` makes the simulator compute it from collisions and densities.
 
@@ -38,11 +39,16 @@ def check(masses: MassProperties, context: Context) -> Findings:
     if robot.conventions.has_massless_links:
         return
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
-    is_prop = robot.is_prop and not context.is_subt
+    wheels = robot.wheels
     for link in robot.links:
         if link.scoped_name not in robot.tree.links_fixed_to_world and not robot.is_still(link):
             for found in _missing(robot, link, automatic=automatic):
-                yield replace(found, severity=Severity.INFO) if is_prop else found
+                if not context.is_subt and robot.is_prop:
+                    yield replace(found, severity=Severity.INFO)
+                elif not context.is_subt and found.key != "automatic" and link not in wheels:
+                    yield replace(found, severity=Severity.WARNING)
+                else:
+                    yield found
 
 
 def _missing(robot: Robot, link: Link, *, automatic: bool) -> Iterator[Finding]:

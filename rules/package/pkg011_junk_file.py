@@ -17,6 +17,7 @@ from fnmatch import fnmatchcase
 from checker.package.inheritance import Found
 from checker.package.kind import BUILT
 from checker.package.package import Package
+from checker.package.target import names_mentioned_around
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.cmake import read_cmake
 from checker.source.text import SourceText
@@ -79,7 +80,7 @@ def _second_models(package: Package) -> Iterator[Finding]:
     for file in package.index.with_suffix(".sdf"):
         if "/" in file.path or file.path == model.path or "world" in file.path.lower():
             continue
-        if file.path.casefold() not in package.mentioned_names:
+        if file.path.casefold() not in names_mentioned_around(package):
             yield finding(
                 package.place(file.path),
                 f"{file.path} is a second model next to {model.path}, but no file refers to it: "

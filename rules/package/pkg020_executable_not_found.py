@@ -2,7 +2,8 @@
 
 Its module or function does not exist, so Python ends with an ImportError; or setup.cfg does not
 install it into `lib/<package>`, the only folder that `ros2 run` and launch files search. Neither
-fault shows before the robot is started.
+fault shows before the robot is started. Where no launch file names the executable, it is a
+warning.
 
 Fix: correct the `console_scripts` entry, written `name = package.module:function`; in setup.cfg
 write `install_scripts=$base/lib/<package>` below `[install]` and `script_dir=$base/lib/<package>`
@@ -34,7 +35,12 @@ def check(package: Package) -> Findings:
         return
     for executable in setup.executables:
         if message := _fault(package, executable):
-            yield finding(executable, f"executable {executable.name!r} cannot start: {message}")
+            is_started = executable.name in package.workspace.launch_words
+            yield finding(
+                executable,
+                f"executable {executable.name!r} cannot start: {message}",
+                severity=None if is_started else Severity.WARNING,
+            )
     if setup.executables:
         yield from _misplaced_executables(package, setup)
 

@@ -16,14 +16,19 @@ from collections.abc import Iterator
 from checker.base.resources import table
 from checker.package.manifests import Dependency, Paperwork
 from checker.package.package import Package
-from checker.package.released import ReleasedNames, distributions_with, is_of_system
+from checker.package.released import (
+    ReleasedNames,
+    distributions_with,
+    is_listed,
+    is_of_system,
+)
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 
 
 @rule("PKG021", "dependency-not-found", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Report misspelt names one by one, and the others in one finding."""
-    if paperwork.manifest is None or not context.distro:
+    if paperwork.manifest is None or not is_listed(context.distro):
         return
     absent = [
         dependency
@@ -104,6 +109,7 @@ GOOD = [
     _package("<depend>rclcpp</depend><exec_depend>robot_state_publisher</exec_depend>"),
     _package("<depend>eigen</depend><exec_depend>python3-numpy</exec_depend>"),
     _package('<depend condition="$ROS_VERSION == 1">roscpp</depend>'),
+    {**_package("<depend>rclcpp</depend>"), "Dockerfile": "FROM ros:iron\n"},
     {
         **_package("<depend>acme_msgs</depend>"),
         "../acme_msgs/package.xml": "<package><name>acme_msgs</name></package>",

@@ -10,6 +10,7 @@ Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what 
 from checker.package.kind import PackageKind
 from checker.package.mentions import unsearched
 from checker.package.package import Package
+from checker.package.target import names_mentioned_around
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf", ".fbx", ".mtl")
@@ -31,12 +32,13 @@ def check(
     if too_large := unsearched(package):
         yield unchecked(f"{too_large[0]} is too large to search for names")
         return
+    mentioned = names_mentioned_around(package)
     for file in package.index.with_suffix(*MESHES, *TEXTURES):
         folder, _, rest = file.path.partition("/")
         if file.path.lower().endswith(TEXTURES) and not (rest and folder.lower() in folders):
             continue
         name = file.path.rpartition("/")[2].casefold()
-        if name not in package.mentioned_names:
+        if name not in mentioned:
             yield finding(
                 package.place(file.path),
                 f"nothing uses {file.path}: delete it, or correct the path that should lead to it",

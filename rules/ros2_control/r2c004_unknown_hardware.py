@@ -8,9 +8,10 @@ since Humble.
 A class of another package is compared with the plugin descriptions that the package exports, if it
 is available; if it is not, the finding is an info unless package.xml depends on the package.
 
-Fix: name a class that exists: `gz_ros2_control/GazeboSimSystem` in Gazebo Harmonic and later,
+Fix: name a class that exists: `gz_ros2_control/GazeboSimSystem` in Gazebo from Fortress on,
 `ign_ros2_control/IgnitionSystem` in Fortress, `mock_components/GenericSystem` without hardware.
-Source: hardware descriptions of ros2_control, gz_ros2_control and gazebo_ros2_control, by branch.
+Source: hardware descriptions of ros2_control, gz_ros2_control and gazebo_ros2_control, by branch;
+docs.ros.org, C++ API of Humble's gz_ros2_control 0.7.
 """
 
 import re
@@ -25,6 +26,7 @@ from checker.ros.ros2_control.distributions import (
     has_every_class,
     is_from,
 )
+from checker.ros.ros2_control.exported_hardware import exported_hardware, owner_of
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import (
     Concern,
@@ -39,12 +41,9 @@ from checker.rule import (
 )
 from checker.rulebook.example_parts import ros2_control
 from checker.source.text import Located, SourceText
-from checker.source.xml import XmlDocument
 
 _NAMED = re.compile(r"<plugin>\s{0,80}([\w:/]{1,200})\s{0,80}</plugin>")
 _IGNITION = "ign_ros2_control"
-_ALSO_BUILT = ("gz_ros2_control/GazeboSimSystem", "humble")
-"""Not released there, but it can be built for Gazebo Harmonic."""
 
 
 @rule("R2C004", "unknown-hardware", Severity.ERROR, Concern.INTERFACE)
@@ -62,7 +61,7 @@ def _judged(
     plugin: Located[str], package: Package, papers: Paperwork, distribution: str
 ) -> Iterator[Finding]:
     name = plugin.value
-    owner = re.split("/|::", name)[0]
+    owner = owner_of(name)
     if not name:
         return
     known = hardware_classes().get(name)
@@ -98,8 +97,6 @@ def _absent(plugin: Located[str], package: Package, distribution: str) -> Findin
     if others:
         severity = Severity.INFO
         more = f"; the file also names {others[0]}, so an argument chooses"
-    elif (name, distribution) == _ALSO_BUILT:
-        severity, more = Severity.WARNING, " unless gz_ros2_control is built for Gazebo Harmonic"
     return finding(
         plugin,
         f"ROS 2 {distribution.title()} has no hardware {name!r}{more}",
@@ -133,23 +130,10 @@ def _foreign(
                 severity=Severity.INFO,
             )
         return
-    exported = set(_exported_plugins(holder))
+    exported = {name for name, _ in exported_hardware(holder)}
     if exported and plugin.value not in exported:
         message = f"package {owner!r} exports no hardware {plugin.value!r}"
         yield misspelt(plugin, message, Suggestions(exported))
-
-
-def _exported_plugins(package: Package) -> Iterator[str]:
-    """Yield the names of the plugins that a package describes for pluginlib."""
-    for file in package.index.with_suffix(".xml"):
-        document = package.xml(file.path)
-        if isinstance(document, XmlDocument) and document.root.tag in (
-            "library",
-            "class_libraries",
-        ):
-            for found in document.root.descendants("class"):
-                if (found.get("base_class_type") or "").startswith("hardware_interface::"):
-                    yield found.get("name") or found.get("type") or ""
 
 
 def _arm(plugin: str, **files: str) -> object:
@@ -160,6 +144,10 @@ def _arm(plugin: str, **files: str) -> object:
 _MARK = "  <!-- ^ R2C004 -->"
 _EXPORTED = """<library path="acme">
   <class name="acme_arm/Arm" type="acme_arm::Arm" base_class_type="hardware_interface::SystemInterface"/>
+</library>
+"""  # noqa: E501
+_OF_GAZEBO = """<library path="acme">
+  <class name="acme_arm/Sim" type="acme_arm::Sim" base_class_type="gz_ros2_control::GazeboSimSystemInterface"/>
 </library>
 """  # noqa: E501
 _MANIFEST = """<package format="3">
@@ -177,6 +165,8 @@ GOOD = [
     _arm("<plugin>gz_ros2_control/GazeboSimSystem</plugin>"),
     _arm("<plugin>ur_robot_driver/URPositionHardwareInterface</plugin>"),
     _arm("<plugin>acme_arm/Arm</plugin>", **_OURS),
+    _arm("<plugin>acme_arm/Sim</plugin>", **_OURS, gazebo__xml=_OF_GAZEBO),
+    _arm("<plugin>gz_ros2_control/GazeboSimSystem</plugin>", README__md="An arm for ROS 2 Humble"),
     _arm("<plugin>other_driver/Arm</plugin>", **_OURS),
 ]
 BAD = [

@@ -19,6 +19,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
+from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
@@ -93,7 +94,11 @@ def _names(manager: GazeboManager, release: str) -> Iterator[Finding]:
 
 
 def _disagreement(control: RobotControl, package: Package) -> Iterator[Finding]:
-    simulated = [each for each in control.hardware if is_of_gazebo(each.plugin.value)]
+    simulated = [
+        each
+        for each in control.hardware
+        if is_of_gazebo(each.plugin.value) or is_exported_for_gazebo(each.plugin.value, package)
+    ]
     others = [each for each in control.hardware if each not in simulated and each.plugin.value]
     if control.managers and not control.hardware:
         yield finding(
@@ -151,12 +156,21 @@ def _plugin(library: str, name: str, mark: str = "") -> str:
 _GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
 _IGNITION = "<plugin>ign_ros2_control/IgnitionSystem</plugin>"
 _MARK = "  <!-- ^ R2C005 -->"
+_EXPORTED = """<library path="acme">
+  <class name="acme_gazebo/Arm" base_class_type="gz_ros2_control::GazeboSimSystemInterface"/>
+</library>
+"""
 GOOD = [
     _arm(_plugin(*_GZ)),
     _arm(_plugin("libgz_ros2_control-system.so", _GZ[1])),
     _arm(_plugin("libacme_gz_ros2_control-system.so", "acme::Control")),
     _arm("", MOCK),
     {**_arm("", GAZEBO), **model_beside("shoulder")},
+    {
+        **_arm(_plugin(*_GZ), "<plugin>acme_gazebo/Arm</plugin>"),
+        "../acme_gazebo/package.xml": "<package><name>acme_gazebo</name></package>",
+        "../acme_gazebo/plugins.xml": _EXPORTED,
+    },
 ]
 BAD = [
     _arm(_plugin(_GZ[0], "gz_ros2_control", _MARK)),

@@ -11,6 +11,7 @@ Source: ros2_control, ResourceManager; ros2_controllers, `command_interface_conf
 `state_interface_configuration` of each controller.
 """
 
+import re
 from collections.abc import Iterator
 
 from msgspec.structs import replace
@@ -36,6 +37,9 @@ from checker.rule import (
 )
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 from checker.source.xml_insertion import append_to
+
+_PLACEHOLDER = re.compile(r"<\w+>")
+"""What a launch file replaces: `<namespace>/imu`, with nav2_common's ReplaceString."""
 
 
 @rule("R2C009", "unavailable-interface", Severity.ERROR, Concern.INTERFACE)
@@ -81,7 +85,7 @@ def _faults(
                 message += " the robot does not have"
                 yield misspelt(claim.joint, message, suggestions, key=key)
     for sensor in sensors_of(controller):
-        if sensor.value not in control.components:
+        if sensor.value not in control.components and not _PLACEHOLDER.search(sensor.value):
             yield misspelt(
                 sensor,
                 f"{controller.label} reads {sensor.value!r}, which is not a sensor or gpio of "
@@ -165,6 +169,7 @@ GOOD = [
     _follow("$(var prefix)shoulder"),
     _arm("interface_name: position\n    joints: [shoulder]", _FORWARD),
     _arm("sensor_name: imu\n    frame_id: base_link", _IMU),
+    _arm("sensor_name: <robot>/imu\n    frame_id: base_link", _IMU),
 ]
 BAD = [
     _arm("joints: [elbow]  # ^ R2C009"),

@@ -21,13 +21,10 @@ from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
 from checker.formats.sdf.schema import all_tags
-from checker.formats.sdf.unread import is_appearance, is_unread
+from checker.formats.sdf.unread import GRAVE_PARENTS, is_appearance, is_unread
 from checker.model.sensing.kind import frame_ids
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
-
-GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
-"""Places where a lost element changes how the robot moves."""
 
 
 @rule("SDF003", "unknown-element", Severity.WARNING, Concern.ROBOT)

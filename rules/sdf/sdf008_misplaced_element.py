@@ -3,8 +3,8 @@
 Simulators read an element only in its own place and ignore it elsewhere: `<enable_orientation>`
 directly below `<sensor>` has no effect on the IMU. The finding is a warning if the element is also
 set in the right place, if its value is the default there, if it only affects the appearance, or if
-the target does not read it in the right place either. SDF003 reports elements that SDF does not
-have anywhere.
+the target does not read it in the right place either. Outside of submissions it is a warning unless
+it changes how the robot moves. SDF003 reports elements that SDF does not have anywhere.
 
 Fix: move the element to the place that the message names.
 Source: SDFormat specification, the version that the file states.
@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
 from checker.formats.sdf.schema import ElementType, all_tags, holders_of, parents_of
-from checker.formats.sdf.unread import is_appearance, is_unread
+from checker.formats.sdf.unread import GRAVE_PARENTS, is_appearance, is_unread
 from checker.model.values import numbers_of_words
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
@@ -80,10 +80,13 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         of_others = bool(places) and not listed
         harmless = is_set or usual or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
+        grave = not {*listed, parent.tag}.isdisjoint(GRAVE_PARENTS) or element.tag == "gravity"
         yield finding(
             element,
             f"<{element.tag}> is not allowed in <{parent.tag}>{belongs}",
-            severity=Severity.WARNING if harmless or idle else None,
+            severity=None
+            if (grave or context.is_subt) and not (harmless or idle)
+            else Severity.WARNING,
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
         )

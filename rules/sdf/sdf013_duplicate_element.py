@@ -13,8 +13,9 @@ from checker.source.xml import Element
 
 ELSEWHERE = {("sdf", "model")}
 """Parents and elements that another rule judges."""
-SEVERAL = {("contact", "collision")}
-"""Parents and elements of which simulators read several, despite the tables."""
+SEVERAL = {("contact", "collision"), ("geometry", "polyline")}
+"""Parents and elements of which simulators read several, despite the tables: the second
+polyline is a hole in the first."""
 
 
 @rule("SDF013", "duplicate-element", Severity.WARNING, Concern.ROBOT)
@@ -59,11 +60,17 @@ def _content(element: Element) -> list[tuple[object, ...]]:
 
 GOOD = [
     """
+<geometry>
+  <polyline><point>-2 -2</point><point>2 -2</point><point>0 2</point><height>1</height></polyline>
+  <polyline><point>-1 -1</point><point>1 -1</point><point>0 1</point><height>1</height></polyline>
+</geometry>
+""",
+    """
 <link name="arm">
   <visual name="a"><geometry><box/></geometry></visual>
   <visual name="b"><geometry><box/></geometry></visual>
 </link>
-"""
+""",
 ]
 BAD = [
     """

@@ -31,12 +31,20 @@ def check(package: Package) -> Findings:
         image = root.get("image") if root is not None else None
         if root is None or image is None or not any(map(root.get, _NUMBERS)):
             continue
-        launched = package.workspace.launches_with(posixpath.basename(file.path))
-        severity = None if launched else Severity.WARNING
+        severity = None if _is_launched(package, file.path) else Severity.WARNING
         if missing := [name for name in _NUMBERS if root.get(name) is None]:
             message = f"the map has no {and_list(missing)}, which map_server requires"
             yield finding(image, message, severity=severity, key="entries")
         yield from _image(package, posixpath.dirname(file.path), image, severity)
+
+
+def _is_launched(package: Package, path: str) -> bool:
+    """Return whether a launch file names the map: of this package, or with this package's name."""
+    name = posixpath.basename(path)
+    return any(
+        name in text and (file.startswith(f"{package.name}/") or package.declared_name in text)
+        for file, text in package.workspace.launch_texts.items()
+    )
 
 
 def _image(

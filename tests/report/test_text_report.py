@@ -370,3 +370,9 @@ def test_wording() -> None:
     assert [and_list(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
     assert (shortened("abc", 3), shortened("abcd", 3)) == ("abc", "ab…")
     assert plain("a\x1b[31m\n\u202e\udcff") == "a\ufffd[31m\ufffd\ufffd\ufffd"
+
+
+def test_an_edit_that_several_robots_bring_is_made_once() -> None:
+    edits = tuple(Edit(replace(PLACE, element=name), "1", "0.1") for name in ("scout", "rover"))
+    shown = lines(replace(FAULT, fix=Fix(Safety.SAFE, edits)))
+    assert "    fix: write `<resolution>1</resolution>`" in shown

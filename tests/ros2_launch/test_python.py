@@ -351,6 +351,18 @@ def test_what_changes_no_action_is_passed_over(read: Read, statement: str) -> No
     assert not graph.unread
 
 
+def test_a_recursion_over_an_unknown_value_ends(read: Read) -> None:
+    graph = read(
+        "import foo\n"
+        "def flat(value):\n"
+        "    return sum(map(flat, value), []) if isinstance(value, list) else [value]\n"
+        "words = flat([foo.style('a')])\n"
+        "return LaunchDescription([Node(package='p', executable='e')])"
+    )
+    assert [node.executable.value for node in graph.nodes] == ["e"]
+    assert not any("levels" in unread.reason for unread in graph.unread)
+
+
 @pytest.mark.parametrize(
     "statement", ["import foo\nfoo.extend(ld)", "os.system('gz sim')", "ld.entities.clear()"]
 )

@@ -19,6 +19,8 @@ UNREAD = frozenset(
 Source: libsdformat 10, Sensor.cc, Link.cc, Collision.cc, Joint.cc and Surface.cc, which of the
 contact parameters reads `<collide_bitmask>` alone.
 """
+GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
+"""Places where a lost element changes how the robot moves."""
 
 
 def is_unread(tag: str, release: str) -> bool:

@@ -238,7 +238,7 @@ class ControlReader:
         return launched or tuple(self._mentioning(paths, names))
 
     def controllers_beside(self, control: RobotControl) -> tuple[Controller, ...]:
-        """Return the controllers of a robot that one other package configures; none if several do.
+        """Return the controllers of a robot that one other package configures, each in one file.
 
         A robot whose description names its file of parameters has those alone, and so have robots
         whose own package launches controllers.
@@ -251,7 +251,12 @@ class ControlReader:
             for other in self.package.other_packages
         )
         found = [files for files in beside if files]
-        return controllers_of(found[0]) if len(found) == 1 else ()
+        if len(found) != 1:
+            return ()
+        controllers = controllers_of(found[0])
+        # Of several files for one controller, a launch file chooses.
+        several = sum(len(controllers_of([file])) for file in found[0]) > len(controllers)
+        return () if several else controllers
 
     def _beside(self, other: Package, names: frozenset[str]) -> Iterator[str]:
         """Yield the files of another package that may configure these joints."""

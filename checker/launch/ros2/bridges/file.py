@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from checker.base.words import Suggestions
@@ -77,18 +77,19 @@ def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
         hint = "; write '- ' in front of each entry" if root.kind == "mapping" else ""
         yield BridgeFault(BridgeFaultKind.NO_SEQUENCE, root.span, message + hint)
         return
-    suggestions = Suggestions(_KNOWN)
     for entry in root.items:
-        yield from _entry(entry, suggestions)
+        yield from _entry(entry)
 
 
-def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
+def _entry(entry: YamlNode) -> Iterator[Item]:
     if entry.kind != "mapping":
         message = f"the entry is a {entry.kind}, expected a mapping: the bridge ignores it"
         yield BridgeFault(BridgeFaultKind.DROPPED, entry.span, message)
         return
     unknown = [key for key, _ in entry.entries if _text(key) not in _KNOWN]
-    meant = {_NEAR.get(_text(key)) or suggestions.closest(_text(key)) or "": key for key in unknown}
+    free = {*_KNOWN} - {_text(key) for key, _ in entry.entries}
+    suggestions = Suggestions(sorted(free))
+    meant = {_meant(_text(key), free, suggestions): key for key in unknown}
     dropped: list[BridgeFault] = []
     if any(entry.get(key) is not None for key in _SERVICE):
         yield from _service(entry)
@@ -122,6 +123,12 @@ def _dropped(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[Brid
         message = f"direction is {direction.plain()!r:.60}, expected one of {', '.join(DIRECTIONS)}"
         meant = Suggestions(DIRECTIONS).closest(_text(direction))
         yield _ignored(direction, message, meant=meant or "")
+
+
+def _meant(name: str, free: Collection[str], suggestions: Suggestions) -> str:
+    """Return the key that another one is a misspelling of; one that the entry has is not meant."""
+    usual = _NEAR.get(name, "")
+    return usual if usual in free else suggestions.closest(name) or ""
 
 
 def _missing(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:

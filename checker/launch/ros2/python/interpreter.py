@@ -81,6 +81,7 @@ class Interpreter:
         """Begin without any names."""
         self.source = source
         self.allowance = allowance
+        self._active: list[ast.AST] = []
         self.world = world
         self.guards: list[Condition] = []
         self.handled: list[tuple[frozenset[str], int]] = []
@@ -332,7 +333,9 @@ class Interpreter:
             match function:
                 case Unknown():
                     return function
-                case LocalFunction():
+                case LocalFunction(node=body) if body not in self._active or not any(
+                    isinstance(it, Unknown) for it in (*positional, *named.values())
+                ):
                     return self._called_locally(function, positional, named, node)
                 case Partial(function=inner, positional=first, named=before):
                     return self.called(inner, [*first, *positional], {**before, **named}, node)
@@ -340,7 +343,10 @@ class Interpreter:
                     return methods.call(self, owner, name, positional, named, node)
                 case Symbol():
                     return self._called_symbol(function, positional, named, node, places or {})
-        return self.unknown(node, "the called value is not a function")
+        # Which condition ends a recursion over an unknown value is not known either.
+        recurs = isinstance(function, LocalFunction)
+        why = "it calls itself with an unknown value" if recurs else "it is not a function"
+        return self.unknown(node, f"the called value is not known: {why}")
 
     def _called_symbol(
         self,
@@ -374,6 +380,7 @@ class Interpreter:
         if problem is not None:
             return problem
         before, self.source = self.source, function.source
+        self._active.append(function.node)
         try:
             if isinstance(function.node, ast.Lambda):
                 return evaluate(self, function.node.body, scope)
@@ -382,6 +389,7 @@ class Interpreter:
                 return scope.yielded
         finally:
             self.source = before
+            self._active.pop()
         if flow is Flow.RAISE and not scope.returned:
             return self.unknown(node, "the call raises an error")
         if scope.returned:
