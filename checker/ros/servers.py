@@ -31,7 +31,7 @@ _STARTS_WINDOW = "gz_gui.launch"
 _SERVERS = ("gzserver", "ros_gz_sim::GzServer")
 _WORLD_FILE = "world_sdf_file"
 _COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
-CLASSIC_PACKAGE, _CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
+CLASSIC_PACKAGE, CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
 _STARTS_CLASSIC = ("gazebo.launch", "gzserver.launch")
 _WORLD_SUFFIXES = (".sdf", ".world")
 _EMPTY = "empty.sdf"
@@ -93,7 +93,7 @@ def starts_classic(graph: LaunchGraph) -> bool:
     """Return whether a launch file certainly starts Gazebo Classic."""
     commands = (each for each in graph.processes if each.words[:1] and each.starts is True)
     return includes_classic(graph) or any(
-        process.words[0].value in _CLASSIC_COMMANDS for process in commands
+        process.words[0].value in CLASSIC_COMMANDS for process in commands
     )
 
 

@@ -54,6 +54,7 @@ class Context:
         state: The state that applies.
         conditions: The conditions around the action.
         after: Whether an event or a timer starts it.
+        exit_of: The action whose end starts it, if one does.
         used: Names of arguments that were read.
         declared: Names of arguments that were declared.
         files: Paths of the launch files around, this one last.
@@ -67,6 +68,7 @@ class Context:
     state: State = field(default_factory=State)
     conditions: tuple[Condition, ...] = ()
     after: bool = False
+    exit_of: Span | None = None
     used: set[str] = field(default_factory=set)
     declared: set[str] = field(default_factory=set)
     files: tuple[str, ...] = ()

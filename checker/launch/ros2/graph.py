@@ -212,12 +212,14 @@ class Started(Record, eq=False, kw_only=True):
         conditions: Its own and those around it.
         certain: Whether it is outside of tests and loops that could not be decided.
         after: Whether an event or a timer starts it.
+        exit_of: The action whose end starts it, if one does.
         span: The call or start tag.
     """
 
     conditions: tuple[Condition, ...] = ()
     certain: bool = True
     after: bool = False
+    exit_of: Span | None = None
     span: Span
 
     @property

@@ -162,6 +162,7 @@ class LaunchReader:
             return FileRead(path=source.file, reason=f"more than {FILES_LIMIT} files are included")
         inner = self._context_of(source, context.state)
         inner.conditions, inner.after = context.conditions, context.after
+        inner.exit_of = context.exit_of
         inner.files = (*context.files, source.file)
         unread, includes = len(self._found.unread), len(self._found.includes)
         with self._allowance:

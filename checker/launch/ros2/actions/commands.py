@@ -164,5 +164,6 @@ def _node(process: Process, package: str, executable: str, arguments: Words) -> 
         arguments=tuple(arguments),
         conditions=process.conditions,
         after=process.after,
+        exit_of=process.exit_of,
         span=process.span,
     )

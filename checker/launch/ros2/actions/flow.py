@@ -106,7 +106,9 @@ def handler(visitor: Visitor, made: Made, context: Context) -> None:
     """Leave what an event starts for later."""
     handler = chosen_value(made.values.get("event_handler"))
     if isinstance(handler, Made):
-        visitor.later_events(handler, context, _DEFERRED)
+        target = chosen_value(handler.values.get("target_action"))
+        ending = target.span if isinstance(target, Made) else None
+        visitor.later_events(handler, context, _DEFERRED, ending)
     elif isinstance(handler, Unknown):
         visitor.unread(handler.reason, handler.span)
 

@@ -85,12 +85,13 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
             unread=tuple(unread),
             conditions=context.conditions,
             after=context.after,
+            exit_of=context.exit_of,
             span=made.span,
         ),
         *components,
     )
     _keywords(made, context)
-    visitor.later_events(made, context)
+    visitor.later_events(made, context, ending=made.span)
 
 
 def load(visitor: Visitor, made: Made, context: Context) -> None:
@@ -105,7 +106,11 @@ def process(visitor: Visitor, made: Made, context: Context) -> None:
     unread: list[Unread] = []
     words = tuple(words_of(made.values.get("cmd"), context, made.span, unread))
     action = Process(
-        words=words, conditions=context.conditions, after=context.after, span=made.span
+        words=words,
+        conditions=context.conditions,
+        after=context.after,
+        exit_of=context.exit_of,
+        span=made.span,
     )
     as_line = made.values.get("shell") in (True, "true")
     others = tuple(
@@ -117,7 +122,7 @@ def process(visitor: Visitor, made: Made, context: Context) -> None:
         spawns = tuple(filter(None, (same_node(command, action) for command in others)))
         visitor.found.processes.append(replace(action, commands=others, spawns=spawns))
     visitor.found.unread += unread
-    visitor.later_events(made, context)
+    visitor.later_events(made, context, ending=made.span)
 
 
 def _start(visitor: Visitor, words: Words, process: Process, context: Context) -> bool:
@@ -191,6 +196,7 @@ def _component(made: Made, context: Context) -> Node:
         unread=tuple(unread),
         conditions=context.conditions,
         after=context.after,
+        exit_of=context.exit_of,
         span=made.span,
     )
 

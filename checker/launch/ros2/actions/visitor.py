@@ -59,15 +59,26 @@ class Visitor:
         self._later.append((value, context))
 
     def later_events(
-        self, made: Made, context: Context, names: Sequence[str] = ("on_exit",)
+        self,
+        made: Made,
+        context: Context,
+        names: Sequence[str] = ("on_exit",),
+        ending: Span | None = None,
     ) -> None:
-        """Leave what events of an action start for later."""
+        """Leave what events of an action start for later.
+
+        Args:
+            made: The action, or the event handler.
+            context: Its place.
+            names: The arguments that hold what is started.
+            ending: The action whose end is the event `on_exit`, if it is known.
+        """
         for name in names:
             value = chosen_value(made.values.get(name))
             if value is None:
                 continue
             later = context.inner()
-            later.after = True
+            later.after, later.exit_of = True, ending if name == "on_exit" else None
             if not isinstance(value, Made | list | tuple | Unknown):
                 unknown = Unknown("an event is only known when it happens", made.span)
                 value = self.files.call(value, [unknown, unknown], context)
