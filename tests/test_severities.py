@@ -275,7 +275,7 @@ def test_a_misplaced_default_changes_nothing(gravity: str, severity: str, tmp_pa
 LID = '<joint name="lid" type="revolute"><parent>body</parent><child>top</child></joint>'
 
 
-@pytest.mark.parametrize(("joint", "severities"), [("", {"info"}), (LID, {"warning"})])
+@pytest.mark.parametrize(("joint", "severities"), [("", {"info"}), (LID, {"error", "warning"})])
 def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_path: Path) -> None:
     box = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
     inertia = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"

@@ -18,7 +18,9 @@ _SCHEME = re.compile(r"(?:model://|package:///?)([^/]+)/?(.*)", re.DOTALL)
 _RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
 """A path on the resource path of Gazebo, which may contain the folder of the model."""
 _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
-_AT_HOME = re.compile(r"(?:file://)?/(?:(?:home|Users)/[^/]+|root)/(.*)", re.DOTALL)
+_AT_HOME = re.compile(
+    r"(?:file://)?/(?:(?:home|Users|media|run/media)/[^/]+|root|mnt)/(.*)", re.DOTALL
+)
 _IN_WORKSPACE = re.compile(r"(?:file://)?/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*", re.DOTALL)
 _INSTALLED = re.compile(
     r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL

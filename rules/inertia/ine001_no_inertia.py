@@ -3,7 +3,7 @@
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. The mass of a link
 does not matter if fixed joints connect it to the world, or if the model is static. Outside of
-submissions it is a warning but for a wheel: the robot moves, only differently. In URDF a link
+submissions it is a warning in a robot above 20 kg, where the default is little. In URDF a link
 without `<inertial>` weighs nothing (URD007), and URD012 reports an incomplete `<inertial>`. From
 SDF 1.11 on `<inertial auto="true">` makes the simulator compute it from collisions and densities.
 
@@ -28,6 +28,11 @@ _MOMENTS = 6
 _FIRST_AUTOMATIC = (1, 11)
 """SDF version since which the simulator computes an inertia."""
 
+_DEFAULT_MASS = 1.0
+"""What SDF takes for a mass that is not stated, kg."""
+_HEAVY = 20
+"""Times the default mass: beside a robot of more than that, the default is little."""
+
 
 @rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties, context: Context) -> Findings:
@@ -39,16 +44,21 @@ def check(masses: MassProperties, context: Context) -> Findings:
     if robot.conventions.has_massless_links:
         return
     automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
-    wheels = robot.wheels
     for link in robot.links:
         if link.scoped_name not in robot.tree.links_fixed_to_world and not robot.is_still(link):
             for found in _missing(robot, link, automatic=automatic):
-                if not context.is_subt and robot.is_prop:
-                    yield replace(found, severity=Severity.INFO)
-                elif not context.is_subt and found.key != "automatic" and link not in wheels:
-                    yield replace(found, severity=Severity.WARNING)
-                else:
-                    yield found
+                severity = None if context.is_subt else _severity(robot, link)
+                yield replace(found, severity=severity or found.severity)
+
+
+def _severity(robot: Robot, link: Link) -> Severity | None:
+    """Return the severity where the default is little beside what the robot states."""
+    if robot.is_prop:
+        return Severity.INFO
+    stated = sum(it.mass.value for each in robot.links if (it := each.inertial) and it.mass.stated)
+    own = link.inertial.mass.value if link.inertial is not None else _DEFAULT_MASS
+    is_light = own <= _DEFAULT_MASS or link in robot.wheels
+    return None if is_light and stated < _HEAVY * _DEFAULT_MASS else Severity.WARNING
 
 
 def _missing(robot: Robot, link: Link, *, automatic: bool) -> Iterator[Finding]:

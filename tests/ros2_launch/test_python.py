@@ -537,3 +537,13 @@ def test_packages_of_both_generations_keep_the_files_of_both(tmp_path: Path) -> 
         (tmp_path / path).write_text(text)
     with open_input(tmp_path) as opened:
         assert [*launch_files(opened.packages[0])] == ["launch/two.launch"]
+
+
+def test_the_distribution_of_the_package_is_that_of_the_environment(read: Read) -> None:
+    graph = read(
+        "name = 'new' if os.environ['ROS_DISTRO'] == 'jazzy' else 'old'\n"
+        "return LaunchDescription([Node(package='p', executable=name),\n"
+        "    Node(package='p', executable=EnvironmentVariable('ROS_DISTRO'))])",
+        others={"Dockerfile": "FROM ros:jazzy\n"},
+    )
+    assert [node.executable.value for node in graph.nodes] == ["new", "jazzy"]

@@ -82,7 +82,10 @@ class LaunchReader:
             empty = SourceText(self._file, "").whole()
             return LaunchGraph(self._file, unread=(Unread(str(source.reason), empty),))
         given = {name: PlacedText(text, source.whole()) for name, text in self._arguments.items()}
-        context = self._context_of(source, State(configurations=dict(given)))
+        state = State(configurations=dict(given))
+        if (distro := self.variable("ROS_DISTRO")) is not None:
+            state.environment["ROS_DISTRO"] = PlacedText(distro, source.whole())
+        context = self._context_of(source, state)
         try:
             self._visit_file(source, context)
             self._visitor.finish()
@@ -226,6 +229,11 @@ class LaunchReader:
     def directory(self, source: SourceText) -> str:
         """Return the path of a launch file as it is installed."""
         return package_files.installed_path(self._package, source.file)
+
+    def variable(self, name: str) -> str | None:
+        """Return an environment variable that the target decides; None for all others."""
+        sign = self._package.distribution_sign if name == "ROS_DISTRO" else None
+        return sign.distro if sign is not None else None
 
 
 def _as_late(fault: LaunchFault, context: Context) -> LaunchFault:

@@ -60,6 +60,9 @@ class World(Protocol):
     def directory(self, source: SourceText) -> str:
         """Return the path of a launch file as it is installed."""
 
+    def variable(self, name: str) -> str | None:
+        """Return an environment variable that the target decides; None for all others."""
+
 
 class Interpreter:
     """The evaluation of one launch file.
@@ -264,6 +267,8 @@ class Interpreter:
 
     def environment(self, name: Value, default: Value, node: ast.AST) -> Value:
         """Return an environment variable: its default, else `$(env NAME)`."""
+        if isinstance(name, str) and (known := self.world.variable(str(name))) is not None:
+            return PlacedText(known, self.span(node))
         self.by_argument = True
         if default is not None and not isinstance(default, Unknown):
             return default
