@@ -11,13 +11,11 @@ Source: navigation2, pull request 2126, January 2021.
 """
 
 from checker.package.package import Package
-from checker.ros.wiring.parameters import blocks_in
+from checker.ros.wiring.costmaps import OBSTACLE_LAYER, VOXEL_LAYER, costmap_blocks
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _NEWER = {"obstacle_range": "obstacle_max_range", "raytrace_range": "raytrace_max_range"}
 _OLDER = {new: old for old, new in _NEWER.items()}
-_LAYERS = ("nav2_costmap_2d::ObstacleLayer", "nav2_costmap_2d::VoxelLayer")
-_COSTMAPS = ("local_costmap", "global_costmap")
 
 
 @rule("WIR021", "renamed-costmap-parameter", Severity.WARNING, Concern.INTERFACE)
@@ -26,24 +24,19 @@ def check(package: Package) -> Findings:
     sign = package.distribution_sign
     in_foxy = sign is not None and sign.distro == "foxy"
     names = _OLDER if in_foxy else _NEWER
-    for file in package.index.with_suffix(".yaml", ".yml"):
-        for block in blocks_in(package, file.path, "nav2_costmap_2d"):
-            if block.node not in _COSTMAPS:
-                continue
-            for path, parameter in block.parameters.items():
-                layer, name = path.partition(".")[0], path.rpartition(".")[2]
-                plugin = block.parameters.get(f"{layer}.plugin")
-                of_nav2 = plugin is not None and any(it.value in _LAYERS for it in plugin.texts)
-                if of_nav2 and name in names:
-                    yield finding(
-                        parameter.span,
-                        f"{path} is not read, so the default counts: "
-                        f"{'Foxy' if in_foxy else 'Nav2 since Galactic'} reads {names[name]}",
-                        key=name,
-                    )
+    for costmap in costmap_blocks(package):
+        for path, parameter in costmap.block.parameters.items():
+            layer, name = path.partition(".")[0], path.rpartition(".")[2]
+            if name in names and costmap.observes(layer):
+                yield finding(
+                    parameter.span,
+                    f"{path} is not read, so the default counts: "
+                    f"{'Foxy' if in_foxy else 'Nav2 since Galactic'} reads {names[name]}",
+                    key=name,
+                )
 
 
-def _costmap(name: str, mark: str = "", plugin: str = _LAYERS[0]) -> dict[str, object]:
+def _costmap(name: str, mark: str = "", plugin: str = OBSTACLE_LAYER) -> dict[str, object]:
     return {
         "@bridge": True,
         "config/nav2.yaml": f"""local_costmap:
@@ -69,6 +62,6 @@ GOOD = [
 ]
 BAD = [
     _costmap("obstacle_range", _MARK),
-    _costmap("raytrace_range", _MARK, _LAYERS[1]),
+    _costmap("raytrace_range", _MARK, VOXEL_LAYER),
     {**_costmap("obstacle_max_range", _MARK), **_FOXY},
 ]
