@@ -98,7 +98,7 @@ def _unread_files(subject: Subject) -> Iterator[NotRead]:
     if isinstance(files, UrdfFiles):
         for fault in files.faults:
             yield NotRead(fault.file, "it cannot be expanded")
-        yield from (NotRead("a URDF file", reason) for reason in files.unread)
+        yield from (NotRead("a URDF file", reason) for reason in (*files.unread, *files.unused))
 
 
 def _robot(

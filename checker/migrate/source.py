@@ -119,7 +119,7 @@ def _only_one(files: UrdfFiles, package: Package, path: Path) -> UrdfDescription
         )
     if files.faults:
         raise NotMigrated(_fault(files.faults[0]))
-    unread = (*files.unread, *files.set_aside)
+    unread = (*files.unread, *files.unused, *files.set_aside)
     if unread:
         raise NotMigrated(f"{unread[0]}{_GIVE_ARGUMENT if ': arg ' in unread[0] else ''}")
     raise _without_urdf(path)

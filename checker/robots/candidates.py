@@ -183,8 +183,8 @@ _INCLUDED = re.compile(r"""filename\s{0,8}=\s{0,8}["'][^"'<>\n]{0,300}?([\w.-]{1
 _PARTS = ("link", "joint", "xacro:macro")
 
 
-def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
-    """Yield why files with links, joints or macros are not read, each the end of a sentence.
+def unreadable_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
+    """Yield why files cannot be read, each the end of a sentence.
 
     Args:
         package: The package to look into.
@@ -193,8 +193,6 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
     for path in _files(package):
         if path not in seen and isinstance(source := package.read(path), NotReadable):
             yield f"{path} {source.reason}"
-    for path in unused_parts(package, seen):
-        yield f"{path} is not read: no file of a robot includes it"
 
 
 def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:

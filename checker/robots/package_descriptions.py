@@ -25,7 +25,7 @@ from checker.robots.candidates import (
     candidates,
     is_included,
     may_hold_description,
-    unread_models,
+    unreadable_models,
     unused_parts,
 )
 from checker.robots.compared_arguments import with_compared
@@ -138,12 +138,16 @@ class PackageDescriptions:
         others = [*self._others(expanded)] if self._with_others else []
         faults += (it for it in others if isinstance(it, XacroFault))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
+        unused: list[str] = []
         if not self._for_rviz:
             holding = {description.file for description in descriptions}
             called = [*self._called(holding)]
             descriptions += called
             made = (description.file for description in called)
-            reasons += unread_models(self._package, self._seen.union(made))
+            seen = self._seen.union(made)
+            reasons += unreadable_models(self._package, seen)
+            left = unused_parts(self._package, seen)
+            unused += (f"{path} is not read: no file of a robot includes it" for path in left)
             if not descriptions:
                 reasons += (
                     f"{path} is part of a robot that is not available" for path in fragments
@@ -152,6 +156,7 @@ class PackageDescriptions:
             tuple(descriptions),
             tuple(faults),
             tuple(reasons),
+            tuple(unused),
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
             assumed,

@@ -18,6 +18,7 @@ class UrdfFiles(Record, eq=False):
         descriptions: The descriptions of the files with a robot.
         faults: The faults because of which files have no robot.
         unread: The reasons why files could not be read, each the end of a sentence.
+        unused: The same of files with links, joints or macros that no file of a robot includes.
         set_aside: The same of files next to an SDF model that no launch file loads.
         old: Files that only newer releases of xacro refuse; the descriptions are those of
             Melodic's.
@@ -28,6 +29,7 @@ class UrdfFiles(Record, eq=False):
     descriptions: tuple[UrdfDescription, ...] = ()
     faults: tuple[XacroFault, ...] = ()
     unread: tuple[str, ...] = ()
+    unused: tuple[str, ...] = ()
     set_aside: tuple[str, ...] = ()
     old: tuple[XacroFault, ...] = ()
     assumed: Mapping[str, str] = field(default_factory=dict)

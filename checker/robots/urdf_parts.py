@@ -43,6 +43,6 @@ def descriptions(package: Package, files: UrdfFiles) -> tuple[UrdfDescription, .
         return files.descriptions
     wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
     large = [f"{file.path} {file.reason}" for file in package.too_large]
-    reasons = [*wrong, *files.unread, *large]
+    reasons = [*wrong, *files.unread, *files.unused, *large]
     reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
     return NotAvailable(reason, applicable=bool(reasons))

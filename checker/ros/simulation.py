@@ -122,6 +122,11 @@ class Simulation(Record, eq=False, dict=True):
         known = entry.gz_topic and entry.counts
         return self.topics.get(comparable(entry.gz_topic), []) if known else []
 
+    def is_silent(self, entry: BridgeEntry) -> bool:
+        """Return whether nothing in Gazebo publishes what a bridge passes, where all is known."""
+        is_known = self.is_whole and self.knows_systems and not self.unknown_topics
+        return bool(is_known and self.robots and not self.topics_of(entry))
+
     @cached_property
     def unknown_topics(self) -> str:
         """Reason why models may have more topics than those that are known; else empty."""

@@ -12,6 +12,7 @@ Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
 """
 
+import posixpath
 import re
 from collections.abc import Iterable
 
@@ -75,9 +76,21 @@ def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) ->
         if not isinstance(source, SourceText) or written not in source.text:
             continue
         root = document.root if isinstance(document, XmlDocument) else None
-        if path in own or root is None or (root.tag == "robot" and not root.get("name")):
+        is_part = root is None or (root.tag == "robot" and not root.get("name"))
+        if path in own or (is_part and _is_included(package, path)):
             return True
     return False
+
+
+def _is_included(package: Package, path: str) -> bool:
+    """Return whether a xacro file includes this one."""
+    documents = (package.xml(it.path) for it in package.index.with_suffix(".xacro", ".urdf"))
+    return any(
+        posixpath.basename(include.get("filename") or "") == posixpath.basename(path)
+        for document in documents
+        if isinstance(document, XmlDocument)
+        for include in document.root.descendants("xacro:include")
+    )
 
 
 def _may_be_of_user(entry: BridgeEntry) -> bool:
@@ -130,11 +143,15 @@ def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
 _SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
 _ODOMETRY = ("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
 _MARK = "  # ^ BRG004"
+_MAST = "<robot><sensor><topic>${ns}/lidar</topic></sensor></robot>"
+_INCLUDE = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="mast.xacro"/>
+</robot>
+"""
 GOOD = [
     {"@bridge": True},
     _entry("/model/rover/odometry", *_ODOMETRY),
-    _entry("/lidar", *_SCAN)
-    | {"urdf/mast.xacro": "<robot><sensor><topic>${ns}/lidar</topic></sensor></robot>"},
+    {**_entry("/lidar", *_SCAN), "urdf/mast.xacro": _MAST, "urdf/all.xacro": _INCLUDE},
     {
         **_entry("/lidar", *_SCAN),
         "@launch": {'"rover", "-file", URDF': '"rover", "-file", "/somewhere/rover.sdf"'},
@@ -146,6 +163,7 @@ GOOD = [
 ]
 BAD = [
     _entry("/lidar", *_SCAN, _MARK),
+    {**_entry("/lidar", *_SCAN, _MARK), "urdf/mast.xacro": _MAST},
     _entry("/odom", *_ODOMETRY, _MARK),
     _entry("/model/my_rover/odometry", *_ODOMETRY, _MARK),
 ]

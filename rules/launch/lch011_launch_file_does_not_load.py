@@ -1,20 +1,21 @@
 """A launch file that does not load, or not with its own defaults.
 
 It is not valid Python, XML or YAML, defines no `generate_launch_description`, uses a name that is
-neither defined nor imported, or that its function assigns only further down, includes itself, or
-has a default that is not among its choices.
+neither defined nor imported, or that its function assigns only further down, calls a tuple like a
+function, since a comma is missing, includes itself, or has a default that is not among its choices.
 
 Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` shows the same error.
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
 """
 
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule, unchecked
 
 _KINDS = (
     LaunchFaultKind.SYNTAX,
     LaunchFaultKind.NO_DESCRIPTION,
     LaunchFaultKind.UNDEFINED_NAME,
+    LaunchFaultKind.CALL,
     LaunchFaultKind.INCLUDE_LOOP,
     LaunchFaultKind.UNKNOWN_CHOICE,
 )
@@ -33,7 +34,8 @@ def check(launch: Ros2Launch) -> Findings:
         for unread in graph.unread if not broken else ():
             place = unread.span.place()
             if not place.file.startswith("../"):
-                yield unchecked(f"{place.file}:{place.line}: {unread.reason}")
+                reason = f"{place.file}:{place.line}: {unread.reason}"
+                yield Unchecked(reason, None if unread.by_default else Severity.WARNING)
 
 
 _ARGUMENT = "        DeclareLaunchArgument('x', choices=['a', 'b'], default_value='@'),"
@@ -75,6 +77,11 @@ BAD = [
     },
     {
         "@ros2": "        Node(package='p' executable='e'),  # ^ LCH011",
+    },
+    {
+        "@ros2": """        Node(package='p', executable='e', remappings=[
+            ('a', 'b')('c', 'd'),  # ^ LCH011
+        ]),""",
     },
     {
         "@ros2": "        Node(package='p', executable=program),  # ^ LCH011",

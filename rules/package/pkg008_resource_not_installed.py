@@ -11,6 +11,7 @@ Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo loo
 ROS 2 documentation, "Developing a ROS 2 package": `ros2 launch` looks into the share folder.
 """
 
+import posixpath
 import re
 from collections.abc import Iterator, Sequence
 from fnmatch import fnmatch
@@ -46,6 +47,7 @@ _LESS = {
     "thumbnails": Severity.INFO,
 }
 """Lower severities for folders without which the robot starts."""
+_MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf")
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")
 _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
@@ -105,10 +107,28 @@ def _by_setup(package: Package) -> Findings:
         return
     origins = {origin for _, origin in package.installed}
     for folder in _filled_folders(package):
-        if _covers(origins, folder):
-            continue
-        message = f"folder {folder}/ is not installed: data_files names no file of it"
-        yield finding(setup, message, severity=_LESS.get(folder), key=message)
+        if not _covers(origins, folder):
+            message = f"folder {folder}/ is not installed: data_files names no file of it"
+            yield finding(setup, message, severity=_LESS.get(folder), key=message)
+        elif left := [*_left_meshes(package, folder, origins)]:
+            verb = "is" if len(left) == 1 else f"and {len(left) - 1} more are"
+            message = f"{left[0]} {verb} not installed: data_files names other files of {folder}/"
+            yield finding(setup, message, key=f"meshes of {folder}")
+
+
+def _left_meshes(package: Package, folder: str, origins: set[str]) -> Iterator[str]:
+    """Yield the meshes of a folder that a file of the package names and nothing installs."""
+    for file in package.index.with_suffix(*_MESHES):
+        name = posixpath.basename(file.path).casefold()
+        is_used = file.path.startswith(f"{folder}/") and name in package.mentioned_names
+        if is_used and not _is_within(origins, file.path):
+            yield file.path
+
+
+def _is_within(origins: set[str], path: str) -> bool:
+    """Return whether a file, or a folder that it is in, is installed."""
+    parts = path.split("/")
+    return any("/".join(parts[:end]) in origins for end in range(1, len(parts) + 1))
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:
@@ -201,6 +221,13 @@ GOOD = [
 ]
 BAD = [
     {"CMakeLists.txt": None, "setup.py": _SETUP},
+    {
+        "CMakeLists.txt": None,
+        "setup.py": _SETUP.replace("*/*.none", "*/*.[a-z]*"),
+        "meshes/base.stl": "solid a",
+        "meshes/arm.STL": "solid a",
+        "README.md": "Meshes: base.stl, arm.STL",
+    },
     {
         "meshes/a.dae": "<COLLADA/>",
         "CMakeLists.txt": """project(acme_rover_sensor_config_1)

@@ -33,6 +33,7 @@ from checker.rule import (
     Findings,
     Safety,
     Severity,
+    Unchecked,
     finding,
     replace_text,
     rule,
@@ -51,6 +52,8 @@ def check(files: UrdfFiles, context: Context) -> Findings:
     """Report files that xacro refuses, and expressions that it leaves."""
     for reason in files.unread:
         yield unchecked(reason)
+    for reason in files.unused:
+        yield Unchecked(reason, Severity.WARNING if files.descriptions else None)
     for fault in files.faults:
         if fault.kind is XacroFaultKind.MALFORMED:  # SDF001 says so.
             yield unchecked(f"{fault.file} is not well-formed")

@@ -13,6 +13,8 @@ Source: navigation2, parameters `odom_topic` and `topic`; ros2_controllers, topi
 controllers.
 """
 
+from checker.launch.ros2.bridges.entry import BridgeEntry
+from checker.ros.wiring.endpoints import Endpoint
 from checker.ros.wiring.sensed import (
     alike,
     sources,
@@ -20,20 +22,30 @@ from checker.ros.wiring.sensed import (
     unpublished_inputs,
     where_published,
 )
-from checker.ros.wiring.wiring import Wirings
+from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
 @rule("WIR018", "input-of-no-launch-file", Severity.WARNING, Concern.INTERFACE)
 def check(wirings: Wirings) -> Findings:
     """Report inputs whose messages other launch files publish under another name."""
-    published = {it.topic for each in wirings.all for it in each.endpoints if it.publishes}
+    published = {
+        it.topic
+        for each in wirings.all
+        for it in each.endpoints
+        if it.publishes and not _is_silent(each, it)
+    }
     for wiring in wirings.all:
         for wanted, message in unpublished_inputs(wiring, published):
             read = topics_read_by(wiring, wanted.owner)
             if sources(wiring, wanted, message, read):
                 continue  # WIR006 reports it
-            others = [it for each in wirings.all for it in sources(each, wanted, message, read)]
+            others = [
+                it
+                for each in wirings.all
+                for it in sources(each, wanted, message, read)
+                if not _is_silent(each, it)
+            ]
             if not others:
                 continue
             reasons = (it.more_publishers(message) or it.unknown_parts for it in wirings.all)
@@ -48,6 +60,12 @@ def check(wirings: Wirings) -> Findings:
                 key=wanted.topic,
                 related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
             )
+
+
+def _is_silent(wiring: Wiring, endpoint: Endpoint) -> bool:
+    """Return whether a topic comes from a bridge of which nothing in Gazebo is the source."""
+    entry, simulation = endpoint.owner, wiring.simulation
+    return isinstance(entry, BridgeEntry) and simulation is not None and simulation.is_silent(entry)
 
 
 _NAVIGATION = """<launch>
@@ -76,6 +94,7 @@ def _example(
 
 
 _MARK = "  <!-- ^ WIR018 -->"
+_DEAD = _BRIDGE.replace("base/odom", "odom").replace("rover/odometry", "rover/wheel_odometry")
 _UNKNOWN = '<launch><node pkg="acme_base" exec="base"/></launch>'
 GOOD = [
     _example("base/odom"),
@@ -84,4 +103,5 @@ GOOD = [
 BAD = [
     _example("odom", _MARK),
     _example("base_odom", _MARK, more=_UNKNOWN),
+    _example("odom", _MARK, bridge=_BRIDGE + _DEAD),
 ]

@@ -85,6 +85,7 @@ class LaunchFaultKind(enum.Enum):
     ACTION = "an element is not an action"
     ATTRIBUTE = "an attribute or keyword is not known, or missing"
     CONDITION = "a condition is neither true nor false"
+    CALL = "a value that is no function is called"
     COMPARISON = "a substitution is tested as if it were its value"
     INCLUDE_LOOP = "a file includes itself"
     LIMIT = "the launch file is larger than this reader supports"
@@ -112,10 +113,12 @@ class Unread(Record, eq=False):
     Attributes:
         reason: The end of a sentence.
         span: Its place.
+        by_default: Whether the defaults of all arguments lead to it.
     """
 
     reason: str
     span: Span
+    by_default: bool = True
 
 
 class Condition(Record, eq=False):

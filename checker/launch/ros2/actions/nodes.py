@@ -203,7 +203,12 @@ def _component(made: Made, context: Context) -> Node:
 
 def _gather(visitor: Visitor, *nodes: Node) -> None:
     visitor.found.nodes += nodes
-    visitor.found.unread += (u for node in nodes for u in node.unread if u.reason != MOVEIT)
+    for node in nodes:
+        visitor.found.unread += (
+            replace(unread, by_default=node.starts is not False)
+            for unread in node.unread
+            if unread.reason != MOVEIT
+        )
 
 
 def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]:

@@ -9,7 +9,13 @@ from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from checker.launch.ros2.classes import CLASSES, ROOTS
-from checker.launch.ros2.graph import Condition, is_known
+from checker.launch.ros2.graph import (
+    Condition,
+    LaunchFault,
+    LaunchFaultKind,
+    Unread,
+    is_known,
+)
 from checker.launch.ros2.python import methods
 from checker.launch.ros2.python.call import Call
 from checker.launch.ros2.python.expressions import bounded, each, evaluate, plain, sequence
@@ -77,7 +83,7 @@ class Interpreter:
         may_change: Whether the last call may have changed what is launched: it got something that
             can hold actions, or starts programs.
         notes: What was skipped.
-        misused: Tests of a substitution as if it were its value, each with its result.
+        faults: What the code does that stops the launch, or decides it by mistake, by place.
     """
 
     def __init__(self, source: SourceText, allowance: Allowance, world: World) -> None:
@@ -90,8 +96,8 @@ class Interpreter:
         self.handled: list[tuple[frozenset[str], int]] = []
         self.by_argument = False
         self.may_change = False
-        self.notes: list[Unknown] = []
-        self.misused: dict[Span, str] = {}
+        self.notes: list[Unread] = []
+        self.faults: dict[Span, LaunchFault] = {}
 
     def module_scope(self, tree: ast.Module | None = None) -> Scope:
         """Return the names that the file defines."""
@@ -120,12 +126,16 @@ class Interpreter:
 
     def unread(self, node: ast.AST, reason: str) -> None:
         """Note what was skipped."""
-        self.notes.append(self.unknown(node, reason))
+        self._note(self.unknown(node, reason))
 
     def ignored(self, value: Unknown) -> None:
         """Note a call whose effect is not known, unless it has none on what is launched."""
         if self.may_change:
-            self.notes.append(value)
+            self._note(value)
+
+    def _note(self, value: Unknown) -> None:
+        by_default = not any(guard.holds is False for guard in self.guards)
+        self.notes.append(Unread(value.reason, value.span, by_default))
 
     def handles(self, names: frozenset[str]) -> bool:
         """Return whether a `try` handles an error of these classes, under no further condition."""
@@ -159,7 +169,14 @@ class Interpreter:
 
     def misuse(self, node: ast.AST, result: str) -> None:
         """Note that the code tests an object of launch, not the value that it gets there."""
-        self.misused[self.span(node)] = f"`{ast.unparse(node)[:80]}` is always {result}"
+        self._fault(
+            LaunchFaultKind.COMPARISON, node, f"`{ast.unparse(node)[:80]}` is always {result}"
+        )
+
+    def _fault(self, kind: LaunchFaultKind, node: ast.AST, message: str) -> None:
+        span = self.span(node)
+        if not any(guard.holds is False for guard in self.guards):
+            self.faults[span] = LaunchFault(kind, span, message)
 
     def watched(self, node: ast.expr, scope: Scope) -> Value:
         """Evaluate a value to assign; `by_argument` is about it alone."""
@@ -305,6 +322,10 @@ class Interpreter:
 
     def call(self, node: ast.Call, scope: Scope) -> Value:
         """Return the value of a call."""
+        if isinstance(node.func, ast.Tuple | ast.List | ast.Dict | ast.Constant):
+            kind = type(node.func).__name__.lower()
+            message = f"the launch stops: a {kind} is called: is a comma missing in front of the (?"
+            self._fault(LaunchFaultKind.CALL, node, message)
         function = chosen_value(evaluate(self, node.func, scope))
         positional = sequence(self, node.args, scope)
         named: dict[str, Value] = {}

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 
 from checker.launch.ros2.actions.gathered import Gathered
-from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind, Unread
+from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind
 from checker.launch.ros2.python.expressions import evaluate
 from checker.launch.ros2.python.interpreter import Interpreter, World
 from checker.launch.ros2.python.scope import LocalFunction, Partial, Scope
@@ -76,9 +76,8 @@ def _line(source: SourceText, reason: str) -> Span:
 
 
 def _tell(run: Interpreter, found: Gathered) -> None:
-    kind = LaunchFaultKind.COMPARISON
-    found.faults += (LaunchFault(kind, *it) for it in run.misused.items())
-    found.unread += (Unread(note.reason, note.span) for note in run.notes)
+    found.faults += run.faults.values()
+    found.unread += run.notes
 
 
 def function_call(

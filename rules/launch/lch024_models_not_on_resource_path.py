@@ -1,0 +1,126 @@
+"""Gazebo does not find the models that a world includes from the workspace.
+
+`<uri>model://shelf</uri>` is looked up below the folders of Gazebo's search path. A model in the
+workspace is found only if its parent folder is one of them: else Gazebo prints an error, or asks an
+online database, and the model is missing; where it is the floor, the robot falls.
+
+It is reported of a world that a launch file names, if no package.xml and no environment hook puts
+the folder on the path, and no launch file, document, script or container file of the workspace
+names the path at all. Ground, sun and other models that are not in the workspace are not judged.
+
+Fix: write `<gazebo_ros gazebo_model_path="${prefix}/models"/>` into `<export>` of the package with
+the models, and install the folder; or set `GAZEBO_MODEL_PATH` (in Gazebo Sim
+`GZ_SIM_RESOURCE_PATH`) in the launch file.
+Source: gazebo-classic, `SystemPaths` and `ModelDatabase`; gz-sim, resource paths; gazebo_ros,
+`gazebo_model_path`.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.package.package import Package
+from checker.package.resource_path import mentions, searched_folders
+from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import SourceText, Span
+from checker.source.xml import XmlDocument
+
+_WORLD = re.compile(r"[\w-]{1,80}\.(?:world|sdf)\b")
+_MODEL = re.compile(r"model://([^/\s]{1,100})/?\Z")
+_CONFIG = "model.config"
+
+
+@rule("LCH024", "models-not-on-resource-path", Severity.WARNING, Concern.INTERFACE)
+def check(package: Package) -> Findings:
+    """Report each folder of models once, at the launch file that names the world."""
+    named = [*_named_worlds(package)]
+    folders = _folders_of_models(package) if named else {}
+    every = (package, *package.other_packages)
+    if not folders or any(_is_named(each) for each in every):
+        return
+    path = [folder for each in every for folder in searched_folders(each)]
+    if not all(folder.known for folder in path):
+        return
+    reported: set[str] = set()
+    for place, document in named:
+        for model in _included(document):
+            folder = folders.get(model)
+            if folder is None or folder in reported or folder in {it.folder for it in path}:
+                continue
+            reported.add(folder)
+            yield finding(
+                place,
+                f"Gazebo does not find model://{model}, which {place.text} includes: nothing puts "
+                f"{folder} on its search path",
+                key=folder,
+            )
+
+
+def _is_named(package: Package) -> bool:
+    return any(True for classic in (True, False) for _ in mentions(package, classic=classic))
+
+
+def _named_worlds(package: Package) -> Iterator[tuple[Span, XmlDocument]]:
+    """Yield where launch files name worlds of the workspace, and these."""
+    for file in package.launch_texts:
+        source = package.read(file)
+        for match in _WORLD.finditer(source.text) if isinstance(source, SourceText) else ():
+            for holder in (package, *package.other_packages):
+                paths = (it.path for it in holder.index.with_suffix(".world", ".sdf"))
+                found = next((it for it in paths if posixpath.basename(it) == match[0]), "")
+                document = holder.xml(found) if found else None
+                if isinstance(document, XmlDocument) and isinstance(source, SourceText):
+                    yield Span(source, *match.span()), document
+
+
+def _folders_of_models(package: Package) -> dict[str, str]:
+    """Return the folder above each model of the workspace, from the folder of share folders."""
+    found: dict[str, str] = {}
+    for holder in (package, *package.other_packages):
+        for file in holder.index.with_suffix(_CONFIG):
+            folder, name = posixpath.split(posixpath.dirname(file.path))
+            if name and posixpath.basename(file.path) == _CONFIG:
+                found[name] = f"{holder.declared_name}/{folder}".rstrip("/")
+    return found
+
+
+def _included(document: XmlDocument) -> Iterator[str]:
+    for include in document.root.descendants("include"):
+        uri = include.child("uri")
+        named = _MODEL.match(uri.text.value.strip()) if uri is not None else None
+        if named is not None:
+            yield named[1]
+
+
+_WORLD_FILE = """<sdf version="1.6">
+<world name="hall">
+  <include><uri>model://sun</uri></include>
+  <include><uri>model://shelf</uri></include>
+</world>
+</sdf>
+"""
+_START = """        ExecuteProcess(cmd=['gzserver', in_package('worlds', 'hall.world')]),@"""
+_EXPORT = """<package format="3">
+  <name>acme_arm_bringup</name>
+  <export><gazebo_ros gazebo_model_path="${prefix}/models"/></export>
+</package>
+"""
+
+
+def _hall(mark: str = "", **more: str) -> dict[str, object]:
+    return {
+        "@ros2": _START.replace("@", mark),
+        "worlds/hall.world": _WORLD_FILE,
+        "models/shelf/model.config": "<model><name>shelf</name></model>",
+        "models/shelf/model.sdf": "<sdf version='1.6'><model name='shelf'/></sdf>",
+        **{name.replace("__", "."): text for name, text in more.items()},
+    }
+
+
+GOOD = [
+    _hall(package__xml=_EXPORT),
+    _hall(README__md="export GAZEBO_MODEL_PATH=$PWD/models"),
+    _hall(start__sh="export GZ_SIM_RESOURCE_PATH=models"),
+    {**_hall(), "models/shelf/model.config": None},
+]
+BAD = [_hall("  # ^ LCH024")]
