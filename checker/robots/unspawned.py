@@ -5,38 +5,47 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator
+from itertools import chain
 
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph
 from checker.launch.ros2.package_launch import launch_graphs
+from checker.package.files_above import files_above
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.target import package_around
-from checker.robots.shown_only import SPAWNS, spawns_others
+from checker.robots.shown_only import spawns_others
 from checker.source.text import SourceText
 
 _NAMING = (
     *(".py", ".launch", ".xml", ".sdf", ".world", ".xacro", ".urdf", ".yaml", ".yml", ".json"),
     *(".md", ".rst", ".sh", ".cpp", ".cc", ".hpp", ".h", ".rb", ".erb", ".config"),
 )
-_WORLD = re.compile(r"[\w-]\.world\b|\bworlds?/[\w-]{1,80}\.sdf\b|[\w-]*world[\w-]*\.sdf\b")
+_README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
+_COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
+"""The name of a world that a launch file puts together."""
 
 
 def unstarted_world(package: Package) -> str:
-    """Return the clause that no launch file starts a world, where one starts another; else empty.
+    """Return the clause that no launch file starts a world; empty where one may, or there is none.
 
     Args:
         package: The world as a single file.
     """
-    around = package_around(package) if package.kind is PackageKind.WORLD else None
-    if around is None:
-        return ""
     file = package.name
-    own = (package.root / file).relative_to(around.root).as_posix()
+    if package.kind is not PackageKind.WORLD and not (package.only and file.endswith(".world")):
+        return ""
+    around = package_around(package)
+    launches = package.workspace.launch_texts.values()
+    if not launches or any(map(_COMPUTED.search, launches)):
+        return ""
     stem = re.escape(file.partition(".")[0])
     named = re.compile(rf"""^(?!.*\u2500 ).*(?:{re.escape(file)}|["']{stem}["'])""", re.MULTILINE)
-    starts_another = any(map(_WORLD.search, package.workspace.launch_texts.values()))
-    if not starts_another or any(map(named.search, _texts(around, own))):
+    holders = [around] if around else [*package.workspace.packages.values()][:1]
+    own = (package.root / file).relative_to(around.root).as_posix() if around else ""
+    texts = chain.from_iterable(_texts(holder, own) for holder in holders)
+    above = (it.text for sources in files_above(package, _README) for it in sources)
+    if any(map(named.search, chain(texts, above))):
         return ""
     return f"only in {file}, which no launch file starts"
 
@@ -59,9 +68,11 @@ def unspawned(package: Package, path: str) -> str:
         return ""
     graphs = launch_graphs(around)
     loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
-    if not any(it.node.executable.value in SPAWNS for _, it in loaded):
-        return ""
-    if any(_may_load_others(*pair) for pair in loaded) or not spawns_others(around, graphs, file):
+    if (
+        not loaded
+        or any(_may_load_others(*pair) for pair in loaded)
+        or not spawns_others(around, graphs, file)
+    ):
         return ""
     return f"only in {file}, which no launch file loads"
 

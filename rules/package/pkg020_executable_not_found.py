@@ -35,7 +35,8 @@ def check(package: Package) -> Findings:
         return
     for executable in setup.executables:
         if message := _fault(package, executable):
-            is_started = executable.name in package.workspace.launch_words
+            written = re.compile(rf"""["']{re.escape(executable.name)}["']""")
+            is_started = any(map(written.search, package.workspace.launch_texts.values()))
             yield finding(
                 executable,
                 f"executable {executable.name!r} cannot start: {message}",

@@ -49,7 +49,7 @@ def _judged(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding
             yield finding(
                 file, f"the command fails: {name.text} has no file {file.text}", key=file.text
             )
-        elif holders and not _may_exist(packages[0], name.text):
+        elif holders and not named and not _may_exist(packages[0], name.text):
             yield finding(
                 name,
                 f"the command fails: there is no package {name.text}; {file.text} is in "
@@ -67,7 +67,9 @@ def _has(package: Package, path: str) -> bool:
 
 
 def _may_exist(package: Package, name: str) -> bool:
-    return package.workspace.package(name) is not None or bool(distributions_with(name))
+    found = package.workspace.package(name)  # by its name, or that of its folder
+    is_named = found is not None and found.declared_name == name
+    return is_named or bool(distributions_with(name))
 
 
 def _readme(command: str) -> dict[str, object]:

@@ -547,3 +547,17 @@ def test_the_distribution_of_the_package_is_that_of_the_environment(read: Read) 
         others={"Dockerfile": "FROM ros:jazzy\n"},
     )
     assert [node.executable.value for node in graph.nodes] == ["new", "jazzy"]
+
+
+def test_a_variable_is_what_the_readme_tells_to_export(read: Read) -> None:
+    graph = read(
+        "model = os.environ['LIDAR']\n"
+        "if model == 'flat':\n"
+        "    name = 'flat_driver'\n"
+        "else:\n"
+        "    name = 'deep_driver'\n"
+        "return LaunchDescription([Node(package='p', executable=name)])",
+        others={"README.md": "```\necho 'export LIDAR=deep' >> ~/.bashrc\n```\n"},
+    )
+    assert [node.executable.value for node in graph.nodes] == ["deep_driver"]
+    assert not graph.unread

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from typing import TypeVar
 
 from msgspec.structs import replace
@@ -37,11 +39,15 @@ from checker.launch.ros2.values import (
     Unknown,
     Value,
 )
+from checker.package.files_above import files_around
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 
 _Item = TypeVar("_Item", LaunchFault, Unread)
 
+_README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
+_EXPORT = re.compile(r"""\bexport[ \t]+([A-Z]\w{1,80})=["']?([\w.-]{1,80})(?=["'`\s]|\Z)""")
+"""`export LDS_MODEL=LDS-02`, as a README tells users to write."""
 FILES_LIMIT = 60
 """Launch files and modules that one launch file may include."""
 
@@ -82,9 +88,10 @@ class LaunchReader:
             empty = SourceText(self._file, "").whole()
             return LaunchGraph(self._file, unread=(Unread(str(source.reason), empty),))
         given = {name: PlacedText(text, source.whole()) for name, text in self._arguments.items()}
-        state = State(configurations=dict(given))
-        if (distro := self.variable("ROS_DISTRO")) is not None:
-            state.environment["ROS_DISTRO"] = PlacedText(distro, source.whole())
+        variables = {
+            name: PlacedText(value, source.whole()) for name, value in self._variables.items()
+        }
+        state = State(configurations=dict(given), environment=dict(variables))
         context = self._context_of(source, state)
         try:
             self._visit_file(source, context)
@@ -231,9 +238,17 @@ class LaunchReader:
         return package_files.installed_path(self._package, source.file)
 
     def variable(self, name: str) -> str | None:
-        """Return an environment variable that the target decides; None for all others."""
-        sign = self._package.distribution_sign if name == "ROS_DISTRO" else None
-        return sign.distro if sign is not None else None
+        """Return an environment variable as the target or a README sets it; None for others."""
+        return self._variables.get(name)
+
+    @cached_property
+    def _variables(self) -> Mapping[str, str]:
+        """What a README tells users to set, and the distribution."""
+        sources = [*files_around(self._package, _README)]
+        exports = [match for it in sources for match in _EXPORT.finditer(it.text)]
+        found = {match[1]: match[2] for match in reversed(exports)}
+        sign = self._package.distribution_sign
+        return found if sign is None else {**found, "ROS_DISTRO": sign.distro}
 
 
 def _as_late(fault: LaunchFault, context: Context) -> LaunchFault:

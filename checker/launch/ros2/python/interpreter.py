@@ -67,7 +67,7 @@ class World(Protocol):
         """Return the path of a launch file as it is installed."""
 
     def variable(self, name: str) -> str | None:
-        """Return an environment variable that the target decides; None for all others."""
+        """Return an environment variable as the target or a README sets it; None for others."""
 
 
 class Interpreter:
@@ -284,11 +284,14 @@ class Interpreter:
 
     def environment(self, name: Value, default: Value, node: ast.AST) -> Value:
         """Return an environment variable: its default, else `$(env NAME)`."""
-        if isinstance(name, str) and (known := self.world.variable(str(name))) is not None:
+        known = self.world.variable(str(name)) if isinstance(name, str) else None
+        if known is not None and name == "ROS_DISTRO":
             return PlacedText(known, self.span(node))
         self.by_argument = True
         if default is not None and not isinstance(default, Unknown):
             return default
+        if known is not None:
+            return PlacedText(known, self.span(node))
         if not isinstance(name, str) or not is_known(name):
             return self.unknown(node, "the name of an environment variable is not known")
         return PlacedText(f"$(env {name})", self.span(node))
