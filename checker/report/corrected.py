@@ -54,6 +54,9 @@ def _after(edits: Sequence[Edit]) -> str | None:
     text = edits[0].place.snippet
     # Findings of several robots may each bring the same edit.
     once = {(it.place.column, it.place.end_column, it.replacement): it for it in edits}
+    starts = [start for start, _, _ in once]
+    if len({*starts}) < len(starts):  # values for several links, of which the line has one
+        return None
     for _, edit in sorted(once.items(), reverse=True):
         place, start = edit.place, edit.place.column - 1
         end = place.end_column - 1

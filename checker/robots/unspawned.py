@@ -24,6 +24,8 @@ _NAMING = (
 _README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
 """The name of a world that a launch file puts together."""
+_BRANCH = "\u2500 "
+"""A line of a README that draws the tree of files starts none of them."""
 
 
 def unstarted_world(package: Package) -> str:
@@ -39,13 +41,14 @@ def unstarted_world(package: Package) -> str:
     launches = package.workspace.launch_texts.values()
     if not launches or any(map(_COMPUTED.search, launches)):
         return ""
-    stem = re.escape(file.partition(".")[0])
-    named = re.compile(rf"""^(?!.*\u2500 ).*(?:{re.escape(file)}|["']{stem}["'])""", re.MULTILINE)
+    stem = file.partition(".")[0]
+    names = (file, f'"{stem}"', f"'{stem}'")
     holders = [around] if around else [*package.workspace.packages.values()][:1]
     own = (package.root / file).relative_to(around.root).as_posix() if around else ""
     texts = chain.from_iterable(_texts(holder, own) for holder in holders)
     above = (it.text for sources in files_above(package, _README) for it in sources)
-    if any(map(named.search, chain(texts, above))):
+    lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
+    if any(_BRANCH not in line and any(name in line for name in names) for line in lines):
         return ""
     return f"only in {file}, which no launch file starts"
 

@@ -99,7 +99,7 @@ _WORLD_FILE = """<sdf version="1.6">
 </world>
 </sdf>
 """
-_START = """        ExecuteProcess(cmd=['gzserver', in_package('worlds', 'hall.world')]),@"""
+_START = """        ExecuteProcess(cmd=['gzserver', in_package('worlds', 'hall.world')]),"""
 _EXPORT = """<package format="3">
   <name>acme_arm_bringup</name>
   <export><gazebo_ros gazebo_model_path="${prefix}/models"/></export>
@@ -107,9 +107,9 @@ _EXPORT = """<package format="3">
 """
 
 
-def _hall(mark: str = "", **more: str) -> dict[str, object]:
+def _hall(**more: str) -> dict[str, object]:
     return {
-        "@ros2": _START.replace("@", mark),
+        "@ros2": _START,
         "worlds/hall.world": _WORLD_FILE,
         "models/shelf/model.config": "<model><name>shelf</name></model>",
         "models/shelf/model.sdf": "<sdf version='1.6'><model name='shelf'/></sdf>",
@@ -123,4 +123,4 @@ GOOD = [
     _hall(start__sh="export GZ_SIM_RESOURCE_PATH=models"),
     {**_hall(), "models/shelf/model.config": None},
 ]
-BAD = [_hall("  # ^ LCH024")]
+BAD = [{**_hall(), "@reported": ["launch/arm.launch.py:20"]}]

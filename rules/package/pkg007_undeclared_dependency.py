@@ -34,6 +34,7 @@ from checker.package.dependencies import Use, duplicate_files, former_names
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
+from checker.package.mentions import has_word
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -91,6 +92,7 @@ def check(
         use
         for use in every_use(package, launch)
         if not (use.builds and manifest.depends_on(use.package_name))
+        if not (ament and _is_of_folder(package, use.package_name))
     ]
     uses += _plugins(package, context) if ament else ()
     former = former_names(package, uses)
@@ -126,6 +128,12 @@ def check(
     yield from _misspelt(package, manifest)
 
 
+def _is_of_folder(package: Package, name: str) -> bool:
+    """Return whether a name is that of a package's folder alone: PKG023 reports it."""
+    holder = package.workspace.package(name) if name not in PROVIDED else None
+    return holder is not None and holder.declared_name != name
+
+
 def _plugins(package: Package, context: Context) -> Iterator[Use]:
     """Yield packages of controllers and hardware that no package of the workspace declares."""
     uses = [*plugin_uses(package)]
@@ -155,12 +163,26 @@ def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
     """Report one use; what depends on this package cannot be declared: nothing builds a circle."""
     name = use.package_name
     message = f"{use.how}: {name} is missing from the dependencies in package.xml"
-    other = package.workspace.package(name)
-    others = Paperwork(other).manifest if other is not None else None
-    if others is not None and others.depends_on(manifest.name.value):
-        message = f"{message}, and depends on {manifest.name.value} itself"
+    if _leads_back(package, name, manifest.name.value):
+        message = f"{message}, and needs {manifest.name.value} itself"
         return finding(use.place, message, severity=Severity.INFO, key=name)
     return finding(use.place, message, key=name, fix=_declaration_fix(package, manifest, use))
+
+
+def _leads_back(package: Package, name: str, own: str) -> bool:
+    """Return whether a package depends on this one, or its launch files name this one."""
+    seen, waiting = set[str](), [name]
+    while waiting:
+        other = package.workspace.package(waiting.pop())
+        if other is None or other.name in seen:
+            continue
+        seen.add(other.name)
+        manifest = Paperwork(other).manifest
+        named = any(has_word(text, own) for text in other.launch_texts.values())
+        if named or (manifest is not None and manifest.depends_on(own)):
+            return True
+        waiting += (it.package.value for it in manifest.dependencies) if manifest else ()
+    return False
 
 
 def _brought(manifest: PackageManifest, name: str) -> bool:

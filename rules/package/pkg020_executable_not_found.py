@@ -35,8 +35,9 @@ def check(package: Package) -> Findings:
         return
     for executable in setup.executables:
         if message := _fault(package, executable):
-            written = re.compile(rf"""["']{re.escape(executable.name)}["']""")
-            is_started = any(map(written.search, package.workspace.launch_texts.values()))
+            quoted = (f'"{executable.name}"', f"'{executable.name}'")
+            texts = package.workspace.launch_texts.values()
+            is_started = any(name in text for text in texts for name in quoted)
             yield finding(
                 executable,
                 f"executable {executable.name!r} cannot start: {message}",

@@ -76,7 +76,7 @@ def _readme(command: str) -> dict[str, object]:
     return {"@ros2": True, "README.md": f"# Arm\n\n```\n{command}\n```\n"}
 
 
-_MARK = "  # ^ PKG026"
+_MARK = "  <!-- ^ PKG026 -->"
 GOOD = [
     _readme("ros2 launch acme_arm_bringup arm.launch.py use_sim:=true"),
     _readme("ros2 launch nav2_bringup navigation_launch.py"),
