@@ -39,13 +39,14 @@ def unstarted_world(package: Package) -> str:
         return ""
     around = package_around(package)
     launches = package.workspace.launch_texts.values()
-    if not launches or any(map(_COMPUTED.search, launches)):
+    own = around.launch_texts if around else launches
+    if not own or any(map(_COMPUTED.search, launches)):
         return ""
     stem = file.partition(".")[0]
     names = (file, f'"{stem}"', f"'{stem}'")
     holders = [around] if around else [*package.workspace.packages.values()][:1]
-    own = (package.root / file).relative_to(around.root).as_posix() if around else ""
-    texts = chain.from_iterable(_texts(holder, own) for holder in holders)
+    path = (package.root / file).relative_to(around.root).as_posix() if around else ""
+    texts = chain.from_iterable(_texts(holder, path) for holder in holders)
     above = (it.text for sources in files_above(package, _README) for it in sources)
     lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
     if any(_BRANCH not in line and any(name in line for name in names) for line in lines):

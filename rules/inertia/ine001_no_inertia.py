@@ -74,6 +74,8 @@ def _missing(robot: Robot, link: Link, *, automatic: bool) -> Iterator[Finding]:
         )
     elif is_automatic(link.element.child("inertial")):
         yield from _left_to_the_simulator(link, inertial, automatic=automatic)
+    elif (mass := link.element.child("inertial", "mass")) is not None and mass.get("value"):
+        return  # written as in URDF: SDF004 reports it
     elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
         yield finding(
             inertial.mass,

@@ -6,7 +6,8 @@ kg. Words after the numbers that are expected have no effect: a warning; from li
 pose may not have any, but may have a comma behind a number: a warning, because the specification
 has none. This rule also checks numbers that the specification limits (a stddev below 0), as the
 newest version that the target reads has them, and words that it lists (the type of a light). Gazebo
-Classic limits no numbers: it takes a `mu` of -1 as no limit of the friction.
+Classic limits no numbers: it takes a `mu` of -1 as no limit of the friction. It reads older files
+that state one number as the `<sim_time>` of a saved `<state>`: a warning there.
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
@@ -16,6 +17,8 @@ gazebo-classic, `FrictionPyramid::SetMuPrimary`.
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+
+from msgspec.structs import replace
 
 from checker.base.resources import table
 from checker.formats.sdf.document import (
@@ -60,11 +63,21 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if kind is None:
             continue
         attributes = _attribute_types(element, kind, context)
-        yield from _text(element, kind, attributes, context)
+        for found in _text(element, kind, attributes, context):
+            is_saved = context.release == "classic" and _is_saved(element)
+            yield replace(found, severity=Severity.WARNING) if is_saved else found
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
         yield from _attributes(element, attributes, words["attributes"])
+
+
+def _is_saved(element: Element) -> bool:
+    """Return whether an element is in the `<state>` of a saved world."""
+    at: Element | None = element
+    while at is not None and at.tag != "state":
+        at = at.parent
+    return at is not None
 
 
 def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:
@@ -164,6 +177,13 @@ def _depth(far: str) -> str:
 """
 
 
+_SAVED = """
+<sdf version="1.4"><world name="hall">
+<state world_name="hall">
+  <sim_time>0</sim_time>@
+</state>
+</world></sdf>
+"""
 GOOD = [
     _depth("3</far>"),
     _inertial("1.01e2</mass>"),
@@ -172,6 +192,7 @@ GOOD = [
     "<link name='arm'><gravity>false</gravity><pose/></link>",
 ]
 BAD = [
+    {"@profile": "gazebo-classic", "@fragment": _SAVED.replace("@", "  <!-- ^ SDF006 -->")},
     _depth("-1</far>  <!-- ^ SDF006 -->"),
     _inertial("1.O1e2</mass>  <!-- ^ SDF006 -->"),
     _inertial("nan</mass>  <!-- ^ SDF006 -->"),
