@@ -3,41 +3,20 @@
 The launch ends with "executable 'x' not found on the libexec directory". A program of CMake needs
 `add_executable` and `install(TARGETS x DESTINATION lib/${PROJECT_NAME})`; a script in Python
 `install(PROGRAMS …)`, or an entry of `console_scripts` in setup.py, and keeps the name of its file:
-`x.py` is not `x`. Packages whose build files include other files, or select files by a pattern, are
-not checked.
+`x.py` is not `x`. The setup.py of a package that CMake builds counts only with
+`ament_python_install_package`. Packages whose build files include other files, or select files by a
+pattern, are not checked.
 
 Fix: install the program, or write the name under which it is installed.
 Source: ros2launch, `Node`: programs are looked up in `lib/<package>` of the installed package.
 """
 
-import re
 from collections.abc import Iterator
 
 from checker.launch.ros2.graph import LaunchGraph, Node, NodeKind, Ros2Launch, is_known
 from checker.package.package import Package
+from checker.package.programs import why_no_program
 from checker.rule import Concern, Findings, Severity, finding, rule
-from checker.source.text import SourceText
-
-_WORD = re.compile(r"[\w.-]+")
-_CMAKE = re.compile(
-    r"\bGLOB\b|\badd_subdirectory\b|\binclude\s{0,8}\(|\bforeach\b|\bExternalProject"
-    r"|\bFetchContent|\b(?:add_executable|\w*register_node\w*|install)\s{0,8}\([^)]{0,5000}\$\{",
-    re.IGNORECASE,
-)
-"""Among others a call with a variable, next to the name of the project."""
-_PROJECT = re.compile(r"\$\{PROJECT_NAME\}|\$\{CMAKE_PROJECT_NAME\}")
-_SETUP = re.compile(
-    r"[\"']lib/|\bf[\"']|\.format\(|[\"']\s{0,8}%"
-    r"|\bfor\s[\w\s,()]{1,60}\sin\b|\bscripts\s{0,8}=\s{0,8}[^\s\[=]"
-)
-"""Among others names that are put together, and scripts that are not listed."""
-_NOT_PLAIN = {
-    "CMakeLists.txt": _CMAKE,
-    "setup.py": _SETUP,
-    "setup.cfg": None,
-    "pyproject.toml": None,
-}
-"""Build files, and what in them may install programs whose names they do not state."""
 
 
 @rule("LCH018", "program-not-installed", Severity.ERROR, Concern.INTERFACE)
@@ -46,8 +25,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
     for graph in launch.entries:
         for node in _known_nodes(graph):
             holder = package.workspace.package(node.package.value)
-            build = _build_file(holder) if holder is not None else None
-            missing = _missing(node.executable.value, build) if build is not None else ""
+            missing = why_no_program(holder, node.executable.value) if holder is not None else ""
             if missing:
                 yield finding(
                     node.executable,
@@ -63,30 +41,6 @@ def _known_nodes(graph: LaunchGraph) -> Iterator[Node]:
         named = is_known(node.package.value) and is_known(node.executable.value)
         if named and node.executable.value and node.kind is not NodeKind.COMPONENT:
             yield node
-
-
-def _build_file(holder: Package) -> SourceText | None:
-    """Return the file that states what is installed; None if it does not state all."""
-    sources = []
-    for name, not_plain in _NOT_PLAIN.items():
-        source = holder.read(name) if holder.exists(name) else None
-        if isinstance(source, SourceText):
-            plain = _PROJECT.sub(holder.declared_name, source.text)
-            if not_plain is not None and not_plain.search(plain):
-                return None
-            sources.append(SourceText(name, plain))
-    text = "\n".join(source.text for source in sources)
-    return SourceText(sources[0].file, text) if sources else None
-
-
-def _missing(program: str, build: SourceText) -> str:
-    """Return why a build file does not install a program; empty if it may."""
-    words = set(_WORD.findall(build.text))
-    if program in words:
-        return ""
-    if f"{program}.py" in words:
-        return f"{build.file} installs {program}.py, with the file extension"
-    return f"nothing in {build.file} builds or installs it"
 
 
 def _node(executable: str, build: str, mark: str = "", package: str = "acme_arm_bringup") -> object:

@@ -1,7 +1,8 @@
-"""A command in the README that starts a launch file which is not there.
+"""A command in the README that starts a launch file or a program which is not there.
 
-`ros2 launch` and `roslaunch` end at once: the package has no file of that name, or has another name
-by now. Often a package or file was renamed, and the first command that a user tries fails.
+`ros2 launch`, `roslaunch` and `ros2 run` end at once: the package has no such file, its build
+installs no such program, or the package has another name by now. Often something was renamed, and
+the first command that a user tries fails.
 
 Fix: write the command with the names that exist.
 Source: ros2launch, `get_share_file_path_from_package`; roslaunch, `resource_exception`.
@@ -13,6 +14,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.package.files_above import files_above, own_files
 from checker.package.package import Package
+from checker.package.programs import why_no_program
 from checker.package.released import distributions_with
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import SourceText, Span
@@ -23,8 +25,10 @@ _COMMAND = re.compile(
     r"([\w./-]{1,200}\.(?:py|xml|ya?ml|launch))\b"
 )
 
+_RUN = re.compile(r"\bros2[ \t]+run[ \t]+([a-z]\w{1,100})[ \t]+([\w.-]{1,100})")
 
-@rule("PKG026", "documented-launch-file-missing", Severity.WARNING, Concern.PAPERWORK)
+
+@rule("PKG026", "documented-command-fails", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report commands whose package lacks the file, or whose file is in a package of another name.
 
@@ -34,28 +38,45 @@ def check(package: Package) -> Findings:
         return
     every = [package, *package.workspace.packages.values()]
     for source in own_files(package, _README):
-        yield from _judged(source, every)
+        yield from _launches(source, every)
+        yield from _runs(source, every)
     for sources in files_above(package, _README):
         for source in sources:
-            yield from _judged(source, [package])
+            yield from _launches(source, [package])
+            yield from _runs(source, [package])
 
 
-def _judged(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
+def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
     for command in _COMMAND.finditer(source.text):
         name, file = (Span(source, *command.span(group)) for group in (1, 2))
         named = [it for it in packages if it.declared_name == name.text]
-        holders = [it.declared_name for it in packages if _has(it, file.text)]
+        of_folder = packages[0].workspace.package(name.text)  # where no package has the name
+        likely = packages if of_folder is None else [it for it in packages if it is of_folder]
+        holders = [it.declared_name for it in likely if _has(it, file.text)]
         if named and not _has(named[0], file.text):
             yield finding(
                 file, f"the command fails: {name.text} has no file {file.text}", key=file.text
             )
-        elif holders and not named and not _may_exist(packages[0], name.text):
+        elif holders and name.text not in holders and not distributions_with(name.text):
             yield finding(
                 name,
                 f"the command fails: there is no package {name.text}; {file.text} is in "
                 f"{holders[0]}",
                 key=f"{name.text} {file.text}",
                 fix=replace_text(name, holders[0], Safety.UNSAFE),
+            )
+
+
+def _runs(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
+    for command in _RUN.finditer(source.text):
+        name, program = (Span(source, *command.span(group)) for group in (1, 2))
+        named = [it for it in packages if it.declared_name == name.text]
+        missing = why_no_program(named[0], program.text) if named else ""
+        if missing:
+            yield finding(
+                program,
+                f"the command fails: {name.text} has no program {program.text!r}: {missing}",
+                key=program.text,
             )
 
 
@@ -66,12 +87,6 @@ def _has(package: Package, path: str) -> bool:
     return name in names or f"{name}.in" in names
 
 
-def _may_exist(package: Package, name: str) -> bool:
-    found = package.workspace.package(name)  # by its name, or that of its folder
-    is_named = found is not None and found.declared_name == name
-    return is_named or bool(distributions_with(name))
-
-
 def _readme(command: str) -> dict[str, object]:
     return {"@ros2": True, "README.md": f"# Arm\n\n```\n{command}\n```\n"}
 
@@ -80,10 +95,12 @@ _MARK = "  <!-- ^ PKG026 -->"
 GOOD = [
     _readme("ros2 launch acme_arm_bringup arm.launch.py use_sim:=true"),
     _readme("ros2 launch nav2_bringup navigation_launch.py"),
+    _readme("ros2 run rviz2 rviz2 -d view.rviz"),
     _readme("ros2 launch acme_arm_moveit_config move_group.launch.py"),
     {**_readme("ros2 launch acme_arm_bringup sim.launch.py"), "launch/sim.launch.py.in": ""},
 ]
 BAD = [
     _readme(f"ros2 launch acme_arm_bringup robot.launch.py{_MARK}"),
     _readme(f"ros2 launch acme_arm arm.launch.py{_MARK}"),
+    _readme(f"ros2 run acme_arm_bringup watch{_MARK}"),
 ]

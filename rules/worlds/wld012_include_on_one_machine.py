@@ -1,0 +1,44 @@
+"""A world includes a model by a path on the machine of its author.
+
+`<uri>file:///home/me/models/rover</uri>` leads nowhere on every other machine: Gazebo prints an
+error, and the world has no such model. Where the model is the robot, there is nothing to simulate.
+
+Fix: write `model://rover`, and put the folder of the models on Gazebo's search path; or a path
+relative to the world.
+Source: SDFormat specification, include/uri.
+"""
+
+import posixpath
+
+from checker.model.world import World
+from checker.package.uris import is_on_one_machine
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("WLD012", "include-on-one-machine", Severity.ERROR, Concern.PORTABILITY)
+def check(world: World) -> Findings:
+    """Report includes whose path is in a home, on a drive, or in a built workspace."""
+    for uri in world.unknown:
+        if is_on_one_machine(uri.value):
+            name = posixpath.basename(uri.value.rstrip("/"))
+            yield finding(
+                uri,
+                f"{uri.value} is on its author's machine, and the world has no such model on any "
+                f"other: write model://{name}",
+            )
+
+
+def _world(uri: str, mark: str = "") -> dict[str, str]:
+    text = f"""<sdf version="1.9">
+<world name="hall">
+  <include>
+    <uri>{uri}</uri>{mark}
+  </include>
+</world>
+</sdf>
+"""
+    return {"@fragment": text}
+
+
+GOOD = [_world("model://rover"), _world("https://fuel.gazebosim.org/1.0/acme/models/rover")]
+BAD = [_world("file:///home/ann/models/rover", "  <!-- ^ WLD012 -->")]
