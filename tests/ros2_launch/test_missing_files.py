@@ -32,3 +32,31 @@ def test_a_condition_makes_no_finding_of_its_own(tmp_path: Path) -> None:
     (report,) = check_package(tmp_path / NAME, settings).packages
     (found,) = report.findings
     assert found.message.endswith("does not exist; config has lift_real.yaml")
+
+
+def test_a_launch_file_outside_of_packages_takes_files_by_its_own_path(tmp_path: Path) -> None:
+    for path, text in {
+        "launch/arm.launch.py": """import os
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    top = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    with open(os.path.join(top, "urdf", "arm", "arm.urdf")) as file:
+        text = file.read()
+    return LaunchDescription([Node(package="robot_state_publisher",
+        executable="robot_state_publisher", parameters=[{"robot_description": text}])])
+""",
+        "urdf/arm/arm.urdf": '<robot name="arm"><link name="base_link"/></robot>',
+        f"urdf/{NAME}/package.xml": PACKAGE_XML,
+        f"ros2/{NAME}_msgs/package.xml": PACKAGE_XML.replace(NAME, f"{NAME}_msgs"),
+    }.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text, "utf-8")
+
+    report = check_package(tmp_path, Settings(trial=False))
+
+    (launch,) = (package for package in report.packages if package.name == "launch")
+    assert launch.launched
+    assert not [it.reason for it in launch.not_checked if "not available" in it.reason]

@@ -57,7 +57,9 @@ def local_path(package: Package, path: str) -> str | None:
         return None
     holder = package.named(name)
     if holder is None:
-        return None
+        # A launch file outside of packages takes files by its own path: `../urdf/arm.urdf`.
+        beside = f"../{name}/{rest}"
+        return beside if package.is_loose and package.exists(beside) else None
     if not holder.exists(rest):
         rest = source_of(holder, rest) or rest
     return rest if holder is package else f"../{holder.name}/{rest}"

@@ -156,6 +156,8 @@ def unavailable(package: Package, path: SharePath) -> str:
     name = path.package
     if name.startswith(_OF_ROS) or name in _known_packages() or package.named(name):
         return ""
+    if package.is_loose and package.exists(f"../{name}/{path.path}"):
+        return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
     if package.exists(path.path):
