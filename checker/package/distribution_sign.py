@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
-from checker.package.files_above import files_above, own_files
+from checker.package.files_above import README, files_above, own_files
 from checker.package.index import is_of_tests
 from checker.source.text import SourceText
 
@@ -31,8 +31,7 @@ _CONTAINER = re.compile(
     r"|(?:docker-)?compose[\w.-]{0,40}\.ya?ml)\Z"
 )
 _CI = re.compile(r"(?:\A|/)(?:\.github/workflows/[^/]+\.ya?ml|\.gitlab-ci\.yml)\Z")
-_README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,4})?\Z")
-NAMES = re.compile("|".join(pattern.pattern for pattern in (_CONTAINER, _CI, _README)))
+NAMES = re.compile("|".join(pattern.pattern for pattern in (_CONTAINER, _CI, README)))
 
 
 class DistributionSign(Record):
@@ -95,7 +94,7 @@ def before_noetic(package: Package) -> str:
 
 def _signs(sources: Sequence[SourceText], named: re.Pattern[str]) -> list[DistributionSign]:
     """Return what the files of the kind that counts most name, in their order."""
-    for pattern in (_CONTAINER, _CI, _README):
+    for pattern in (_CONTAINER, _CI, README):
         chosen = (source for source in sources if pattern.search(source.file.lower()))
         if found := [*_found(chosen, named)]:
             return found

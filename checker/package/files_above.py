@@ -14,6 +14,8 @@ from checker.source.text import SourceText
 if TYPE_CHECKING:
     from checker.package.package import Package
 
+README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
+"""Paths in lower case of README files of a package and above it."""
 _LEVELS = 8
 _SIZE_LIMIT = 500_000
 _ITEMS = 5_000

@@ -10,7 +10,7 @@ from itertools import chain
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph
 from checker.launch.ros2.package_launch import launch_graphs
-from checker.package.files_above import files_above
+from checker.package.files_above import README, files_above
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.target import package_around
@@ -21,7 +21,6 @@ _NAMING = (
     *(".py", ".launch", ".xml", ".sdf", ".world", ".xacro", ".urdf", ".yaml", ".yml", ".json"),
     *(".md", ".rst", ".sh", ".cpp", ".cc", ".hpp", ".h", ".rb", ".erb", ".config"),
 )
-_README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
 """The name of a world that a launch file puts together."""
 _BRANCH = "\u2500 "
@@ -47,7 +46,7 @@ def unstarted_world(package: Package) -> str:
     holders = [around] if around else [*package.workspace.packages.values()][:1]
     path = (package.root / file).relative_to(around.root).as_posix() if around else ""
     texts = chain.from_iterable(_texts(holder, path) for holder in holders)
-    above = (it.text for sources in files_above(package, _README) for it in sources)
+    above = (it.text for sources in files_above(package, README) for it in sources)
     lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
     if any(_BRANCH not in line and any(name in line for name in names) for line in lines):
         return ""

@@ -12,14 +12,13 @@ import posixpath
 import re
 from collections.abc import Iterator, Sequence
 
-from checker.package.files_above import files_above, own_files
+from checker.package.files_above import README, files_above, own_files
 from checker.package.package import Package
 from checker.package.programs import why_no_program
 from checker.package.released import distributions_with
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import SourceText, Span
 
-_README = re.compile(r"\A(?:\.\./)*readme(?:\.(?:md|rst|txt))?\Z")
 _COMMAND = re.compile(
     r"\b(?:ros2[ \t]+launch|roslaunch)[ \t]+([a-z]\w{1,100})[ \t]+"
     r"([\w./-]{1,200}\.(?:py|xml|ya?ml|launch))\b"
@@ -37,10 +36,10 @@ def check(package: Package) -> Findings:
     if not package.exists("package.xml"):
         return
     every = [package, *package.workspace.packages.values()]
-    for source in own_files(package, _README):
+    for source in own_files(package, README):
         yield from _launches(source, every)
         yield from _runs(source, every)
-    for sources in files_above(package, _README):
+    for sources in files_above(package, README):
         for source in sources:
             yield from _launches(source, [package])
             yield from _runs(source, [package])

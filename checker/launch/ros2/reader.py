@@ -39,13 +39,12 @@ from checker.launch.ros2.values import (
     Unknown,
     Value,
 )
-from checker.package.files_above import files_around
+from checker.package.files_above import README, files_around
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 
 _Item = TypeVar("_Item", LaunchFault, Unread)
 
-_README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 _EXPORT = re.compile(r"""\bexport[ \t]+([A-Z]\w{1,80})=["']?([\w.-]{1,80})(?=["'`\s]|\Z)""")
 """`export LDS_MODEL=LDS-02`, as a README tells users to write."""
 FILES_LIMIT = 60
@@ -244,7 +243,7 @@ class LaunchReader:
     @cached_property
     def _variables(self) -> Mapping[str, str]:
         """What a README tells users to set, and the distribution."""
-        sources = [*files_around(self._package, _README)]
+        sources = [*files_around(self._package, README)]
         exports = [match for it in sources for match in _EXPORT.finditer(it.text)]
         found = {match[1]: match[2] for match in reversed(exports)}
         sign = self._package.distribution_sign
