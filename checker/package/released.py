@@ -18,7 +18,7 @@ def distributions_with(name: str) -> tuple[str, ...]:
 
 def is_listed(distro: str) -> bool:
     """Return whether it is known what a distribution has released; of Iron and older it is not."""
-    return any(distro in having for having in _released().values())
+    return any(distro in group.split() for group in table("ros_packages")["packages"])
 
 
 def is_of_system(name: str) -> bool:

@@ -8,6 +8,20 @@ from __future__ import annotations
 MOCK = "<plugin>mock_components/GenericSystem</plugin>"
 GAZEBO = "<plugin>gz_ros2_control/GazeboSimSystem</plugin>"
 SHOULDER = '<joint name="shoulder"><command_interface name="position"/></joint>'
+ARM = """<robot name="arm">
+  <link name="base_link"/>
+  <link name="upper_arm"/>
+  <joint name="shoulder" type="continuous">
+    <parent link="base_link"/>
+    <child link="upper_arm"/>
+    <axis xyz="0 0 1"/>
+  </joint>
+</robot>
+"""
+MOVEIT_LAUNCH = """from moveit_configs_utils import MoveItConfigsBuilder
+
+MoveItConfigsBuilder("arm")
+"""
 _WHEEL = """
 <link name="{name}_wheel">
   <pose>{x} {y} 0.1 0 0 0</pose>

@@ -17,7 +17,7 @@ Source: gazebo-classic, `SystemPaths` and `ModelDatabase`; gz-sim, resource path
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from checker.package.package import Package
 from checker.package.resource_path import mentions, searched_folders
@@ -33,9 +33,9 @@ _CONFIG = "model.config"
 @rule("LCH024", "models-not-on-resource-path", Severity.WARNING, Concern.INTERFACE)
 def check(package: Package) -> Findings:
     """Report each folder of models once, at the launch file that names the world."""
-    named = [*_named_worlds(package)]
-    folders = _folders_of_models(package) if named else {}
     every = (package, *package.other_packages)
+    named = [*_named_worlds(package, every)]
+    folders = _folders_of_models(every) if named else {}
     if not folders or any(_is_named(each) for each in every):
         return
     path = [folder for each in every for folder in searched_folders(each)]
@@ -60,23 +60,25 @@ def _is_named(package: Package) -> bool:
     return any(True for classic in (True, False) for _ in mentions(package, classic=classic))
 
 
-def _named_worlds(package: Package) -> Iterator[tuple[Span, XmlDocument]]:
+def _named_worlds(package: Package, every: Sequence[Package]) -> Iterator[tuple[Span, XmlDocument]]:
     """Yield where launch files name worlds of the workspace, and these."""
-    for file in package.launch_texts:
-        source = package.read(file)
+    worlds: dict[str, dict[Package, str]] = {}
+    for holder in every if package.launch_texts else ():
+        for file in holder.index.with_suffix(".world", ".sdf"):
+            worlds.setdefault(posixpath.basename(file.path), {}).setdefault(holder, file.path)
+    for path in package.launch_texts:
+        source = package.read(path)
         for match in _WORLD.finditer(source.text) if isinstance(source, SourceText) else ():
-            for holder in (package, *package.other_packages):
-                paths = (it.path for it in holder.index.with_suffix(".world", ".sdf"))
-                found = next((it for it in paths if posixpath.basename(it) == match[0]), "")
-                document = holder.xml(found) if found else None
+            for holder, world in worlds.get(match[0], {}).items():
+                document = holder.xml(world)
                 if isinstance(document, XmlDocument) and isinstance(source, SourceText):
                     yield Span(source, *match.span()), document
 
 
-def _folders_of_models(package: Package) -> dict[str, str]:
+def _folders_of_models(every: Sequence[Package]) -> dict[str, str]:
     """Return the folder above each model of the workspace, from the folder of share folders."""
     found: dict[str, str] = {}
-    for holder in (package, *package.other_packages):
+    for holder in every:
         for file in holder.index.with_suffix(_CONFIG):
             folder, name = posixpath.split(posixpath.dirname(file.path))
             if name and posixpath.basename(file.path) == _CONFIG:

@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from checker.finding import Fix
 from checker.launch.ros2.package_launch import is_left_from_ros1
-from checker.package.installed import USUAL_FOLDERS
+from checker.package.installed import USUAL_FOLDERS, installed_as
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -110,25 +110,19 @@ def _by_setup(package: Package) -> Findings:
         if not _covers(origins, folder):
             message = f"folder {folder}/ is not installed: data_files names no file of it"
             yield finding(setup, message, severity=_LESS.get(folder), key=message)
-        elif left := [*_left_meshes(package, folder, origins)]:
+        elif left := [*_left_meshes(package, folder)]:
             verb = "is" if len(left) == 1 else f"and {len(left) - 1} more are"
             message = f"{left[0]} {verb} not installed: data_files names other files of {folder}/"
             yield finding(setup, message, key=f"meshes of {folder}")
 
 
-def _left_meshes(package: Package, folder: str, origins: set[str]) -> Iterator[str]:
+def _left_meshes(package: Package, folder: str) -> Iterator[str]:
     """Yield the meshes of a folder that a file of the package names and nothing installs."""
     for file in package.index.with_suffix(*_MESHES):
         name = posixpath.basename(file.path).casefold()
         is_used = file.path.startswith(f"{folder}/") and name in package.mentioned_names
-        if is_used and not _is_within(origins, file.path):
+        if is_used and not installed_as(package, file.path):
             yield file.path
-
-
-def _is_within(origins: set[str], path: str) -> bool:
-    """Return whether a file, or a folder that it is in, is installed."""
-    parts = path.split("/")
-    return any("/".join(parts[:end]) in origins for end in range(1, len(parts) + 1))
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:

@@ -36,8 +36,7 @@ def check(package: Package) -> Findings:
     for executable in setup.executables:
         if message := _fault(package, executable):
             quoted = (f'"{executable.name}"', f"'{executable.name}'")
-            texts = package.workspace.launch_texts.values()
-            is_started = any(name in text for text in texts for name in quoted)
+            is_started = any(map(package.workspace.launches_with, quoted))
             yield finding(
                 executable,
                 f"executable {executable.name!r} cannot start: {message}",

@@ -35,7 +35,7 @@ def check(package: Package) -> Findings:
     """
     if not package.exists("package.xml"):
         return
-    every = [package, *package.workspace.packages.values()]
+    every = (package, *package.other_packages)
     for source in own_files(package, README):
         yield from _launches(source, every)
         yield from _runs(source, every)
@@ -82,8 +82,8 @@ def _runs(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
 def _has(package: Package, path: str) -> bool:
     """Return whether a package has a file of this name, or the template that CMake makes it of."""
     name = posixpath.basename(path)
-    names = {posixpath.basename(file.path) for file in package.index.files}
-    return name in names or f"{name}.in" in names
+    names = (name, f"{name}.in")
+    return any(posixpath.basename(file.path) in names for file in package.index.files)
 
 
 def _readme(command: str) -> dict[str, object]:

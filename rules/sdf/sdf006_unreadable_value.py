@@ -30,6 +30,7 @@ from checker.formats.sdf.document import (
 )
 from checker.formats.sdf.poses import in_degrees
 from checker.formats.sdf.schema import ElementType, type_of
+from checker.formats.sdf.unread import is_within
 from checker.model.values import parse_number
 from checker.rule import (
     Concern,
@@ -64,20 +65,12 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             continue
         attributes = _attribute_types(element, kind, context)
         for found in _text(element, kind, attributes, context):
-            is_saved = context.release == "classic" and _is_saved(element)
+            is_saved = context.release == "classic" and is_within(element, "state")
             yield replace(found, severity=Severity.WARNING) if is_saved else found
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
         yield from _attributes(element, attributes, words["attributes"])
-
-
-def _is_saved(element: Element) -> bool:
-    """Return whether an element is in the `<state>` of a saved world."""
-    at: Element | None = element
-    while at is not None and at.tag != "state":
-        at = at.parent
-    return at is not None
 
 
 def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:

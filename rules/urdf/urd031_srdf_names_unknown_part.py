@@ -24,6 +24,7 @@ from checker.base.words import Suggestions, count
 from checker.formats.srdf.names import Loss, NamedPart, named_parts
 from checker.robots.semantic import SemanticDescription
 from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
+from checker.rulebook.example_parts import ARM, MOVEIT_LAUNCH
 
 _MANY = 3
 """Names up to which each is a finding of its own."""
@@ -124,28 +125,12 @@ def _beside_root(semantic: SemanticDescription) -> Iterator[Finding]:
         )
 
 
-_URDF = """<robot name="arm">
-  <link name="base_link"/>
-  <link name="upper_arm"/>
-  <joint name="shoulder" type="continuous">
-    <parent link="base_link"/>
-    <child link="upper_arm"/>
-    <axis xyz="0 0 1"/>
-  </joint>
-</robot>
-"""
-_LAUNCH = """from moveit_configs_utils import MoveItConfigsBuilder
-
-MoveItConfigsBuilder("arm")
-"""
-
-
-def _srdf(content: str, *, loaded: bool = True, urdf: str = _URDF) -> dict[str, object]:
+def _srdf(content: str, *, loaded: bool = True, urdf: str = ARM) -> dict[str, object]:
     return {
         "@urdf": True,
         "urdf/arm.urdf": urdf,
         "config/arm.srdf": f'<robot name="arm">\n{content}\n</robot>\n',
-        **({"launch/plan.launch.py": _LAUNCH} if loaded else {}),
+        **({"launch/plan.launch.py": MOVEIT_LAUNCH} if loaded else {}),
     }
 
 

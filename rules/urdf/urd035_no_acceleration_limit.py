@@ -23,6 +23,7 @@ from checker.package.package import Package
 from checker.robots.planned_joints import planned_joints
 from checker.robots.semantic import SemanticDescription
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ARM, MOVEIT_LAUNCH
 from checker.source.yaml import YamlNode, read_root
 
 _BUILDER = "MoveItConfigsBuilder"
@@ -96,17 +97,6 @@ def _zeros(limits: Mapping[str, YamlNode]) -> Iterator[Finding]:
             )
 
 
-_URDF = """<robot name="arm">
-  <link name="base_link"/>
-  <link name="upper_arm"/>
-  <joint name="shoulder" type="continuous">
-    <parent link="base_link"/>
-    <child link="upper_arm"/>
-    <axis xyz="0 0 1"/>
-  </joint>
-</robot>
-"""
-_LAUNCH = 'from moveit_configs_utils import MoveItConfigsBuilder\n\nMoveItConfigsBuilder("arm")\n'
 _GROUP = '<group name="arm"><chain base_link="base_link" tip_link="upper_arm"/></group>'
 
 
@@ -115,8 +105,8 @@ def _limits(lines: str, mark: str = "", distro: str = "Jazzy", **more: str) -> d
         "@profile": "ros2",
         "@urdf": True,
         "README.md": f"An arm for ROS 2 {distro}.\n",
-        "urdf/arm.urdf": _URDF,
-        "launch/plan.launch.py": _LAUNCH,
+        "urdf/arm.urdf": ARM,
+        "launch/plan.launch.py": MOVEIT_LAUNCH,
         "config/arm.srdf": f'<robot name="arm">{_GROUP}</robot>\n',
         "config/kinematics.yaml": "arm:\n  kinematics_solver: kdl/KDLKinematicsPlugin\n",
         "config/joint_limits.yaml": f"joint_limits:\n  shoulder:{mark}\n{lines}\n",

@@ -30,9 +30,12 @@ def is_unread(tag: str, release: str) -> bool:
 
 def is_appearance(element: Element) -> bool:
     """Return whether an element is only about the appearance of a part."""
+    return is_within(element, "material")
+
+
+def is_within(element: Element, tag: str) -> bool:
+    """Return whether an element, or one around it, has a tag."""
     at: Element | None = element
-    while at is not None:
-        if at.tag == "material":
-            return True
+    while at is not None and at.tag != tag:
         at = at.parent
-    return False
+    return at is not None

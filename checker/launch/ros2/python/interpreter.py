@@ -134,8 +134,12 @@ class Interpreter:
             self._note(value)
 
     def _note(self, value: Unknown) -> None:
-        by_default = not any(guard.holds is False for guard in self.guards)
-        self.notes.append(Unread(value.reason, value.span, by_default))
+        self.notes.append(Unread(value.reason, value.span, self._by_default))
+
+    @property
+    def _by_default(self) -> bool:
+        """Whether the defaults of all arguments may lead to what is evaluated."""
+        return not any(guard.holds is False for guard in self.guards)
 
     def handles(self, names: frozenset[str]) -> bool:
         """Return whether a `try` handles an error of these classes, under no further condition."""
@@ -175,7 +179,7 @@ class Interpreter:
 
     def _fault(self, kind: LaunchFaultKind, node: ast.AST, message: str) -> None:
         span = self.span(node)
-        if not any(guard.holds is False for guard in self.guards):
+        if self._by_default:
             self.faults[span] = LaunchFault(kind, span, message)
 
     def watched(self, node: ast.expr, scope: Scope) -> Value:
