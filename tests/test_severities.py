@@ -292,3 +292,31 @@ def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_pa
     (report,) = check_package(tmp_path / "barrel.sdf", settings).packages
     assert {finding.rule for finding in report.findings} == set(wanted)
     assert {str(finding.severity) for finding in report.findings} == severities
+
+
+@pytest.mark.parametrize(
+    ("world", "severity"),
+    [
+        ("worlds/hall.world", "error"),
+        ("hall.world", "error"),
+        ("worlds/yard.world", "warning"),
+        ("yard.world", "warning"),
+    ],
+)
+def test_what_no_launch_file_starts_is_no_error(world: str, severity: str, tmp_path: Path) -> None:
+    inertia = "<inertia><ixx>nan</ixx></inertia>"
+    text = f"""<sdf version="1.6"><world name="w"><model name="m"><link name="l">
+<inertial>{inertia}</inertial></link></model></world></sdf>
+"""
+    for path, content in {
+        "acme_sim/package.xml": "<package><name>acme_sim</name></package>",
+        "acme_sim/launch/sim.launch.py": "WORLD = 'worlds/hall.world'\n",
+        world: text,
+    }.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(content, "utf-8")
+
+    report = check_package(tmp_path, Settings(select=("SDF006",), trial=False))
+
+    found = [finding for package in report.packages for finding in package.findings]
+    assert [str(finding.severity) for finding in found] == [severity]

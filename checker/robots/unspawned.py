@@ -38,14 +38,12 @@ def unstarted_world(package: Package) -> str:
         return ""
     around = package_around(package)
     launches = package.workspace.launch_texts.values()
-    own = around.launch_texts if around else launches
-    if not own or any(map(_COMPUTED.search, launches)):
+    if not (around.launch_texts if around else launches) or any(map(_COMPUTED.search, launches)):
         return ""
     stem = file.partition(".")[0]
     names = (file, f'"{stem}"', f"'{stem}'")
-    holders = [around] if around else [*package.workspace.packages.values()][:1]
-    path = (package.root / file).relative_to(around.root).as_posix() if around else ""
-    texts = chain.from_iterable(_texts(holder, path) for holder in holders)
+    own = (package.root / file).relative_to(around.root).as_posix() if around else ""
+    texts = _texts(around, package, own)
     above = (it.text for sources in files_above(package, README) for it in sources)
     lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
     if any(_BRANCH not in line and any(name in line for name in names) for line in lines):
@@ -67,7 +65,7 @@ def unspawned(package: Package, path: str) -> str:
     file = posixpath.normpath(posixpath.join(folder, path))
     stem = posixpath.basename(path).partition(".")[0]
     own, name = (file, stem) if package.only else (f"{folder}/", package.root.name)
-    if any(name in text for text in _texts(around, own)):
+    if any(name in text for text in _texts(around, package, own)):
         return ""
     graphs = launch_graphs(around)
     loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
@@ -86,12 +84,20 @@ def _may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:
     return any(value and value in loaded.load.path for value in values)
 
 
-def _texts(around: Package, own: str) -> Iterator[str]:
-    """Yield the texts of a package and of those next to it, without those of the model itself."""
-    beside = around.workspace.packages.values()
-    for package in (around, *(it for it in beside if not it.root.is_relative_to(around.root))):
-        for entry in package.index.with_suffix(*_NAMING):
-            of_around = package is around and entry.path.startswith(own)
-            source = None if of_around else package.read(entry.path)
+def _texts(around: Package | None, package: Package, own: str) -> Iterator[str]:
+    """Yield the texts of the package around a model, and of those next to it.
+
+    Args:
+        around: The package that the model is in, if any; packages within it are left out.
+        package: The model.
+        own: The path of the model in the package around it, whose texts are left out.
+    """
+    beside = [*package.workspace.packages.values()]
+    if around is not None:
+        beside = [around, *(it for it in beside if not it.root.is_relative_to(around.root))]
+    for holder in beside:
+        for entry in holder.index.with_suffix(*_NAMING):
+            of_model = holder is around and entry.path.startswith(own)
+            source = None if of_model else holder.read(entry.path)
             if isinstance(source, SourceText):
                 yield source.text
