@@ -23,6 +23,8 @@ _NAMING = (
 )
 _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
 """The name of a world that a launch file puts together."""
+_OF_URDF = (".urdf", ".urdf.xacro", ".xacro")
+"""Suffixes of the description that an SDF model was converted from."""
 _BRANCH = "\u2500 "
 """A line of a README that draws the tree of files starts none of them."""
 
@@ -65,8 +67,16 @@ def unspawned(package: Package, path: str) -> str:
     file = posixpath.normpath(posixpath.join(folder, path))
     stem = posixpath.basename(path).partition(".")[0]
     own, name = (file, stem) if package.only else (f"{folder}/", package.root.name)
-    if any(name in text for text in _texts(around, package, own)):
+    beside = package.only and any(around.exists(f"{file[:-4]}{it}") for it in _OF_URDF)
+    if beside or (package.only and name in package.workspace.packages):
+        # The name alone means the URDF or the package.
+        name = posixpath.basename(path)
+    texts = [*_texts(around, package, own)]
+    if any(name in text for text in texts):
         return ""
+    clause = f"only in {file}, which no launch file loads"
+    if beside and around.launch_texts and not any(map(_COMPUTED.search, texts)):
+        return clause
     graphs = launch_graphs(around)
     loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
     if (
@@ -75,7 +85,7 @@ def unspawned(package: Package, path: str) -> str:
         or not spawns_others(around, graphs, file)
     ):
         return ""
-    return f"only in {file}, which no launch file loads"
+    return clause
 
 
 def _may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:

@@ -141,3 +141,28 @@ def test_a_leftover_without_its_meshes_has_one_warning(tmp_path: Path) -> None:
 )
 def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
     assert may_be_loaded({"launch/a.launch": text}, "urdf/arm_v2.urdf.xacro") is loaded
+
+
+_CONVERTED = '<sdf version="1.9"><model name="rover"><link/></model></sdf>'
+
+
+@pytest.mark.parametrize(
+    ("name", "severity"),
+    [
+        # Converted from the description beside it, and named by nothing.
+        ("urdf/new.sdf", Severity.WARNING),
+        # A simulator may be given it by hand.
+        ("sdf/rover.sdf", Severity.ERROR),
+    ],
+)
+def test_a_converted_description_has_warnings(
+    name: str, severity: Severity, tmp_path: Path
+) -> None:
+    _check(tmp_path, _link(_GOOD))
+    path = tmp_path / NAME / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(_CONVERTED)
+    reports = check_package(tmp_path, Settings(select=("SDF005",), trial=False)).packages
+
+    (found,) = (found for report in reports for found in report.findings if found.rule == "SDF005")
+    assert found.severity is severity
