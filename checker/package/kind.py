@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 MODEL_CONFIG = "model.config"
 MODEL_MARKERS = frozenset({MODEL_CONFIG, "model.sdf"})
 MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
-IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
-"""Files that keep the build tools out of a folder; colcon puts one into what it builds."""
+IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE", ".catkin", ".built_by"})
+"""Files that keep the build tools out of a folder, or mark what they built there."""
 BUILT = frozenset({"build", "install", "log"})
 """Folders that colcon makes; one of them with a file of `IGNORED` is not part of a package."""
 

@@ -114,6 +114,8 @@ class _Search:
         if depth and (marks := IGNORED.intersection(files)):
             self.ignored.append(folder / min(marks))
             return
+        if folder.name == "debian" and "control" in files:  # below it lies what was installed
+            return
         is_package = looks_like_package(folder)
         if is_package:
             yield Unit(folder)
@@ -173,5 +175,9 @@ def _content(folder: Path) -> tuple[list[str], list[str]]:
     return sorted(files), sorted(folders)
 
 
+_OF_TOOLS = ("__MACOSX", "node_modules", "PackageCache")
+"""Folders that archivers, npm and Unity make."""
+
+
 def _is_hidden(name: str) -> bool:
-    return name.startswith(".") or name in ("__MACOSX", "node_modules")
+    return name.startswith(".") or name in _OF_TOOLS

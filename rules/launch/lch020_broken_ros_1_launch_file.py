@@ -1,12 +1,12 @@
 """A launch file of ROS 1 that roslaunch refuses, or a program of a node that does not exist.
 
-roslaunch reads all files before it starts anything, so nothing starts where an included file does
-not exist, gets an arg that it does not declare, or lacks one that it requires, where two nodes get
-one name with the defaults of all args, also through an include, and where the file of a description
-does not exist (a warning if its path depends on an arg, which may be given). A node whose package
-has no program of its `type` does not start, and roslaunch goes on without it. Programs without the
-ending `.py` are only reported if the package has one of nearly the same name: CMake may build them.
-Packages of ROS 2 are not checked.
+roslaunch reads all files before it starts anything, so nothing starts where a file uses an arg
+that it does not declare before, where an included file does not exist, gets an arg that it does not
+declare, or lacks one that it requires, where two nodes get one name with the defaults of all args,
+also through an include, and where the file of a description does not exist (a warning if its path
+depends on an arg, which may be given). A node whose package has no program of its `type` does not
+start, and roslaunch goes on without it. Programs without the ending `.py` are only reported if the
+package has one of nearly the same name: CMake may build them. Packages of ROS 2 are not checked.
 
 Fix: correct the path, the name of the arg or the `type`; pass an arg with
 `<arg name="…" value="…"/>` inside the include.
@@ -30,6 +30,7 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import SourceText
 
 _FATAL = (
+    LaunchFaultKind.UNDECLARED_ARG,
     LaunchFaultKind.MISSING_ARG,
     LaunchFaultKind.UNKNOWN_ARG,
     LaunchFaultKind.MISSING_FILE,
@@ -149,7 +150,7 @@ _BRINGUP = {
 }
 GOOD = [
     _include(_ARM),
-    _include(_ARM, "$(arg nobody)/one.launch"),
+    _include(_ARM, "$(env ARMS)/one.launch"),
     _launch('<arg name="arm"/>'),
     _node("watch.py"),
     _node("planner"),
@@ -158,8 +159,10 @@ GOOD = [
     _two(' ns="arm"'),
     _two(' if="false"'),
     _two("", around=' ns="arm"'),
+    _launch('<arg name="rate" default="5"/>\n<param name="rate" value="$(arg rate)"/>'),
 ]
 BAD = [
+    _launch(f'<param name="rate" value="$(arg rate)"/>{_MARK}'),
     _two("", _MARK),
     _two(' ns="arm"', _MARK, ' ns="arm"'),
     _include("", mark=_MARK),

@@ -9,7 +9,8 @@ of arguments, parameters and the files that a command line gives a node to read 
 those in commands of ROS 2.
 
 Fix: install the file with the package, and give its path in the launch file; or write
-`$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`.
+`$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`. In ROS 1
+write `$(find PACKAGE)/maps/hall.yaml` in the launch file.
 Source: ROS 2, launch_ros `ParameterFile`; ros-navigation/navigation2@b978cff5.
 """
 

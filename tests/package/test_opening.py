@@ -84,9 +84,21 @@ def test_models_below_a_model_config_without_a_model_are_found(write: Write) -> 
     assert names(write({**floors, "floors/model.sdf": MODEL})) == ["floors"]
 
 
-@pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])
+@pytest.mark.parametrize(
+    "mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE", ".catkin", ".built_by"]
+)
 def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> None:
     files = {f"install/{mark}": "", "install/share/a/model.sdf": MODEL, "src/b/model.sdf": MODEL}
+    assert names(write(files)) == ["b"]
+
+
+def test_what_tools_made_is_left_out(write: Write) -> None:
+    files = {
+        "src/b/package.xml": "<package/>",
+        "src/b/debian/control": "",
+        "src/b/debian/b/opt/ros/noetic/share/b/package.xml": "<package/>",
+        "Library/PackageCache/com.unity.urdf/tests/cube/package.xml": "<package/>",
+    }
     assert names(write(files)) == ["b"]
 
 
