@@ -23,6 +23,7 @@ from checker.launch.ros2.graph import (
 )
 from checker.model.robot import Robot
 from checker.package.package import Package
+from checker.ros.robot_description import NAME
 from checker.ros.ros2_control.robot_control import (
     ControlReader,
     RobotControl,
@@ -130,6 +131,16 @@ class SpawnedReader:
             read = self._robot(description) if _publishes(description) else ""
             if description.node.starts and not isinstance(read, str):
                 yield description.node, read.robot
+
+    def given_robots(self, graph: LaunchGraph, node: Node) -> list[Robot | str]:
+        """Return what a node gets as `robot_description`: robots, or why one is not known."""
+        counting = (None, node.parameter(NAME))
+        read = [
+            self._robot(each)
+            for each in loaded_descriptions(self._package, graph)
+            if each.node is node and each.parameter in counting
+        ]
+        return [it if isinstance(it, str) else it.robot for it in read]
 
     def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:

@@ -102,7 +102,7 @@ def call(  # noqa: PLR0911 - one per method
             return _of_dict(run, owner, name, positional, named, node)
         case OpenFile() if name in ("read", "close", "readlines"):
             return FileText.read(owner.path, run.span(node)) if name == "read" else None
-        case FileText() if name in ("replace", "strip"):
+        case FileText() if name == "strip" or (name == "replace" and not _adds(positional)):
             return owner  # the file is judged as it is written
         case FilePath():
             return _on_path(run, owner, name, positional, node)
@@ -111,6 +111,11 @@ def call(  # noqa: PLR0911 - one per method
         case str():
             return _of_text(run, owner, name, positional, named, node)
     return run.unknown(node, f"{name}() is not evaluated")
+
+
+def _adds(positional: list[Value]) -> bool:
+    """Return whether what replaces a text may add elements to the file."""
+    return any(isinstance(text, str) and "<" in text for text in positional[1:])
 
 
 def _of_list(  # noqa: PLR0911 - one per method
