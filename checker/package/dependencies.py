@@ -144,15 +144,20 @@ def uses_of(package: Package, *, of_ros_1: bool = True) -> Iterator[Use]:
 def _in_launch_file(element: Element) -> Iterator[Use]:
     for name, value in element.attributes.items():
         for match in _FIND.finditer(value):
-            yield Use(match[2], _place(element, name), match[1], match[3] or "")
+            yield Use(match[2], _place(element, name, match), match[1], match[3] or "")
         if name == "pkg" and element.tag in ("node", "test") and "$" not in value:
             yield Use(value, _place(element, name), f"pkg={value}")
     for match in _FIND.finditer(element.value):
         yield Use(match[2], element.text.span.place(), match[1], match[3] or "")
 
 
-def _place(element: Element, attribute: str) -> Place:
-    return (element.attribute(attribute) or element).span.place()
+def _place(element: Element, attribute: str, match: re.Match[str] | None = None) -> Place:
+    """Return the place of an attribute's value, or of the part that a pattern matched in it."""
+    span = (element.attribute(attribute) or element).span
+    if match is not None and span.text == match.string:
+        first, last = (span.start + at for at in match.span())
+        span = Span(span.source, first, last, span.holder)
+    return span.place()
 
 
 def _in_model(element: Element) -> Iterator[Use]:
@@ -182,7 +187,8 @@ def uses_in_ros2(package: Package) -> Iterator[Use]:
         for element in document.elements if isinstance(document, XmlDocument) else ():
             for name, value in element.attributes.items():
                 for match in _SHARED.finditer(value):
-                    yield Use(match[1] or match[2], _place(element, name), match[0], match[3] or "")
+                    place = _place(element, name, match)
+                    yield Use(match[1] or match[2], place, match[0], match[3] or "")
     for file in package.index.with_suffix(".py"):
         source = package.read(file.path)
         if isinstance(source, SourceText):

@@ -8,7 +8,8 @@ and `package://` in robot descriptions, and for messages and a few modules of RO
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
 packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
 of controllers and Gazebo's hardware, unless another package of the workspace declares them.
-Dependencies of a declared metapackage such as ros_gz count as declared. The same happens if
+Dependencies of a declared metapackage such as ros_gz count as declared. What a declared package of
+the workspace needs where it runs is installed with it, and is an info. The same happens if
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
 is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
 not declared, if it is near to one of them. If a package is not available, and this package has
@@ -22,18 +23,18 @@ reviews, authors added the dependency on configuration 1.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
 from checker.base.words import and_list
-from checker.finding import Fix, Place
+from checker.finding import Fix
 from checker.launch.ros2.graph import Ros2Launch
 from checker.launch.ros2.package_launch import built_by_ament
 from checker.launch.ros2.used_packages import every_use
 from checker.package.dependencies import Use, duplicate_files, former_names
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
-from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
+from checker.package.manifests import DEPENDENCY_TAGS, Dependency, PackageManifest, Paperwork
 from checker.package.mentions import has_word
 from checker.package.model_file import own_model
 from checker.package.package import Package
@@ -87,6 +88,7 @@ def check(
     if manifest is None:
         return
     others: dict[str, Use] = {}
+    bringing = _brought_by_workspace(package, manifest)
     ament = built_by_ament(package)
     uses = [
         use
@@ -114,16 +116,11 @@ def check(
         beside = name not in PROVIDED and package.workspace.package(name) is not None
         if SUBMISSION_NAME.search(name) or beside:
             if not _needed_at_run_time(manifest, name):
-                yield _at_hand(package, manifest, use)
+                yield _at_hand(package, manifest, use, bringing)
         elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
-    # Packages with another name on the target must be renamed first: ROS011.
-    renamed = table("renamed_packages")["releases"].get(context.release, {})
     yield from _no_such_package(others, context.distro)
-    lacking = [use for name, use in sorted(others.items()) if name not in renamed]
-    fix = _declaration_fix(package, manifest, *lacking) if lacking else None
-    place = manifest if ament else package.folder_place()
-    yield from _distribution(place, others, fix, None if ament else Severity.INFO)
+    yield from _distribution(package, manifest, others, bringing, context.release)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
 
@@ -159,14 +156,19 @@ def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
     )
 
 
-def _at_hand(package: Package, manifest: PackageManifest, use: Use) -> Finding:
+def _at_hand(
+    package: Package, manifest: PackageManifest, use: Use, bringing: Mapping[str, str]
+) -> Finding:
     """Report one use; what depends on this package cannot be declared: nothing builds a circle."""
     name = use.package_name
-    message = f"{use.how}: {name} is missing from the dependencies in package.xml"
+    message = f"package {name} is used here ({use.how}), and package.xml does not depend on it"
     if _leads_back(package, name, manifest.name.value):
         message = f"{message}, and needs {manifest.name.value} itself"
         return finding(use.place, message, severity=Severity.INFO, key=name)
-    return finding(use.place, message, key=name, fix=_declaration_fix(package, manifest, use))
+    fix, severity = _declaration_fix(package, manifest, use), None
+    if name in bringing and not (use.builds or SUBMISSION_NAME.search(name)):
+        message, severity = f"{message}; {bringing[name]} brings it", Severity.INFO
+    return finding(use.place, message, severity=severity, key=name, fix=fix)
 
 
 def _leads_back(package: Package, name: str, own: str) -> bool:
@@ -193,18 +195,57 @@ def _brought(manifest: PackageManifest, name: str) -> bool:
     )
 
 
+def _brought_by_workspace(package: Package, manifest: PackageManifest) -> Mapping[str, str]:
+    """Return what declared packages of the workspace need where they run, each with one of them."""
+    bringing: dict[str, str] = {}
+    waiting = [it.package.value for it in manifest.dependencies if _is_certain(it)]
+    seen = {package.name, manifest.name.value}
+    while waiting:
+        name = waiting.pop()
+        other = package.workspace.package(name) if name not in seen else None
+        seen.add(name)
+        needs = Paperwork(other).manifest if other is not None else None
+        for dependency in filter(_is_certain, needs.dependencies) if needs is not None else ():
+            bringing.setdefault(dependency.package.value, name)
+            waiting.append(dependency.package.value)
+    return bringing
+
+
+def _is_certain(dependency: Dependency) -> bool:
+    return dependency.at_run_time and not dependency.is_conditional
+
+
 def _distribution(
-    place: PackageManifest | Place, uses: dict[str, Use], fix: Fix | None, severity: Severity | None
+    package: Package,
+    manifest: PackageManifest,
+    uses: Mapping[str, Use],
+    bringing: Mapping[str, str],
+    release: str,
 ) -> Iterator[Finding]:
-    if uses:
-        word = "dependency" if len(uses) == 1 else "dependencies"
-        yield finding(
-            place,
-            f"package.xml lacks the {word} {and_list(sorted(uses))}",
-            severity=severity,
-            related=[(use.place, f"{name} is used here") for name, use in sorted(uses.items())],
-            fix=fix,
-        )
+    """Report packages of ROS: first those that nothing brings, then the others as an info."""
+    ament = built_by_ament(package)
+    # Packages with another name on the target must be renamed first: ROS011.
+    renamed = table("renamed_packages")["releases"].get(release, {})
+    brought = {name: by for name in uses if (by := _brings(bringing, name))}
+    for names in (sorted(uses.keys() - brought), sorted(brought)):
+        lacking = [uses[name] for name in names if name not in renamed]
+        by = and_list(sorted({brought[name] for name in names if name in brought}))
+        if names:
+            word = "dependency" if len(names) == 1 else "dependencies"
+            yield finding(
+                manifest if ament else package.folder_place(),
+                f"package.xml lacks the {word} {and_list(names)}"
+                + (f": installing {by} brings {'it' if len(names) == 1 else 'them'}" if by else ""),
+                severity=Severity.INFO if by or not ament else None,
+                related=[(uses[name].place, f"{name} is used here") for name in names],
+                fix=_declaration_fix(package, manifest, *lacking) if lacking else None,
+            )
+
+
+def _brings(bringing: Mapping[str, str], name: str) -> str:
+    """Return which declared package brings one, itself or by a package of packages; else empty."""
+    wholes = (it for it, names in _PACKAGES_OF_PACKAGES.items() if re.fullmatch(names, name))
+    return next((bringing[it] for it in (name, *wholes) if it in bringing), "")
 
 
 def _no_such_package(uses: dict[str, Use], distro: str) -> Iterator[Finding]:
@@ -287,6 +328,10 @@ def _depends_on_plugin(mark: str = "") -> dict[str, str]:
     return {
         "package.xml": _manifest(f"<exec_depend>acme_rover_gazebo_plugin_1</exec_depend>{mark}"),
     }
+
+
+def _package(name: str, *names: str) -> str:
+    return _arm(*names).replace("acme_arm_bringup", name)
 
 
 _PLUGIN = "<package><name>p</name></package>"
@@ -393,6 +438,13 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "config/arm.yaml": _CONTROL,
+    },
+    # Info: the description brings its dependencies, and those of what it depends on.
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("acme_arm_tools", mark="  <!-- ^ PKG007 -->"),
+        "../acme_arm_tools/package.xml": _package("acme_arm_tools", "acme_hand"),
+        "../acme_hand/package.xml": _package("acme_hand", "ros_gz_bridge", "ros_gz_sim"),
     },
     {
         "@ros2": _BRIDGE,

@@ -20,6 +20,8 @@ from checker.package.package import Package
 from checker.source.text import Span
 
 _COMMAND = "$(command xacro "
+_OF_MOVEIT = ".setup_assistant"
+"""What MoveItConfigsBuilder looks for in the package of its configuration, there or not."""
 _XACRO = re.compile(r"(?<![.\w])xacro\b")
 """The program, and no suffix: what reads a MoveIt configuration runs xacro by itself."""
 
@@ -71,4 +73,13 @@ def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, S
 
 def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str, str]]:
     if (path := share_path(text)) is not None:
-        yield path.package, span, f"file {path.path}", path.path
+        how = "its MoveIt configuration" if path.path == _OF_MOVEIT else f"file {path.path}"
+        yield path.package, _naming(path.package, span), how, path.path
+
+
+def _naming(package: str, span: Span) -> Span:
+    """Return the place of a package's name in the text of a span; the span if it is not there."""
+    found = re.search(rf"(?<![\w-]){re.escape(package)}(?![\w-])", span.text)
+    if found is None:
+        return span
+    return Span(span.source, span.start + found.start(), span.start + found.end(), span.holder)

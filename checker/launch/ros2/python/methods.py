@@ -38,7 +38,7 @@ def attribute(run: Interpreter, owner: Value, name: str, node: ast.AST) -> Value
         return _of_path(owner, name, run, node)
     if isinstance(owner, Made):
         if owner.name == "MoveItConfigs" and name not in ("to_dict", "to_moveit_configs"):
-            return _of_moveit(run, owner, name, node)
+            return _of_moveit(run, owner, name)
         if name in owner.values and name != "package":
             return owner.values[name]
         if owner.name == CONTEXT and name in ("launch_configurations", "environment"):
@@ -46,7 +46,7 @@ def attribute(run: Interpreter, owner: Value, name: str, node: ast.AST) -> Value
     return Method(owner, name)
 
 
-def _of_moveit(run: Interpreter, owner: Made, name: str, node: ast.AST) -> Value:
+def _of_moveit(run: Interpreter, owner: Made, name: str) -> Value:
     """Return parameters, which are methods as well until they are built.
 
     They are always the same dictionary, since launch files put other values into it.
@@ -55,7 +55,7 @@ def _of_moveit(run: Interpreter, owner: Made, name: str, node: ast.AST) -> Value
         return Method(owner, name)
     key = f"built {name}"
     if key not in owner.values:
-        owner.values[key] = moveit.parameters(run, owner, name, node)
+        owner.values[key] = moveit.parameters(run, owner, name)
     return owner.values[key]
 
 
@@ -221,7 +221,7 @@ def _of_made(  # noqa: C901, PLR0911 - one per method
     if owner.name == "MoveItConfigs":
         if name == "to_moveit_configs":
             return Made(owner.name, {**owner.values, "built": True}, owner.span)
-        return moveit.called(run, owner, name, positional, named, node)
+        return moveit.called(run, owner, name, positional, named)
     if name in ("add_action", "add_entity") and owner.name == "LaunchDescription":
         entities = owner.values.get("initial_entities")
         if not isinstance(entities, list):

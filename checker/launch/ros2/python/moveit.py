@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import posixpath
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from checker.source.yaml import read_yaml
 
 if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
+    from checker.source.text import Span
 
 _DESCRIPTIONS = ("robot_description", "robot_description_semantic")
 
@@ -38,11 +38,10 @@ def called(
     name: str,
     positional: list[Value],
     named: dict[str, Value],
-    node: ast.AST,
 ) -> Value:
     """Return what a method of the builder returns: itself, or all parameters."""
     if name == "to_dict":
-        return {**parameters(run, configs, "robot_description", node), **_rest(configs)}
+        return {**parameters(run, configs, "robot_description"), **_rest(configs)}
     if name in _DESCRIPTIONS:
         given = dict(zip(("file_path", "mappings"), positional, strict=False)) | named
         values = {**configs.values, name: given}
@@ -50,7 +49,7 @@ def called(
     return configs
 
 
-def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dict[str, Value]:
+def parameters(run: Interpreter, configs: Made, name: str) -> dict[str, Value]:
     """Return the value of an attribute of the built configurations, as parameters of a node."""
     given = configs.values.get(name)
     given = given if isinstance(given, dict) else {}
@@ -59,7 +58,7 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
     if isinstance(file, Unknown):
         return {name: file}
     if name == "robot_description":
-        path, mappings = _description(run, package, robot, node)
+        path, mappings = _description(run, package, robot, configs.span)
         if file is not None:
             path = posixpath.join(f"{ROOT}/{package}", str(file))
         elif run.world.exists(path) is False:
@@ -84,10 +83,10 @@ def _command(path: str, mappings: Value, configs: Made) -> Value:
     return Made("Command", {"command": words}, configs.span)
 
 
-def _description(run: Interpreter, package: str, robot: str, node: ast.AST) -> tuple[str, Value]:
+def _description(run: Interpreter, package: str, robot: str, span: Span) -> tuple[str, Value]:
     """Return the description that `.setup_assistant` names, else the usual one."""
     usual = f"{ROOT}/{package}/config/{robot}.urdf.xacro"
-    source = run.world.read(f"{ROOT}/{package}/.setup_assistant", run.span(node))
+    source = run.world.read(f"{ROOT}/{package}/.setup_assistant", span)
     if isinstance(source, str):
         return usual, None
     root = read_yaml(source).root

@@ -72,7 +72,7 @@ class _Stock:
         return [self.argument("debug", "false"), node]
 
     def parameters(self, name: str) -> Value:
-        return moveit.parameters(self.call.run, self.configs, name, self.call.node)
+        return moveit.parameters(self.call.run, self.configs, name)
 
     @property
     def rest(self) -> Value:
