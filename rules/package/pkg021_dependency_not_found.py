@@ -2,16 +2,18 @@
 
 `rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
 cannot build it. A misspelt name is a warning, and so is one that another package has replaced in
-the distribution that the package names. Other names are infos: the package may be built from source
-that is not available here, for example if only an older distribution has released it.
-Dependencies with a `condition` are skipped.
+the distribution that the package names, and one that never was a package: `ros2_control_node` is a
+program of controller_manager, and `ament_python` a build type. Other names are infos: the package
+may be built from source that is not available here, for example if only an older distribution has
+released it. Dependencies with a `condition` are skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and document that in the
 README.
-Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`).
+Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`);
+ros2/ros2cli#428 and ros2/ros2_documentation#508, about `ament_python`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
 from checker.package.manifests import Dependency, Paperwork
@@ -41,6 +43,10 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         if name in seen:
             continue
         seen.add(name)
+        if mistaken := table("removed_packages")["no_packages"].get(name):
+            declared = paperwork.manifest.depends_on(mistaken.get("instead", ""))
+            yield _no_package(dependency, mistaken, declared=declared)
+            continue
         meant = None if distributions_with(name) else names.correction_of(name)
         if meant is None:
             others.append(dependency)
@@ -62,6 +68,20 @@ def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
         or distro in distributions_with(name)
         or is_of_system(name)
         or package.workspace.package(name) is not None
+    )
+
+
+def _no_package(dependency: Dependency, mistaken: Mapping[str, str], *, declared: bool) -> Finding:
+    """Report what is mistaken for a package; `declared`: whether the right one is there, too."""
+    name, instead = dependency.package.value, mistaken.get("instead", "")
+    cure = f"write {instead}" if instead and not declared else "remove this line"
+    of = f" of {instead}" if mistaken["is"] == "a program" else ""
+    return finding(
+        dependency.package,
+        f"{name} is no package and no key of rosdep, but {mistaken['is']}{of}, and `rosdep "
+        f"install` stops: {cure}",
+        key=name,
+        fix=rename(dependency.package, instead) if instead and not declared else None,
     )
 
 
@@ -119,5 +139,7 @@ BAD = [
     _package(f"<exec_depend>forward_position_controller</exec_depend>{_MARK}"),
     _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
+    _package(f"<exec_depend>ros2_control_node</exec_depend>{_MARK}"),
+    _package(f"<buildtool_depend>ament_python</buildtool_depend>{_MARK}"),
     _package(f"<exec_depend>acme_drivers</exec_depend>{_MARK}\n<depend>acme_tools</depend>"),
 ]
