@@ -211,3 +211,12 @@ def _holds_repository(folder: Path) -> bool:
         return (folder / ".git").exists()
     except OSError:
         return False
+
+
+def is_environment(names: Iterable[str]) -> bool:
+    """Return whether the names in a folder are those of a virtual environment of Python.
+
+    A workspace or package around which someone made one is none: its own content counts.
+    """
+    found = {"pyvenv.cfg", "package.xml", "src"}.intersection(names)
+    return found == {"pyvenv.cfg"}

@@ -15,6 +15,7 @@ from checker.package.kind import (
     MODEL_CONFIG,
     MODEL_MARKERS,
     holds_loose_files,
+    is_environment,
     is_file,
     looks_like_package,
 )
@@ -111,6 +112,8 @@ class _Search:
             self.complete = False
             return
         files, folders = _content(folder)
+        if depth and is_environment((*files, *folders)):
+            return
         if depth and (marks := IGNORED.intersection(files)):
             self.ignored.append(folder / min(marks))
             return

@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from checker.package.index import EntryKind, FileEntry, FileIndex, IndexFault, LinkState
-from checker.package.kind import BUILT, IGNORED
+from checker.package.kind import BUILT, IGNORED, is_environment
 
 MAX_ENTRIES = 20_000
 MAX_DEPTH = 50
@@ -91,6 +91,8 @@ class _Walk:
                 found = list(islice(kept, room))
         except OSError as error:
             self._fault(prefix[:-1], f"cannot be listed: {error.strerror}")
+            return []
+        if prefix and is_environment(item.name for item in found):
             return []
         marks = [item for item in found if item.name in IGNORED]
         return marks if marks and Path(prefix).name in BUILT else found

@@ -2,7 +2,8 @@
 
 The target of the link is not part of the package: after an upload or installation the file is
 missing, although it exists on the author's machine. A link into a package that package.xml names as
-a dependency is an info: the two are installed together. None of the accepted packages that we
+a dependency is an info: the two are installed together. Virtual environments of Python, folders
+with a file `pyvenv.cfg`, are left out. None of the accepted packages that we
 checked shows a broken link.
 
 Fix: replace the link with the file itself, or correct the link.
@@ -42,7 +43,10 @@ def _is_declared(paperwork: Paperwork, link: FileEntry) -> bool:
     return any(paperwork.manifest.depends_on(step) for step in steps)
 
 
-GOOD = [{"meshes/wheel.dae": "<COLLADA/>", "@links": {"meshes/rear_wheel.dae": "wheel.dae"}}]
+GOOD = [
+    {"meshes/wheel.dae": "<COLLADA/>", "@links": {"meshes/rear_wheel.dae": "wheel.dae"}},
+    {"tools/venv/pyvenv.cfg": "version = 3.12\n", "@links": {"tools/venv/lib64": "none"}},
+]
 BAD = [
     {
         "meshes/wheel.dae": "<COLLADA/>",

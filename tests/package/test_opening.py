@@ -92,6 +92,17 @@ def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> Non
     assert names(write(files)) == ["b"]
 
 
+def test_virtual_environments_of_python_are_left_out(write: Write) -> None:
+    files = {
+        "venv/pyvenv.cfg": "",
+        "venv/lib/python3/site-packages/a/model.sdf": MODEL,
+        # A workspace in which someone made one is still a workspace.
+        "ws/pyvenv.cfg": "",
+        "ws/src/b/model.sdf": MODEL,
+    }
+    assert names(write(files)) == ["b"]
+
+
 def test_what_tools_made_is_left_out(write: Write) -> None:
     files = {
         "src/b/package.xml": "<package/>",
