@@ -2,10 +2,12 @@
 
 A camera or an antenna in the air next to the robot usually has a wrong pose: a decimal point, a
 sign, a unit, or the pose of another configuration. A box of a centimetre that marks a frame, such
-as `base_footprint`, is not a part. In published robots, intended gaps measure up to 16 mm, and
-mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin, it is an info: two
-tables in one file stand apart by intent. Two arms may stand apart as well, each with a base that is
-fixed to the world or to a root link without shapes, directly or through links without shapes.
+as `base_footprint`, is not a part, nor is a link that is only a small ball without mass and
+collision: it marks a point, such as the centre of a tool. In published robots, intended gaps
+measure up to 16 mm, and mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin,
+it is an info: two tables in one file stand apart by intent. Two arms may stand apart as well, each
+with a base that is fixed to the world or to a root link without shapes, directly or through links
+without shapes.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
 Source: geometry: boxes along the robot's axes around each collision and visual.
@@ -31,6 +33,7 @@ def check(
     gap: float = 0.02,
     gap_of_wheels: float = 0.06,
     marker: float = 0.02,
+    ball: float = 0.025,
 ) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 
@@ -40,6 +43,7 @@ def check(
         gap_of_wheels: The same for a wheel: many models leave out its axle.
         marker: Diagonal in metres of a box that only marks a frame; a group that is not larger is
             not reported.
+        ball: Radius in metres of a ball up to which it marks a point, if its link has nothing else.
     """
     if robot.is_static:
         return
@@ -62,6 +66,8 @@ def check(
     body = max(members, key=_diagonal)
     for group in members:
         if group is body or (_stands_alone(robot, group) and _stands_alone(robot, body)):
+            continue
+        if _marks_point(group, ball):
             continue
         if _diagonal(group) > marker and not (is_scenery and _shows_frames(group)):
             own = {*group}
@@ -114,6 +120,14 @@ def _shows_frames(group: Sequence[Placed]) -> bool:
     """Return whether a group only marks frames: nothing of it has a mass or collides."""
     links = (piece.link for piece in group)
     return not any(link.collisions or link.inertial for link in links)
+
+
+def _marks_point(group: Sequence[Placed], radius: float) -> bool:
+    """Return whether a group is one ball of at most a radius, and all that its link has."""
+    link, geometry = group[0].link, group[0].shape.geometry
+    if len(group) > 1 or len(link.visuals) > 1 or not _shows_frames(group):
+        return False
+    return geometry.shape == "sphere" and geometry.sizes["radius"][0].value <= radius
 
 
 def _length(metres: float) -> str:
@@ -177,6 +191,10 @@ _BRACKET = """
   <geometry><box><size>0.02 0.02 0.3</size></box></geometry>
 </collision>
 """
+_BALL = (
+    "<box><size>0.1 0.1 0.1</size></box>",
+    "<sphere><radius>0.02</radius></sphere>",
+)
 _UNKNOWN = """
 <visual name="m"><geometry><mesh><uri>meshes/wheel.dae</uri></mesh></geometry></visual>
 """
@@ -229,6 +247,7 @@ GOOD = [
     _camera("0.4 0 0.165"),
     _camera("0 0 0.45", bracket=_BRACKET),
     _camera("0 0 0.45").replace("0.1 0.1 0.1", "0.01 0.01 0.01"),
+    _camera("0 0 0.45").replace(*_BALL),
 ]
 BAD = [
     _camera("0 0 0.45", _MARK),
