@@ -1,19 +1,23 @@
-"""Arguments of xacro that have no value, and the texts that their file compares them with."""
+"""Arguments of xacro that have no value or a wrong one, and texts that they may have."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from itertools import islice
 
 from msgspec.structs import replace
 
-from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Wanted
+from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unread, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.package.package import Package
 from checker.robots.further_values import compared_texts
 from checker.source.xml import XmlDocument
 
-_NEEDED = re.compile(r"arg ([\w.-]{1,100}) is neither given nor has a default\b")
+_NEEDED = re.compile(
+    r"arg (?P<none>[\w.-]{1,100}) is neither given nor has a default\b"
+    r"|needs another value of the argument '(?P<wrong>[\w.-]{1,100})'"
+)
 _ARGUMENTS_LIMIT = 3
 """Arguments of one file that get a value."""
 _TEXTS_LIMIT = 6
@@ -22,16 +26,24 @@ _TEXTS_LIMIT = 6
 
 def _needed_argument(outcome: Outcome) -> str:
     """Return the argument without which a file does not expand; empty if there is none."""
-    if not isinstance(outcome, XacroFault) or outcome.kind is not XacroFaultKind.ARGUMENT:
-        return ""
-    found = _NEEDED.match(outcome.message)
-    return found[1] if found else ""
+    if isinstance(outcome, Unread):
+        found = _NEEDED.search(outcome.reason)
+    elif isinstance(outcome, XacroFault) and outcome.kind is XacroFaultKind.ARGUMENT:
+        found = _NEEDED.match(outcome.message)
+    else:
+        found = None
+    return found["none"] or found["wrong"] if found else ""
 
 
 def with_compared(
-    package: Package, expander: Expander, wish: Wanted, fault: Outcome, may_set: Collection[str]
+    package: Package,
+    expander: Expander,
+    wish: Wanted,
+    fault: Outcome,
+    may_set: Collection[str],
+    allowed: Mapping[str, Sequence[str]],
 ) -> tuple[Wanted, XmlDocument, Mapping[str, str]] | None:
-    """Expand a file with texts that it compares arguments with.
+    """Expand a file with texts that launch files allow for its arguments, or it compares them with.
 
     Args:
         package: The package of the file.
@@ -39,6 +51,7 @@ def with_compared(
         wish: What was to be expanded.
         fault: The result of it.
         may_set: Names of the arguments that may get a value; empty for any.
+        allowed: The values that launch files allow for arguments, by name.
 
     Returns:
         What is expanded, the result, and the values; None if no text leads to a robot.
@@ -46,12 +59,14 @@ def with_compared(
     taken: dict[str, str] = {}
     for _ in range(_ARGUMENTS_LIMIT):
         name = _needed_argument(fault)
-        if not isinstance(fault, XacroFault) or not name or (may_set and name not in may_set):
+        if not name or (may_set and name not in may_set):
             return None
-        paths = (fault.span.source.file, *(it.path for it in package.index.with_suffix(".xacro")))
+        file = fault.span.source.file if isinstance(fault, XacroFault) else wish.path
+        paths = (file, *(it.path for it in package.index.with_suffix(".xacro")))
         documents = (package.xml(path) for path in dict.fromkeys(paths))
-        texts = compared_texts((it for it in documents if isinstance(it, XmlDocument)), name)
-        tried = [{**taken, name: text} for text in texts[:_TEXTS_LIMIT]]
+        compared = compared_texts((it for it in documents if isinstance(it, XmlDocument)), name)
+        texts = dict.fromkeys((*allowed.get(name, ()), *compared))
+        tried = [{**taken, name: text} for text in islice(texts, _TEXTS_LIMIT)]
         wanted = [replace(wish, args={**wish.args, **values}) for values in tried]
         outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
         for made, outcome, values in zip(wanted, outcomes, tried, strict=True):

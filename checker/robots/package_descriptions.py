@@ -288,18 +288,23 @@ class PackageDescriptions:
         return unread, assumed
 
     def _compare(self, expanded: dict[str, Outcome]) -> dict[str, str]:
-        """Expand what lacks an argument with a text that its file compares the argument with.
+        """Expand what lacks an argument with a text that the argument may have.
 
         The result takes its place in `expanded`. Return what is assumed, by path.
         """
         assumed = {}
+        allowed = {
+            name: values
+            for each in self._candidates
+            for name, values in {**each.offered, **each.choices}.items()
+        }
         for candidate in self._candidates:
             outcome, path = expanded.get(candidate.path), candidate.path
             if outcome is None or (candidate.loaded and not candidate.missing):
                 continue
             may_set = candidate.missing if candidate.loaded else ()
             found = with_compared(
-                self._package, self._expander, self._taken[path], outcome, may_set
+                self._package, self._expander, self._taken[path], outcome, may_set, allowed
             )
             if found is not None:
                 self._taken[path], expanded[path], values = found

@@ -5,7 +5,8 @@ name of an included file is written in full, `robot.launch.py` and not `robot`. 
 parameters in packages that are not available are not checked, nor is what a setup.py that computes
 its `data_files` may install; files that the build generates are
 not checked, nor those that a node writes by the name of its parameter: `output_file`. Launch skips
-a parameter file whose path is empty. Where a condition leaves the action out, for files that only
+a parameter file whose path is empty. MoveItConfigsBuilder stops without the SRDF, kinematics.yaml
+and joint_limits.yaml. Where a condition leaves the action out, for files that only
 RViz shows or that `.gitignore` excludes, for files of a node that has a parameter about saving, and
 for paths passed to a launch file that is not available, unless it starts Gazebo, this is a warning.
 
@@ -14,7 +15,7 @@ that is used is in this package, is taken as the former name of this package.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
-ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
+moveit_configs_utils, `MoveItConfigsBuilder`; ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 """
 
 import posixpath
@@ -181,12 +182,17 @@ _IF_THERE = f"""        Node(package='rviz2', executable='rviz2',
         Node(package='rviz2', executable='rviz2', name='third', arguments=['-d', {_VIEW}],
              condition=IfCondition(str(os.path.isfile({_VIEW})))),"""
 
+_OF_MOVEIT = {
+    "config/arm.srdf": '<robot name="arm"/>',
+    "config/kinematics.yaml": "{}\n",
+    "config/joint_limits.yaml": "{}\n",
+}
 GOOD = [
     {"@ros2": True},
     {"@ros2": _WRITTEN},
     {"@ros2": _IF_THERE},
     # MoveIt takes the robot from a topic where its usual file is missing.
-    {"@ros2": True, "launch/move_group.launch.py": _MOVEIT},
+    {"@ros2": True, "launch/move_group.launch.py": _MOVEIT, **_OF_MOVEIT},
     {"@ros2": _STATE},
     {
         "@ros2": _WORLD,
@@ -210,6 +216,12 @@ setup(name="acme_arm_bringup", data_files=[
     ("share/acme_arm_bringup/" + path.partition("/")[0], [path]) for path in glob("assets/**/*")])
 """
 BAD = [
+    {
+        "@ros2": True,
+        "launch/move_group.launch.py": _MOVEIT.replace("_configs()", "_configs()  # ^ LCH001"),
+        **_OF_MOVEIT,
+        "config/arm.srdf": None,
+    },
     {"@ros2": _STATE.replace("in_package('config', 'arm.yaml')", _FORMER) + "  # ^ LCH001"},
     {"@ros2": f"{_WORLD}  # ^ LCH001", "CMakeLists.txt": None, "setup.py": _COMPUTED},
     {"@ros2": _SAVED},

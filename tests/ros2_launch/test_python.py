@@ -561,3 +561,25 @@ def test_a_variable_is_what_the_readme_tells_to_export(read: Read) -> None:
     )
     assert [node.executable.value for node in graph.nodes] == ["deep_driver"]
     assert not graph.unread
+
+
+@pytest.mark.parametrize("given", ["'config/arm.srdf'", "os.path.join(SHARE, 'config/arm.srdf')"])
+def test_the_files_of_moveit_are_read(given: str, read: Read) -> None:
+    graph = read(
+        f"""from moveit_configs_utils import MoveItConfigsBuilder
+SHARE = get_package_share_directory('{NAME}')
+builder = MoveItConfigsBuilder('arm', package_name='{NAME}')
+builder.robot_description(mappings={{'tool': 'none'}})
+config = builder.robot_description_semantic(file_path={given}).to_moveit_configs()
+text = config.robot_description['robot_description'].replace('old', 'new')
+return LaunchDescription([
+    Node(package='p', executable='e', parameters=[{{'robot_description': text}}])])""",
+        others={"config/arm.urdf.xacro": "<robot/>", "config/arm.srdf": "<robot/>"},
+    )
+    paths = [use.text.value for use in graph.files]
+    assert f"{ROOT}/{NAME}/config/arm.srdf" in paths
+    assert f"{ROOT}/{NAME}/config/kinematics.yaml" in paths
+    (parameter,) = graph.nodes[0].parameters
+    assert isinstance(parameter, Parameter)
+    assert str(parameter.value).endswith("config/arm.urdf.xacro tool:=none)")
+    assert not parameter.substituted  # a text is not parsed as YAML

@@ -107,6 +107,21 @@ def test_a_choice_whose_files_are_not_there_gives_way_to_the_next_one(tmp_path: 
     assert told.endswith("kind:=small is used instead")
 
 
+def test_a_choice_serves_another_file_whose_default_is_none(tmp_path: Path) -> None:
+    package = package_with(tmp_path, ", choices=['small', 'large']")
+    (package / "urdf/other.urdf.xacro").write_text(
+        """<robot name="other" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:arg name="kind" default="none"/>
+  <xacro:property name="sizes" value="${xacro.load_yaml('$(arg kind)/sizes.yaml')}"/>
+  <link name="base_${sizes['small']}"/>
+</robot>
+"""
+    )
+    (package / "urdf/large").mkdir()
+    (package / "urdf/large/sizes.yaml").write_text("small: 3\n")
+    assert not [each for each in judged(package).not_checked if "another value" in each.reason]
+
+
 def test_a_launch_file_of_another_package_gives_arguments(tmp_path: Path) -> None:
     package = package_with(tmp_path)
     bringup = tmp_path / "acme_bringup"

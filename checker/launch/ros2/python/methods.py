@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from checker.launch.ros2.python.interpreter import Interpreter
 
 CONTEXT = "LaunchContext"
+_WHOLE = ("$(file-content ", "$(command ")
+"""Texts of a whole file: `FileText` and the output of xacro."""
 _OF_PATHS = {"name": "basename", "parent": "dirname"}
 
 
@@ -102,8 +104,10 @@ def call(  # noqa: PLR0911 - one per method
             return _of_dict(run, owner, name, positional, named, node)
         case OpenFile() if name in ("read", "close", "readlines"):
             return FileText.read(owner.path, run.span(node)) if name == "read" else None
-        case FileText() if name == "strip" or (name == "replace" and not _adds(positional)):
-            return owner  # the file is judged as it is written
+        case str() if owner.startswith(_WHOLE) and (
+            name == "strip" or (name == "replace" and not _adds(positional))
+        ):
+            return owner  # the robot is judged as it is written
         case FilePath():
             return _on_path(run, owner, name, positional, node)
         case Made():
@@ -210,7 +214,7 @@ def _on_path(  # noqa: PLR0911 - one per method
     return run.unknown(node, f"{name}() of a path is not evaluated")
 
 
-def _of_made(  # noqa: C901, PLR0911 - one per method
+def _of_made(  # noqa: PLR0911 - one per method
     run: Interpreter,
     owner: Made,
     name: str,
@@ -219,8 +223,6 @@ def _of_made(  # noqa: C901, PLR0911 - one per method
     node: ast.AST,
 ) -> Value:
     if owner.name == "MoveItConfigs":
-        if name == "to_moveit_configs":
-            return Made(owner.name, {**owner.values, "built": True}, owner.span)
         return moveit.called(run, owner, name, positional, named)
     if name in ("add_action", "add_entity") and owner.name == "LaunchDescription":
         entities = owner.values.get("initial_entities")
