@@ -7,7 +7,7 @@ link then turns like a flywheel: the robot moves, but more slowly than the real 
 little inertia, as if all mass were in one point, the link jumps at the smallest force.
 
 Fix: compute the moments about the centre of mass with CAD, or with the formula of the most similar
-solid.
+solid; where only the mass was changed, scale the moments with it.
 Source: definition of the moment of inertia.
 """
 
@@ -17,13 +17,22 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from checker.physics.mass.even_inertia import moments_fix
+from checker.model.robot import Robot
+from checker.physics.mass.even_inertia import even_moments, moments_fix
 from checker.physics.mass.link_geometry import displacement, known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _ONE_FORMULA = 3
 """Links with equal moments and one radius of gyration, at least, that no one computed."""
+_SEVERAL = 3.0
+"""Ratio of the radius of gyration to the reach of an object from which it is a warning."""
+_DIAGONAL = (0, 3, 5)
+"""Where ixx, iyy and izz are among the moments."""
+_FARTHEST = 20.0
+"""Times that a mass was another one before, at most: moments in other units are far more."""
+_ALIKE = 1.1
+"""Ratio of three moments to those of the shapes, largest to least, at most, of another mass."""
 _ROUND = 1e-6
 """Distance of a logarithm from a whole number, at most, for a power of ten."""
 
@@ -42,9 +51,9 @@ def check(
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
 
-    For an object that is not a robot, such as a barrel, it is reported as info. Links with equal
-    moments of one radius of gyration have a formula in common: they are one finding, the largest
-    ratio first, as severe as the worst.
+    For an object that is not a robot, such as a barrel, it is an info, and a warning where the
+    ratio is several times as large as possible. Links with equal moments of one radius of gyration
+    have a formula in common: they are one finding, the largest ratio first, as severe as the worst.
 
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the
@@ -77,22 +86,24 @@ def check(
         elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
             continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            fixed = is_prop or name in masses.robot.tree.links_fixed_to_world
-            heavy = masses.share(name) > share and not fixed
+            fixed = name in masses.robot.tree.links_fixed_to_world
+            minor = fixed or (is_prop and ratio <= _SEVERAL)
+            heavy = masses.share(name) > share and not minor
             mounted = masses.robot.is_mounted(name)
             limit = subt_error_above if context.is_subt else error_above
-            grave = ratio > limit and not mounted
+            grave = ratio > limit and not (mounted or is_prop)
             grave = grave and not (inertia.mass <= placeholder and _is_made_up(inertia))
             severity = Severity.ERROR if grave else Severity.WARNING
             fault = finding(
                 inertia.moments_span,
-                _message(inertia, reach, "large" if ratio > warning_above else "small"),
+                _message(inertia, reach, "large" if ratio > warning_above else "small")
+                + _of_other_mass(masses.robot, inertia),
                 severity=severity if heavy else Severity.INFO,
                 key="" if heavy else "placeholder",
                 fix=moments_fix(masses.robot, inertia.link),
                 covered_by=("INE013",),
             )
-            made = ratio > warning_above and not fixed and not mounted
+            made = ratio > warning_above and not (fixed or is_prop or mounted)
             found.append((ratio, _formula(inertia) if made else "", fault))
     yield from _of_one_formula(sorted(found, key=lambda each: -each[0]))
 
@@ -124,6 +135,20 @@ def _message(inertia: LinkInertia, reach: float, how: str) -> str:
         f"of mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are too {how} "
         f"for {inertia.mass:.4g} kg"
     )
+
+
+def _of_other_mass(robot: Robot, inertia: LinkInertia) -> str:
+    """Return the mass whose moments these are, if the link's shapes have them; else nothing."""
+    even, inertial = even_moments(robot, inertia.link), inertia.link.inertial
+    if even is None or inertial is None or _has_equal_moments(inertia):
+        return ""
+    ratios = [inertial.moments[at].value / even[at] for at in _DIAGONAL if even[at] > 0.0]
+    if len(ratios) < len(_DIAGONAL) or not 0.0 < max(ratios) <= min(
+        _FARTHEST, _ALIKE * min(ratios)
+    ):
+        return ""
+    mass = inertia.mass * math.prod(ratios) ** (1 / len(ratios))
+    return f"; they fit {mass:.2g} kg, spread evenly over its shapes: was only the mass changed?"
 
 
 def _is_made_up(inertia: LinkInertia) -> bool:
@@ -177,4 +202,20 @@ GOOD = [
     _wheel(1e-6, beside=1000),
     {"@urdf": _TOOL_FRAME},
 ]
-BAD = [_wheel(1e-6, _MARK), _wheel(0.03, _MARK), _wheel(8, _MARK), _wheel(8, _MARK, beside=1000)]
+# The moments of 6 kg: only the mass was changed.
+_LIGHTER = f"""
+<link name="body">
+  <inertial>
+    <mass>0.5</mass>
+    <inertia>{_MARK}<ixx>0.025</ixx><iyy>0.1</iyy><izz>0.085</izz></inertia>
+  </inertial>
+  <collision name="c"><geometry><box><size>0.4 0.1 0.2</size></box></geometry></collision>
+</link>
+"""
+BAD = [
+    _wheel(1e-6, _MARK),
+    _wheel(0.03, _MARK),
+    _wheel(8, _MARK),
+    _wheel(8, _MARK, beside=1000),
+    _LIGHTER,
+]
