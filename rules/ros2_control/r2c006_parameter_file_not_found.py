@@ -13,12 +13,13 @@ import re
 
 from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.files import ROOT
+from checker.package.containers import container_with
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 _ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
@@ -29,7 +30,8 @@ def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
     """Report files that do not exist, and packages that nothing says to be needed.
 
     A package that package.xml does not name either is a warning; if the file is in this package
-    under the same path, it is an error. So is an absolute path. A plugin without `<parameters>` is
+    under the same path, it is an error. So is an absolute path, but for one below the `WORKDIR` of
+    a Dockerfile: a warning, because its container has it. A plugin without `<parameters>` is
     a warning.
     """
     for fault in files.faults:
@@ -45,11 +47,7 @@ def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
 
 def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
     if is_on_one_machine(file.text.value):
-        yield finding(
-            file.text,
-            f"{file.text.value} is on its author's machine, and Gazebo finds it on no other: "
-            "write $(find PACKAGE)/… in a xacro file, and expand that at launch",
-        )
+        yield _on_one_machine(file, package)
     elif file.path is None and file.package:
         yield from _elsewhere(file, package, papers)
     elif file.path is not None and not file.exists:
@@ -61,6 +59,18 @@ def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings
         if left is not None:
             message = f"{_label(file)} is not installed: {left.instead}"
             yield finding(file.text, message, key=left.around)
+
+
+def _on_one_machine(file: ParametersFile, package: Package) -> Finding:
+    absent = file.path is not None and not file.exists
+    container = container_with(package, file.text.value) if not absent else ""
+    where = f"in the container of {container}" if container else "on its author's machine"
+    return finding(
+        file.text,
+        f"{file.text.value} is {where}, and Gazebo finds it nowhere else: write $(find PACKAGE)/… "
+        "in a xacro file, and expand that at launch",
+        severity=Severity.WARNING if container else None,
+    )
 
 
 def _without_file(manager: GazeboManager, package: Package) -> Findings:
@@ -175,6 +185,11 @@ BAD = [
     _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>/home/ann/ws/install/share/arm/control.yaml</parameters>{_MARK}"),
+    # A warning: the container has it.
+    {
+        **_arm(f"<parameters>/ws/install/arm/share/arm/config/control.yaml</parameters>{_MARK}"),
+        "Dockerfile": "FROM ros:jazzy\nWORKDIR /ws\n",
+    },
     _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),
     {
         **_arm("<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"),

@@ -4,9 +4,9 @@ On every other machine the node does not find the file: the map server has no ma
 behaviour tree. A path in a home, such as `/home/me/maps/hall.yaml`, on a drive of Windows, or in
 the folders of a workspace is reported in a parameter file, if it is that of a file. The name of a
 parameter such as `output_file` says that the node writes it. Where a launch file names the
-parameter, it may replace the value: this is an info. In launch files of ROS 1 and ROS 2, defaults
-of arguments, parameters and the files that a command line gives a node to read are judged, and
-those in commands of ROS 2.
+parameter, it may replace the value: this is an info. Below the `WORKDIR` of a Dockerfile, the path
+works in its container alone. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters
+and the files that a command line gives a node to read are judged, and those in commands of ROS 2.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`. In ROS 1
@@ -21,6 +21,7 @@ from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros2.graph import LaunchGraph, ParameterFile, Ros2Launch
 from checker.launch.ros2.named_paths import is_written
 from checker.launch.ros2.package_launch import is_ros2_only
+from checker.package.containers import container_with
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine, own_path_on_machine
 from checker.ros.wiring.parameters import blocks_in
@@ -108,7 +109,7 @@ def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding
         here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
     else:
         here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
-    return _finding(label, text, f"write {here}" if own else "")
+    return _finding(package, label, text, f"write {here}" if own else "")
 
 
 def _in_parameters(package: Package, label: str, name: str, text: Located[str]) -> Finding:
@@ -118,15 +119,22 @@ def _in_parameters(package: Package, label: str, name: str, text: Located[str]) 
     launch = package.workspace.launch_texts.values()
     replaced = any(f"{mark}{it}{mark}" in code for code in launch for it in names for mark in "'\"")
     cure = f"give {here} in the launch file" if own else ""
-    return _finding(label, text, cure, Severity.INFO if replaced else None)
+    return _finding(package, label, text, cure, Severity.INFO if replaced else None)
 
 
 def _finding(
-    label: str, text: Located[str], cure: str, severity: Severity | None = None
+    package: Package,
+    label: str,
+    text: Located[str],
+    cure: str,
+    severity: Severity | None = None,
 ) -> Finding:
+    container = container_with(package, text.value)
+    where = "on its author's machine, and is found on no other"
     return finding(
         text,
-        f"{label} is {text.value}, on its author's machine, and is found on no other: "
+        f"{label} is {text.value}, "
+        f"{f'found only in the container of {container}' if container else where}: "
         f"{cure or 'install the file with a package'}",
         severity=severity,
         key=text.value,
@@ -169,6 +177,7 @@ BAD = [
     {"@ros2": f"        DeclareLaunchArgument('map', default_value='{_HALL}'),{_MARK}"},
     {"@ros2": f"        Node(package='p', executable='e', parameters=['{_HALL}']),{_MARK}"},
     _example("/home/ann/maps/hall.yaml", _MARK),
+    {**_example("/ws/src/rover/hall.yaml", _MARK), "Dockerfile": "FROM ros:jazzy\nWORKDIR /ws\n"},
     {**_example("/home/ann/ws/src/rover/maps/hall.yaml", _MARK), "maps/hall.yaml": "image: a\n"},
     _example('"/rover_ws/install/rover/share/rover/tree.xml"', _MARK, "default_bt_xml"),
 ]

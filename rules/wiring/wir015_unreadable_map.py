@@ -3,7 +3,8 @@
 The file of a map names its image, relative to its own folder, and how to read it. Without the
 image, or without one of the numbers, map_server does not start, in ROS 1 and ROS 2, and neither
 does the rest of Nav2. A map that was saved in a home may keep its absolute path. It is a warning
-where no launch file names the map, and where `.gitignore` keeps its image out of the repository.
+where no launch file names the map, where the image is below the `WORKDIR` of a Dockerfile, and
+where `.gitignore` keeps its image out of the repository.
 
 Fix: write the image's name alone, and put the image beside the file: `image: hall.pgm`.
 Source: navigation2, nav2_map_server/src/map_io.cpp, `loadMapYaml`.
@@ -14,6 +15,7 @@ from collections.abc import Iterator
 
 from checker.base.words import and_list
 from checker.finding import Fix
+from checker.package.containers import container_with
 from checker.package.git_ignored import ignored_by
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
@@ -55,10 +57,12 @@ def _image(
     name = posixpath.basename(written)
     here = posixpath.join(folder, name)
     if is_on_one_machine(written):
+        container = container_with(package, written)
+        where = f"in the container of {container} alone" if container else "on its author's machine"
         yield finding(
             image,
-            f"the map's image {written} is on its author's machine: write {name}, beside this file",
-            severity=severity,
+            f"the map's image {written} is {where}: write {name}, beside this file",
+            severity=Severity.WARNING if container else severity,
             fix=_beside(image, name) if package.exists(here) else None,
         )
     elif (entry := package.resolve(path)) is not None:
@@ -104,6 +108,7 @@ BAD = [
     _map("hall.png"),
     _map("office.pgm"),
     _map("/home/ann/maps/hall.pgm"),
+    {**_map("/home/ann/ws/hall.pgm"), "Dockerfile": "FROM ros:jazzy\nWORKDIR /home/ann/ws\n"},
     _map("hall.pgm", more=""),
     {**_map("hall.pgm"), "maps/hall.pgm": ""},
 ]

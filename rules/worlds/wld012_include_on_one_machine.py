@@ -2,6 +2,7 @@
 
 `<uri>file:///home/me/models/rover</uri>` leads nowhere on every other machine: Gazebo prints an
 error, and the world has no such model. Where the model is the robot, there is nothing to simulate.
+Below the `WORKDIR` of a Dockerfile it is a warning: the model is in its container alone.
 
 Fix: write `model://rover`, and put the folder of the models on Gazebo's search path; or a path
 relative to the world.
@@ -11,20 +12,25 @@ Source: SDFormat specification, include/uri.
 import posixpath
 
 from checker.model.world import World
+from checker.package.containers import container_with
+from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("WLD012", "include-on-one-machine", Severity.ERROR, Concern.PORTABILITY)
-def check(world: World) -> Findings:
+def check(world: World, package: Package) -> Findings:
     """Report includes whose path is in a home, on a drive, or in a built workspace."""
     for uri in world.unknown:
         if is_on_one_machine(uri.value):
             name = posixpath.basename(uri.value.rstrip("/"))
+            container = container_with(package, uri.value)
+            where = f"in the container of {container}" if container else "on its author's machine"
             yield finding(
                 uri,
-                f"{uri.value} is on its author's machine, and the world has no such model on any "
-                f"other: write model://{name}",
+                f"{uri.value} is {where}, and the world has no such model elsewhere: write "
+                f"model://{name}",
+                severity=Severity.WARNING if container else None,
             )
 
 
@@ -40,5 +46,12 @@ def _world(uri: str, mark: str = "") -> dict[str, str]:
     return {"@fragment": text}
 
 
+_MARK = "  <!-- ^ WLD012 -->"
 GOOD = [_world("model://rover"), _world("https://fuel.gazebosim.org/1.0/acme/models/rover")]
-BAD = [_world("file:///home/ann/models/rover", "  <!-- ^ WLD012 -->")]
+BAD = [
+    _world("file:///home/ann/models/rover", _MARK),
+    {
+        **_world("file:///home/ann/ws/models/rover", _MARK),
+        "Dockerfile": "FROM ros:jazzy\nWORKDIR /home/ann/ws\n",
+    },
+]

@@ -1,0 +1,40 @@
+"""Folders of containers: what is below the working folder of a Dockerfile is found in it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from checker.package.files_above import files_around
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+_DOCKERFILE = re.compile(r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile)\Z")
+_WORKDIR = re.compile(r"^[ \t]*WORKDIR[ \t]+[\"']?([\w./-]{1,300})[\"']?[ \t]*$", re.M | re.I)
+
+
+def container_with(package: Package, path: str) -> str:
+    """Return the Dockerfile in whose container an absolute path is; empty if there is none.
+
+    Args:
+        package: Its Dockerfiles, and those around it, count.
+        path: The path, or the URI of one: that of a file below a `WORKDIR`.
+    """
+    location = path.strip().removeprefix("file://")
+    for name, folder in _working_folders(package):
+        if posixpath.normpath(location).startswith(f"{folder}/"):
+            return name
+    return ""
+
+
+def _working_folders(package: Package) -> Iterator[tuple[str, str]]:
+    """Yield working folders, each with its Dockerfile; one that is relative extends the former."""
+    for source in files_around(package, _DOCKERFILE):
+        folder = "/"
+        for match in _WORKDIR.finditer(source.text):
+            folder = posixpath.normpath(posixpath.join(folder, match[1]))
+            if folder.strip("/"):
+                yield source.file, folder
