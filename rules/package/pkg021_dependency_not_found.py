@@ -10,7 +10,8 @@ released it. Dependencies with a `condition` are skipped.
 Fix: correct the name; or add the source of the package to the workspace, and document that in the
 README.
 Source: ros/rosdistro, packages of the distributions and keys of rosdep (`ros_packages.json`);
-ros2/ros2cli#428 and ros2/ros2_documentation#508, about `ament_python`.
+ros2/ros2cli#428 and ros2/ros2_documentation#508, about `ament_python`;
+DoosanRobotics/doosan-robot2#188 and autowarefoundation/vision_pilot#370, about Eigen3 and opencv.
 """
 
 from collections.abc import Iterator, Mapping
@@ -141,5 +142,6 @@ BAD = [
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
     _package(f"<exec_depend>ros2_control_node</exec_depend>{_MARK}"),
     _package(f"<buildtool_depend>ament_python</buildtool_depend>{_MARK}"),
+    _package(f"<depend>OpenCV</depend>{_MARK}"),
     _package(f"<exec_depend>acme_drivers</exec_depend>{_MARK}\n<depend>acme_tools</depend>"),
 ]
