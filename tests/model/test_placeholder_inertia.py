@@ -1,4 +1,4 @@
-"""For SubT, a link of 10 g with round, equal moments is a warning, where others are errors."""
+"""How severe too large an inertia is: of placeholders, objects, and links of one formula."""
 
 from __future__ import annotations
 
@@ -35,6 +35,18 @@ MODEL = """<sdf version="1.9"><model name="rope">
 def test_severity(tmp_path: Path, mass: float, ixx: float, severity: Severity) -> None:
     (tmp_path / "rope.sdf").write_text(MODEL.format(mass=mass, ixx=ixx))
     settings = Settings(trial=False, select=("INE004",), profile="subt", profile_chosen=True)
+    (report,) = check_package(tmp_path / "rope.sdf", settings).packages
+    found = [it for it in report.findings if "'a'" in it.message]
+    assert [finding.severity for finding in found] == [severity]
+
+
+@pytest.mark.parametrize(("ixx", "severity"), [(0.01, Severity.INFO), (1.0, Severity.WARNING)])
+def test_an_object_is_a_warning_if_it_is_far_too_large(
+    tmp_path: Path, ixx: float, severity: Severity
+) -> None:
+    text = MODEL.format(mass=1, ixx=ixx).replace("0.001", str(ixx)).replace("revolute", "fixed")
+    (tmp_path / "rope.sdf").write_text(text)
+    settings = Settings(trial=False, select=("INE004",), profile="gazebo-harmonic")
     (report,) = check_package(tmp_path / "rope.sdf", settings).packages
     found = [it for it in report.findings if "'a'" in it.message]
     assert [finding.severity for finding in found] == [severity]
