@@ -26,13 +26,16 @@ from checker.report.report import Cause, ReportedFinding
 from checker.robots.parts import ModelFile
 from checker.robots.urdf_files import UrdfFiles
 from checker.ros.ros2_control.robot_control import PluginFiles, RobotControl
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Context, Rule
 
 _OF_A_ROBOT = frozenset(
     map(type_name, (Robot, UrdfDescription, RobotControl, PluginFiles, LinkInertias, PluginHost))
 )
-_BESIDE = _OF_A_ROBOT.union(map(type_name, (Package, Paperwork, Context, KnownDevices)))
-_SHARED = (Paperwork, Ros2Launch, Expander, MeshServer)
+_BESIDE = _OF_A_ROBOT.union(
+    map(type_name, (Package, Paperwork, Context, KnownDevices, SpawnedFiles))
+)
+_SHARED = (Paperwork, Ros2Launch, SpawnedFiles, Expander, MeshServer)
 """Types of the parts that all robots of a package have in common."""
 
 

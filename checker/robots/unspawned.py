@@ -81,14 +81,14 @@ def unspawned(package: Package, path: str) -> str:
     loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
     if (
         not loaded
-        or any(_may_load_others(*pair) for pair in loaded)
+        or any(may_load_others(*pair) for pair in loaded)
         or not spawns_others(around, graphs, file)
     ):
         return ""
     return clause
 
 
-def _may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:
+def may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:
     """Return whether an argument of the launch file chooses the file that is loaded."""
     values = (it.default.value for it in graph.arguments if it.default is not None)
     return any(value and value in loaded.load.path for value in values)

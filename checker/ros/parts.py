@@ -7,6 +7,7 @@ from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.expansion import Expander
 from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros2.graph import Ros2Launch
+from checker.launch.ros2.package_launch import launches_naming
 from checker.model.locomotion.controlled import without_idle
 from checker.model.placed_robots import PlacedRobots, placed
 from checker.model.robot import Robot
@@ -28,6 +29,7 @@ from checker.ros.ros2_control.robot_control import (
 from checker.ros.simulation import Simulations
 from checker.ros.simulation import simulations as read_simulations
 from checker.ros.spawned import SpawnedReader
+from checker.ros.spawned_files import SpawnedFiles
 from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.ros.wiring.wiring import wirings as read_wirings
 
@@ -46,6 +48,13 @@ def control_reader(package: Package, launch: Ros2Launch | NotAvailable) -> Contr
 def spawned_reader(package: Package, expander: Expander, control: ControlReader) -> SpawnedReader:
     """Return what reads the robots that launch files spawn and describe; each file once."""
     return SpawnedReader(package, expander, control)
+
+
+@part
+def spawned_files(package: Package, launch: Ros2Launch | NotAvailable) -> SpawnedFiles:
+    """Return which descriptions of the package launch files put into Gazebo."""
+    own = () if isinstance(launch, NotAvailable) else launch.entries
+    return SpawnedFiles(package, (*own, *(graph for _, graph in launches_naming(package))))
 
 
 @part

@@ -97,7 +97,7 @@ class SpawnedReader:
         """
         loaded = [*loaded_descriptions(self._package, graph)]
         robots: list[SpawnedRobot] = []
-        unknown: list[str] = [*_spawned_otherwise(graph)]
+        unknown: list[str] = [*spawned_otherwise(graph)]
         for node in graph.nodes_and_spawns:
             if (node.package.value, node.executable.value) not in spawns:
                 continue
@@ -170,7 +170,7 @@ class SpawnedReader:
         return _Described(models[0]) if models else f"{path} contains no model"
 
 
-def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
+def spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
     """Yield launch files of Gazebo's that spawn robots of which nothing is known."""
     for include in graph.includes:
         target = share_path(include.target.value)
@@ -195,7 +195,12 @@ def _descriptions_of(node: Node, loaded: list[LoadedDescription]) -> list[Loaded
 
 
 def _publishes(description: LoadedDescription) -> bool:
-    return program_of(description.node).endswith(f"/{STATE_PUBLISHER}")
+    return is_state_publisher(description.node)
+
+
+def is_state_publisher(node: Node) -> bool:
+    """Return whether a node publishes the description that it gets."""
+    return program_of(node).endswith(f"/{STATE_PUBLISHER}")
 
 
 def _publisher(description: LoadedDescription, loaded: list[LoadedDescription]) -> Node | None:

@@ -19,10 +19,15 @@ _QUIET_PROGRAMS = ("sleep", "source", ".", "echo", "cd", "export")
 
 def unread_parts(graph: LaunchGraph) -> Iterator[str]:
     """Yield why a launch file may start more than its nodes and Gazebo; nothing if it does not."""
-    yield from (unread.reason for unread in graph.unread)
-    yield from (fault.message for fault in graph.faults)
     if not all(map(_starts_no_node, graph.processes)):
         yield "a command may start further nodes"
+    yield from unread_files(graph)
+
+
+def unread_files(graph: LaunchGraph) -> Iterator[str]:
+    """Yield why a launch file and what it includes are not read completely."""
+    yield from (unread.reason for unread in graph.unread)
+    yield from (fault.message for fault in graph.faults)
     for include in graph.includes:
         if include.is_unknown and not _is_of_gazebo(include):
             yield f"{display_path(include.target.value)} is not read"

@@ -4,8 +4,9 @@ Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Class
 line and continues without the drive, the sensor or the light that the plugin provides.
 
 In a URDF that no launch file spawns into Gazebo it is a warning: RViz, MoveIt and other simulators
-do not read it, and the file may be kept for Gazebo Classic. Where there is no launch file at all,
-it stays an error.
+do not read it, and the file may be kept for Gazebo Classic. In one that launch files spawn into
+Gazebo Classic alone (`gazebo_ros`, `spawn_entity.py`) the plugins are right. Where there is no
+launch file at all, it stays an error.
 
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
@@ -30,6 +31,7 @@ from checker.package.package import Package
 from checker.robots.simulator import classic_by_default
 from checker.ros.simulation import Simulations
 from checker.ros.spawned import may_spawn
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 
@@ -41,6 +43,7 @@ def check(
     context: Context,
     launch: Ros2Launch | None,
     simulations: Simulations | None,
+    spawned: SpawnedFiles,
 ) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic.
 
@@ -55,11 +58,15 @@ def check(
         return
     named = [(plugin, classic_plugin(plugin.filename.value)) for plugin in host.plugins]
     found = [(plugin, known) for plugin, known in named if known is not None]
+    if found and host.robot is not None and spawned.is_in_classic(host.robot):
+        return
     loaded = (
         not found
         or host.robot is None
         or context.is_gazebo_alone
-        or _is_loaded(host.robot, package, launch, simulations)
+        or (
+            _is_loaded(host.robot, package, launch, simulations) and not spawned.without(host.robot)
+        )
     )
     for plugin, known in found:
         needless = host.robot is None and known.get("action") == "remove"

@@ -6,7 +6,8 @@ package or a dependency ships or builds it. Outside of SubT, the simulator's pat
 libraries: there it is an info, unless the name is one of Gazebo's own. It is a warning if the
 library is of a known package, on which package.xml does not depend, and an error if the ROS 2
 distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
-Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs.
+Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs. In a description that
+launch files load and never spawn into Gazebo it weighs less.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.
@@ -14,6 +15,8 @@ Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins f
 packages (`subt_plugins.json`); packages that distributions do not have (`removed_packages.json`).
 No accepted package that we checked has this fault.
 """
+
+from msgspec.structs import replace
 
 from checker.base.resources import table
 from checker.base.words import Suggestions
@@ -30,15 +33,36 @@ from checker.model.plugin_library import (
 )
 from checker.package.dependencies import AvailablePackages, available_packages
 from checker.package.package import Package
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.ros.spawned_files import SpawnedFiles
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _NONE = "__default__"
 """Value that old releases of libsdformat wrote if a file names no library."""
 
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
-def check(host: PluginHost, package: Package, context: Context) -> Findings:
-    """Report plugins whose library neither Gazebo nor any available package has."""
+def check(host: PluginHost, package: Package, context: Context, spawned: SpawnedFiles) -> Findings:
+    """Report plugins whose library neither Gazebo nor any available package has.
+
+    In a description that Gazebo never gets it weighs less.
+    """
+    found = [*_found(host, package, context)]
+    robot = host.robot if any(isinstance(each, Finding) for each in found) else None
+    in_classic = spawned.is_in_classic(robot) if robot is not None else None
+    if in_classic is not None and in_classic is not context.is_classic:
+        return
+    clause = spawned.without(robot) if robot is not None else ""
+    for each in found:
+        yield _lessened(each, clause) if clause and isinstance(each, Finding) else each
+
+
+def _lessened(found: Finding, clause: str) -> Finding:
+    is_error = (found.severity or Severity.ERROR) is Severity.ERROR
+    severity = Severity.WARNING if is_error else Severity.INFO
+    return replace(found, message=f"{found.message} ({clause})", severity=severity)
+
+
+def _found(host: PluginHost, package: Package, context: Context) -> Findings:
     if host.unread:
         yield unchecked(host.unread)
     of_release = plugin_libraries(context.release)

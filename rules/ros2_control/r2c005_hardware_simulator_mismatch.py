@@ -5,7 +5,9 @@ starts the controller manager there: the robot needs both. With the plugin and o
 as `mock_components/GenericSystem`, the controllers run and the simulated robot does not move.
 Without any `<ros2_control>` tag the plugin stops, and there is no controller manager. The plugin's
 `name` is the class that is loaded from the library; it cannot be chosen freely. An SDF model in the
-workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo.
+workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo. In a
+description that launch files load and never spawn, where they spawn another one or give it to
+ros2_control_node, nothing is an error, and hardware of a real robot is right.
 
 Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
 from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
@@ -17,11 +19,14 @@ Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branc
 
 from collections.abc import Iterator, Mapping
 
+from msgspec.structs import replace
+
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 from checker.rulebook.example_parts import GAZEBO, MOCK, model_beside, ros2_control
 
@@ -47,15 +52,31 @@ _HARDWARE: Mapping[str, str] = {
 """The hardware that goes with a plugin's library."""
 _FILES: Mapping[str, str] = {"gazebo_ros2_control": "libgazebo_ros2_control.so"}
 """Names of the files of libraries that are loaded by these alone."""
+_OTHER_HARDWARE = "no hardware"
+"""Key of findings about hardware that is not of Gazebo."""
 _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in names)
 
 
 @rule("R2C005", "hardware-simulator-mismatch", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, package: Package, context: Context) -> Findings:
+def check(
+    control: RobotControl, package: Package, context: Context, spawned: SpawnedFiles
+) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
-    Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings.
+    Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings. In what
+    Gazebo never gets nothing is an error, and other hardware is none of its faults.
     """
+    found = [*_found(control, package, context)]
+    clause = spawned.without(control.robot) if found else ""
+    for each in found:
+        if not clause:
+            yield each
+        elif each.key != _OTHER_HARDWARE:
+            message = f"{each.message} ({clause})"
+            yield replace(each, message=message, severity=Severity.WARNING)
+
+
+def _found(control: RobotControl, package: Package, context: Context) -> Iterator[Finding]:
     for manager in control.managers:
         yield from _names(manager, context.release)
         yield from _another_library(control, manager)
@@ -123,7 +144,7 @@ def _disagreement(control: RobotControl, package: Package) -> Iterator[Finding]:
             f"Gazebo runs the controller manager, but the hardware is {others[0].plugin.value!r}: "
             f"the simulated robot does not move{_hardware_for(plugin)}",
             severity=Severity.WARNING,
-            key="no hardware",
+            key=_OTHER_HARDWARE,
             related=[(plugin, "the plugin of Gazebo")],
         )
 

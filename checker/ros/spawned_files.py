@@ -1,0 +1,134 @@
+"""Which descriptions launch files put into Gazebo, and into which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.formats.xacro.files import local_path
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
+from checker.launch.ros2.graph import LaunchGraph, Node, is_known
+from checker.model.robot import Robot
+from checker.model.ros_parameters import MANAGER
+from checker.package.package import Package
+from checker.robots.unspawned import may_load_others
+from checker.ros.ros2_control.launched import MANAGER_NODE
+from checker.ros.servers import is_gazebo
+from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN, is_state_publisher, spawned_otherwise
+from checker.ros.unread import unread_files
+
+_ELSEWHERE = "Gazebo gets another description"
+_HARDWARE = "launch files give it to ros2_control_node, and none spawns it into Gazebo"
+
+_STARTING = (("run",), ("launch",))
+"""Verbs of `ros2` that start nodes."""
+
+
+class _Spawn(Record):
+    """A description that a node spawns: its file, empty if it is none of the package's."""
+
+    file: str
+    in_classic: bool
+
+
+class SpawnedFiles(Record, eq=False, dict=True):
+    """Descriptions of a package, as far as its launch files and those that name it load them.
+
+    Attributes:
+        package: The package being checked.
+        graphs: What these launch files start.
+    """
+
+    package: Package
+    graphs: tuple[LaunchGraph, ...]
+
+    def without(self, robot: Robot) -> str:
+        """Return that Gazebo never gets a robot that is loaded, as a clause; empty if it may.
+
+        Either launch files spawn others, or a controller manager outside of Gazebo gets it.
+        """
+        file = robot.document.source.file
+        loading = [graph for graph in self.graphs if file in self._loaded(graph)]
+        spawns = self._spawns
+        if not loading or spawns is None or any(it.file == file for it in spawns):
+            return ""
+        if any(map(_may_spawn_more, loading)):
+            return ""
+        if spawns:
+            return _ELSEWHERE
+        return _HARDWARE if any(map(_starts_manager, loading)) else ""
+
+    def is_in_classic(self, robot: Robot) -> bool | None:
+        """Return whether a robot is spawned into Classic alone; None if into others, or neither."""
+        file = robot.document.source.file
+        found = {it.in_classic for it in self._spawns or () if it.file == file}
+        return found.pop() if len(found) == 1 else None
+
+    @cached_property
+    def _spawns(self) -> tuple[_Spawn, ...] | None:
+        """All that is spawned; None if that is not known."""
+        found = [spawn for graph in self.graphs for spawn in self._spawned(graph)]
+        known = tuple(it for it in found if it is not None)
+        return known if len(known) == len(found) else None
+
+    def _spawned(self, graph: LaunchGraph) -> Iterator[_Spawn | None]:
+        if graph.unread or any(spawned_otherwise(graph)):
+            yield None
+        loaded = [*loaded_descriptions(self.package, graph)]
+        for node in graph.nodes_and_spawns:
+            program = (node.package.value, node.executable.value)
+            if program in EVERY_SPAWN:
+                in_classic = program in CLASSIC_SPAWNS
+                given = _given(graph, node, loaded)
+                yield from (self._spawn(graph, it, in_classic=in_classic) for it in given)
+                if not given:
+                    yield _Spawn("", in_classic) if _is_file(node) else None
+
+    def _spawn(
+        self, graph: LaunchGraph, given: LoadedDescription, *, in_classic: bool
+    ) -> _Spawn | None:
+        file = local_path(self.package, given.load.path)
+        return None if may_load_others(graph, given) else _Spawn(file or "", in_classic)
+
+    def _loaded(self, graph: LaunchGraph) -> set[str | None]:
+        loaded = loaded_descriptions(self.package, graph)
+        return {local_path(self.package, it.load.path) for it in loaded}
+
+
+def _given(
+    graph: LaunchGraph, node: Node, loaded: Sequence[LoadedDescription]
+) -> Sequence[LoadedDescription]:
+    """Return all that a node may spawn; nothing if that is not known.
+
+    One that starts for other arguments alone takes what the same launch file publishes, if any.
+    """
+    own = [it for it in loaded if it.node is node]
+    if own or "-topic" not in {word.value for word in node.arguments}:
+        return own
+    every = [it for it in graph.nodes_and_spawns if is_state_publisher(it)]
+    beside = [it for it in every if it.file == node.file and node.starts is False] or every
+    given = [it for it in loaded if it.node in beside]
+    return given if {id(it) for it in beside} == {id(it.node) for it in given} else ()
+
+
+def _may_spawn_more(graph: LaunchGraph) -> bool:
+    """Return whether what is not read of a launch file may spawn the robot that it publishes."""
+    commands = (
+        it for process in graph.processes if not is_gazebo(process) for it in process.commands
+    )
+    names = (tuple(word.value for word in command[:2]) for command in commands)
+    return any(unread_files(graph)) or any(
+        it[:1] != ("ros2",) or it[1:] in _STARTING for it in names
+    )
+
+
+def _is_file(node: Node) -> bool:
+    """Return whether a node spawns a file alone, which is none of the package's."""
+    words = [word.value for word in node.arguments]
+    return "-file" in words and all(map(is_known, words)) and not node.unread
+
+
+def _starts_manager(graph: LaunchGraph) -> bool:
+    programs = {(it.package.value, it.executable.value) for it in graph.nodes_and_spawns}
+    return (MANAGER, MANAGER_NODE) in programs

@@ -1,0 +1,105 @@
+"""Findings about plugins of Gazebo weigh less where Gazebo gets another description."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.rule_testing import write_example
+from checker.settings import Settings
+
+LINK = '<link name="base_link"/>'
+PLUGIN = '<gazebo><plugin filename="{}" name="{}"/></gazebo>'
+SIM = PLUGIN.format("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
+CLASSIC = PLUGIN.format("libgazebo_ros2_control.so", "control")
+CONTROL = """<ros2_control name="arm" type="system">
+  <hardware><plugin>arm_driver/Arm</plugin></hardware>
+</ros2_control>
+"""
+FOLDER = "$(find-pkg-share acme_rover_bringup)/urdf"
+NODE = '<node pkg="{}" exec="{}" args="{}"/>\n'
+PUBLISHER = """<node pkg="robot_state_publisher" exec="robot_state_publisher">
+  <param name="robot_description" type="str" value="$(command 'xacro {}')"/>
+</node>
+"""
+TOPIC = "-topic robot_description"
+CREATE = NODE.format("ros_gz_sim", "create", TOPIC)
+ENTITY = NODE.format("gazebo_ros", "spawn_entity.py", f"{TOPIC} -entity arm")
+MANAGER = NODE.format("controller_manager", "ros2_control_node", "")
+SHOWN = "Gazebo gets another description"
+DRIVEN = "none spawns it into Gazebo"
+
+
+def launch(file: str, *nodes: str) -> str:
+    publisher = PUBLISHER.format(f"{FOLDER}/{file}")
+    return "".join(("<launch>\n", publisher, *nodes, "</launch>\n"))
+
+
+def robot(*parts: str) -> str:
+    return "".join(('<robot name="arm">\n', LINK, *parts, "</robot>\n"))
+
+
+PLAIN = {"urdf/sim.urdf": robot(), "launch/sim.launch.xml": launch("sim.urdf", CREATE)}
+REAL = {"urdf/arm.urdf": robot(CONTROL, SIM)}
+
+
+@pytest.mark.parametrize(
+    ("files", "expected", "clause"),
+    [
+        ({"launch/arm.launch.xml": launch("arm.urdf")}, Severity.WARNING, SHOWN),
+        ({"launch/arm.launch.xml": launch("arm.urdf", CREATE)}, Severity.ERROR, ""),
+        (
+            {
+                "launch/arm.launch.xml": launch("arm.urdf"),
+                "launch/more.launch.xml": f"<launch>{CREATE}</launch>",
+            },
+            Severity.ERROR,
+            "",
+        ),
+    ],
+    ids=["shown", "spawned", "may be spawned"],
+)
+def test_no_tag(tmp_path: Path, files: dict[str, str], expected: Severity, clause: str) -> None:
+    found = findings("R2C005", {**PLAIN, "urdf/arm.urdf": robot(SIM), **files}, tmp_path)
+    assert [it[0] for it in found] == [expected]
+    assert clause in found[0][1]
+
+
+@pytest.mark.parametrize(("nodes", "count"), [((MANAGER,), 0), ((), 1), ((MANAGER, CREATE), 1)])
+def test_other_hardware(tmp_path: Path, nodes: tuple[str, ...], count: int) -> None:
+    files = {**REAL, "launch/arm.launch.xml": launch("arm.urdf", *nodes)}
+    assert len(findings("R2C005", files, tmp_path)) == count
+
+
+def test_unknown_library(tmp_path: Path) -> None:
+    own = robot(CONTROL, PLUGIN.format("gz-sim-no-such-system", "none"))
+    files = {"urdf/arm.urdf": own, "launch/arm.launch.xml": launch("arm.urdf", MANAGER)}
+    ((severity, message),) = findings("PLG002", files, tmp_path)
+    assert severity is Severity.WARNING
+    assert DRIVEN in message
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"), [((), []), ((CREATE,), [Severity.ERROR])], ids=["classic", "both"]
+)
+def test_classic(tmp_path: Path, more: tuple[str, ...], expected: list[Severity]) -> None:
+    files = {
+        **PLAIN,
+        "urdf/old.urdf": robot(CLASSIC),
+        "launch/old.launch.xml": launch("old.urdf", ENTITY),
+        "launch/both.launch.xml": launch("old.urdf", *more),
+    }
+    assert [severity for severity, _ in findings("PLG001", files, tmp_path)] == expected
+
+
+def findings(rule: str, files: dict[str, str], folder: Path) -> list[tuple[Severity, str]]:
+    example = {"@bridge": True, "launch/rover.launch.py": None, "urdf/rover.urdf": None, **files}
+    package = write_example(example, folder)
+    settings = Settings(
+        trial=False, select=(rule,), profile="ros2", profile_chosen=True, distro="jazzy"
+    )
+    (report,) = check_package(package, settings).packages
+    return [(it.severity, it.message) for it in report.findings]
