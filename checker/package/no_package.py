@@ -14,7 +14,7 @@ _FILES_LIMIT = 5_000
 """Files that are read, by their names."""
 _SHOWN = 200
 _OTHER_ARCHIVES = (".zip", ".tar.gz", ".tgz", ".tar", ".tar.xz", ".tar.bz2", ".7z", ".rar")
-_MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")
+MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply")
 _CAD = (".step", ".stp", ".iges", ".sldasm", ".sldprt", ".f3d", ".blend", ".fcstd", ".ipt", ".iam")
 _OTHER_MODELS = (".wbt", ".proto")
 CHECKED_FORMATS = "give the robot as URDF, xacro, SDF or MJCF"
@@ -27,7 +27,7 @@ _ADVICE: Mapping[tuple[str, ...], tuple[str, str]] = {
         "a model for another simulator",
         f"{CHECKED_FORMATS}; other formats are not checked yet",
     ),
-    _MESHES: (
+    MESHES: (
         "a mesh",
         "give the model that uses it, a .urdf, .xacro or .sdf file, best with its whole package",
     ),

@@ -4,8 +4,10 @@ Without friction a wheel spins in place. Rubber on rock reaches about 1; with a 
 the robot climbs walls that no real robot climbs, and some engines jitter. Engines use different
 defaults for friction that is not stated.
 
+A part that is fixed to the robot, such as a ball in place of a caster, may slide without friction.
+
 Fix: state `<surface><friction><ode>` with `<mu>` and `<mu2>` of about 0.5 to 1.5 for each collision
-of each wheel.
+of each wheel; in URDF write `<gazebo reference="WHEEL"><mu1>1</mu1><mu2>1</mu2></gazebo>`.
 Source: SDFormat specification, surface/friction: coefficients of Coulomb friction, 1 by default.
 """
 
@@ -23,7 +25,7 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
     """Report coefficients of 0 or less and above `most`, and single wheels that state none.
 
-    If nothing that the robot stands on states friction, this is an info.
+    If no other part states friction, or of the driven wheels none does, this is an info.
 
     Options:
         most: Greatest coefficient of friction; more is reported, except across a track.
@@ -36,11 +38,22 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
         (link, shape, reader.friction_of(link, shape))
         for link, shape in _ground(robot, foot_height)
     ]
-    some_state = any(friction.first is not None for _, _, friction in touching)
+    driven = {it.scoped_name for wheel in robot.locomotion.wheels for it in wheel.body}
+    stating = {
+        link.scoped_name in driven for link, _, friction in touching if friction.first is not None
+    }
     for link, shape, friction in touching:
-        yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
+        of_drive = link.scoped_name in driven
+        if of_drive or link.scoped_name not in robot.tree.base or not _slides(friction):
+            yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
         if friction.first is None:
-            yield _missing(link, shape, some_state)
+            yield _missing(link, shape, of_drive in stating or (not of_drive and bool(stating)))
+
+
+def _slides(friction: Friction) -> bool:
+    """Return whether the coefficients that are stated are 0."""
+    stated = [it.value for it in (friction.first, friction.second) if it is not None]
+    return bool(stated) and not any(stated)
 
 
 class _Across(enum.Enum):
@@ -158,6 +171,7 @@ def _track(friction: str) -> str:
 
 
 _ONE = "<mu>1</mu><mu2>1</mu2>"
+_BALL = _wheel("ball_wheel", "<mu>0</mu><mu2>0</mu2>").replace('"revolute"', '"fixed"')
 _MARK = "  <!-- ^ GEO009 -->"
 GOOD = [
     _rover(_ONE, _ONE),
@@ -165,6 +179,7 @@ GOOD = [
     _rover("<mu>1</mu><mu2>0</mu2>", _ONE, "MecanumDrive"),
     _rover("", "", "TrackedVehicle"),
     _track("<mu>1</mu><mu2>150</mu2>"),
+    _rover(_ONE, _ONE) + _BALL,
 ]
 BAD = [
     _rover(_ONE, f"<mu>0</mu>{_MARK}"),

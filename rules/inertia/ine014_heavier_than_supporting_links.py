@@ -48,7 +48,8 @@ def check(
         return
     wheels = {wheel.scoped_name for wheel in robot.wheels}
     for part in _parts(masses):
-        is_small = part.link in wheels or _is_small(part.link)
+        turns = part.link in wheels and not part.is_fixed  # a fixed ball may be ballast
+        is_small = turns or _is_small(part.link)
         ratio = small if is_small else other
         counts = is_small or not part.is_fixed
         if counts and part.carrying >= least and part.mass > ratio * part.carrying:

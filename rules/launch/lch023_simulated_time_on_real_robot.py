@@ -2,8 +2,9 @@
 
 With `use_sim_time`, the time of a node is that of the messages on /clock. A launch file that starts
 the driver of a sensor and no simulator has none: the time stays zero, transforms and scans with the
-time of the system are decades ahead, and mapping and navigation wait. Usually the default of the
-argument was copied from a launch file for Gazebo.
+time of the system are decades ahead, and mapping and navigation wait. So does one that starts
+ros2_control_node, which runs beside no simulator: trajectories do not advance. Usually the default
+of the argument was copied from a launch file for Gazebo.
 
 It is reported where all that the launch file starts was read, and no launch file of the workspace
 names a simulator, a bridge of /clock or the replay of a recording.
@@ -27,6 +28,7 @@ _DRIVERS = (
     *("velodyne_driver", "ydlidar_ros2_driver", "livox_ros_driver2", "sick_scan_xd"),
 )
 """Packages that read a device, and do so with the time of the system."""
+_MANAGER = "controller_manager/ros2_control_node"
 _CLOCKS = re.compile(
     r"gazebo_ros|gazebo\.launch|ros_gz|ros_ign|gzserver|\bgz_sim|['\"](?:gz|ign|gazebo)\b|--clock"
     r"|['\"]/?clock\b|tcp_endpoint|webots|isaac|mujoco|mvsim|stage_ros|stageros|unity|carla|airsim"
@@ -40,11 +42,11 @@ _MAY_PUBLISH = re.compile(r"clock|sim|bridge|gz|ign|bag|replay|play|unity", re.I
 
 @rule("LCH023", "simulated-time-on-real-robot", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring, package: Package) -> Findings:
-    """Report the first node that waits for the time, beside the driver of a device."""
-    drivers = [it for it in wiring.nodes if it.node.package.value in _DRIVERS]
+    """Report the first node that waits for the time, beside the driver of a device or robot."""
+    drivers = [it for it in wiring.nodes if _is_real(it)]
     if not drivers or wiring.unread or wiring.simulation is not None:
         return
-    waiting = [it for it in wiring.nodes if it not in drivers and _waits(it)]
+    waiting = [it for it in wiring.nodes if it.node.package.value not in _DRIVERS and _waits(it)]
     others = any(it.facts is None and _MAY_PUBLISH.search(it.program) for it in wiring.every_node)
     texts = package.workspace.launch_texts.values()
     if not waiting or others or any(map(_CLOCKS.search, texts)):
@@ -54,9 +56,14 @@ def check(wiring: Wiring, package: Package) -> Findings:
     yield finding(
         first.settings[_PARAMETER].span,
         f"{first.label}{more} with use_sim_time: nothing publishes /clock beside "
-        f"{driver.node.package.value}, so time stands still; expected false",
-        related=[(driver.node.executable, "the driver of a real device")],
+        f"{driver.program}, so time stands still; expected false",
+        related=[(driver.node.executable, "what runs beside no simulator")],
     )
+
+
+def _is_real(node: WiredNode) -> bool:
+    """Return whether a node is the driver of a device, or runs the hardware of a robot."""
+    return node.node.package.value in _DRIVERS or node.program == _MANAGER
 
 
 def _waits(node: WiredNode) -> bool:
@@ -84,6 +91,12 @@ def _slam(sim: str, driver: str = "sllidar_ros2", mark: str = "") -> dict[str, o
     }
 
 
+_MOCK = """<launch>
+  <node pkg="controller_manager" exec="ros2_control_node">
+    <param name="use_sim_time" value="true"/>  <!-- ^ LCH023 -->
+  </node>
+</launch>
+"""
 _REPLAY = '<launch><executable cmd="ros2 bag play --clock drive"/></launch>'
 GOOD = [
     _slam("false"),
@@ -92,4 +105,5 @@ GOOD = [
 ]
 BAD = [
     _slam("true", mark="  <!-- ^ LCH023 -->"),
+    {**_slam("true"), "launch/slam.launch.xml": _MOCK},
 ]

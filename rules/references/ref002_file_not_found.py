@@ -34,6 +34,7 @@ from checker.package.downloaded import downloaded_by
 from checker.package.git_ignored import ignored_by
 from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
+from checker.package.no_package import MESHES
 from checker.package.package import Package
 from checker.package.uris import Unknown, own_path_on_machine, path_behind
 from checker.rule import (
@@ -139,8 +140,9 @@ def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -
 
 
 def _may_be(other: str, path: str) -> bool:
-    """Return whether a file may be the missing one: not the materials beside an OBJ."""
-    return other != path and not other.lower().endswith(".mtl")
+    """Return whether a file may be the missing one: a mesh where a mesh is named."""
+    is_mesh = not path.lower().endswith(MESHES) or other.lower().endswith(MESHES)
+    return other != path and is_mesh and not other.lower().endswith(".mtl")
 
 
 def _other_file(uri: Located[str], path: str, alike: list[str]) -> Fix | None:
