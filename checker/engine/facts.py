@@ -220,10 +220,11 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     ]
     if len(robots) > 1:
         undriven = next((trials.undriven for trials in subject.cached_parts(RobotTrials)), {})
-        for number, (known, robot) in enumerate(zip(facts, robots, strict=False)):
-            known["file"] = robot.document.source.file
+        for number, robot in enumerate(robots[:ROBOTS_LIMIT]):
+            known = facts[number]
+            facts[number] = {"robot": known["robot"], "file": robot.document.source.file, **known}
             if number in undriven:
-                known["not_driven"] = undriven[number]
+                facts[number]["not_driven"] = undriven[number]
     for known, robot in zip(facts, robots, strict=False):
         known.update(_arguments(subject, robot))
     return tuple(facts)
@@ -268,7 +269,7 @@ def _facts(
 
 
 def _balance(masses: MassProperties) -> Mapping[str, Any]:
-    tip = masses.tip_angle
+    tip = masses.tip_angle if masses.robot.stands_alone else None
     return {
         "centre_of_mass_m": masses.centre,
         "inertia_kg_m2": masses.inertia,
