@@ -67,7 +67,7 @@ def model_suffixes() -> tuple[str, ...]:
 @cache
 def xml_suffixes() -> tuple[str, ...]:
     """Return the ends of the names of files that are XML."""
-    return (*single_file_suffixes(), "model.config", ".launch")
+    return (*single_file_suffixes(), "model.config", ".launch", ".srdf")
 
 
 @cache

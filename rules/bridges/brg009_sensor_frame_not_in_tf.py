@@ -4,7 +4,7 @@ Unless the sensor states the frame of its messages, Gazebo calls it `<model>::<l
 the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher publishes the links under
 their own names: RViz shows nothing, and mapping and navigation drop the messages. It is reported
 for lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
-same description.
+same description, unless a launch file of the workspace names the frame.
 
 Fix: write `<gz_frame_id>` (in Fortress `<ignition_frame_id>`, from Ionic on `<frame_id>`) with the
 name of the link into the sensor; of a camera, that of its optical link.
@@ -18,6 +18,7 @@ from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType, frame_elements, stated_frame
+from checker.package.package import Package
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
@@ -28,8 +29,9 @@ _PUBLISHES_POSES = "PosePublisher"
 
 
 @rule("BRG009", "sensor-frame-not-in-tf", Severity.WARNING, Concern.INTERFACE)
-def check(simulations: Simulations, context: Context) -> Findings:
+def check(simulations: Simulations, package: Package, context: Context) -> Findings:
     """Report the sensors whose frame is no link."""
+    texts = package.workspace.launch_texts.values()
     for simulation in simulations.launched:
         for spawned in simulation.robots:
             if spawned.publisher is None or _may_publish_more(simulation, spawned):
@@ -38,7 +40,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
                 if not _counts(sensor) or not _is_bridged(simulation, sensor):
                     continue
                 stated = stated_frame(sensor.element, context.release)
-                if stated is None:
+                if stated is None and not any(f"/{sensor.name.value}" in text for text in texts):
                     model = spawned.name or "<model>"
                     tag, frame = frame_elements(context.release)[0], _frame(sensor, spawned.robot)
                     yield finding(
@@ -48,7 +50,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
                         f"names; expected <{tag}>{frame}",
                         fix=_stated(sensor, f"<{tag}>{frame}</{tag}>", frame),
                     )
-                elif _is_unknown(stated.value, spawned):
+                elif stated is not None and _is_unknown(stated.value, spawned):
                     yield finding(
                         stated,
                         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
@@ -80,10 +82,16 @@ def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:
     return (
         _PUBLISHES_POSES in plugins
         or (prefix is not None and prefix.value not in ("", "/"))
-        or any(node.executable.value in _STATIC for node in nodes)
+        or any(map(_is_unknown_static, nodes))
         or any(entry.passed.overrides_frame for entry in simulation.entries)
         or any(node.parameter("override_frame_id") is not None for node in nodes)
     )
+
+
+def _is_unknown_static(node: Node) -> bool:
+    """Return whether a node publishes static transforms of frames that are not known."""
+    words = [word.value for word in node.arguments]
+    return node.executable.value in _STATIC and not (words and all(map(is_known, words)))
 
 
 def _counts(sensor: Sensor) -> bool:
@@ -130,14 +138,20 @@ _ROVER = f"""<robot name="rover">
 _PUBLISHED = """Node(package="tf2_ros", executable="static_transform_publisher",
   arguments=["0", "0", "0", "0", "0", "0", "lidar_link", "rover/base_link/lidar"]),
 """
+_OTHER = {"LaunchDescription([\n": f"LaunchDescription([{_PUBLISHED.replace('/lidar', '/imu')}"}
+_ELSEWHERE = """<launch><node pkg="tf2_ros" exec="static_transform_publisher"
+  args="0 0 0 0 0 0 lidar_link rover/base_link/lidar"/></launch>
+"""
 GOOD = [
     {"@bridge": True},
     _rover(_FRAME),
     {**_rover(""), "@launch": {"LaunchDescription([\n": f"LaunchDescription([{_PUBLISHED}"}},
     {**_rover(""), "@launch": {'executable="robot_state_publisher"': 'executable="other"'}},
     {**_rover(""), "@bridge": "[]\n"},
+    {**_rover(""), "launch/slam.launch.xml": _ELSEWHERE},
 ]
 BAD = [
     _rover("", " <!-- ^ BRG009 -->"),
     _rover("<gz_frame_id>laser</gz_frame_id> <!-- ^ BRG009 -->"),
+    {**_rover("", " <!-- ^ BRG009 -->"), "@launch": _OTHER},
 ]

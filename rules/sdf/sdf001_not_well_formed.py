@@ -7,7 +7,7 @@ element. In files that only Gazebo, pluginlib or Nav2 reads these are infos; the
 ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
 faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
 and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty file that no launch
-file names is a warning.
+file names is a warning, and so is such an SRDF.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
@@ -70,7 +70,8 @@ def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
-        yield _finding(path, fault)
+        unused = path.endswith(".srdf") and not _is_used(path, package)
+        yield _finding(path, fault, Severity.WARNING if unused else None)
 
 
 def _is_used(path: str, package: Package) -> bool:
@@ -111,6 +112,7 @@ BAD = [
 </sdf>
 """
     },
+    {"@urdf": True, "config/arm.srdf": '<robot name="arm">\n</robt><!-- ^ SDF001 -->\n'},
     {"worlds/example.sdf": "<sdf version='1.6'>\n<world>\n</wrld><!-- ^ SDF001 -->\n</sdf>\n"},
     {
         "launch/view.launch": """<launch>

@@ -18,7 +18,7 @@ from checker.source.text import SourceText
 
 STEM = "subt-check"
 """Word in every mark, in small letters or capitals."""
-_XML_TOO = (".gazebo", ".srdf", ".ign", ".md")
+_XML_TOO = (".gazebo", ".ign", ".md")
 _WITH_HASH = (".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh")
 COMMENTS_LIMIT = 1_000
 """Greatest number in one file; the rest has no effect."""
