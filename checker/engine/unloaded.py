@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,8 +13,6 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-_MAY_BE_STARTED = re.compile(r"\Aonly with |\bno launch file starts\Z")
-"""Clauses of a robot that another value makes, and of a world that no launch file starts."""
 _OF_MASSES = "INE"
 """The group of rules about what a simulator alone reads."""
 
@@ -40,10 +37,9 @@ def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
 def less_of_unloaded(
     said: Sequence[tuple[str, Sequence[Said]]], severity: Severity
 ) -> Iterator[Said]:
-    """Yield what a rule states: of loaded robots first, and of others one severity less.
+    """Yield what a rule states: of loaded robots first, and of others no errors.
 
-    What is in a file that a loaded robot shares is stated once, of that one. A world, and a robot
-    that another value of an argument makes, keep their warnings: a user may start them.
+    What is in a file that a loaded robot shares is stated once, of that one.
 
     Args:
         said: For each robot the clause that nothing loads it, or nothing, and what is stated.
@@ -65,9 +61,6 @@ def _spot(item: Finding) -> tuple[Place, str]:
 
 
 def _lessened(item: Finding, clause: str, severity: Severity) -> Finding:
-    severity = item.severity or severity
-    if severity is Severity.ERROR:
-        return replace(item, severity=Severity.WARNING, message=f"{item.message} ({clause})")
-    if severity is Severity.WARNING and not _MAY_BE_STARTED.search(clause):
-        return replace(item, severity=Severity.INFO)
-    return item
+    if (item.severity or severity) is not Severity.ERROR:
+        return item
+    return replace(item, severity=Severity.WARNING, message=f"{item.message} ({clause})")

@@ -24,6 +24,7 @@ _OF_MOVEIT = ".setup_assistant"
 """What MoveItConfigsBuilder looks for in the package of its configuration, there or not."""
 _XACRO = re.compile(r"(?<![.\w])xacro\b")
 """The program, and no suffix: what reads a MoveIt configuration runs xacro by itself."""
+_WORD = re.compile(r"[\w-]{1,200}")
 
 
 def every_use(package: Package, launch: Ros2Launch | None) -> Iterator[Use]:
@@ -79,7 +80,8 @@ def _of_path(text: str, span: Span) -> Iterator[tuple[str, Span, str, str]]:
 
 def _naming(package: str, span: Span) -> Span:
     """Return the place of a package's name in the text of a span; the span if it is not there."""
-    found = re.search(rf"(?<![\w-]){re.escape(package)}(?![\w-])", span.text)
+    words = _WORD.finditer(span.text)
+    found = next((it for it in words if it.group() == package), None)
     if found is None:
         return span
     return Span(span.source, span.start + found.start(), span.start + found.end(), span.holder)
