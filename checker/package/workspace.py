@@ -14,7 +14,7 @@ from msgspec import field
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
-from checker.package.kind import IGNORED, looks_like_package
+from checker.package.kind import IGNORED, enclosing_package, is_file, looks_like_package
 from checker.package.overlay import Overlay
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -25,7 +25,14 @@ MANIFEST_LIMIT = 1_000_000
 LEVELS_ABOVE = 2
 """Folders above a workspace in which packages of the challenge are looked for."""
 THUMBNAILS = "thumbnails"
+SHARED_FOLDERS = ("config", "launch", "meshes", "urdf", "worlds")
+"""Folders that packages of ROS install into their share folder."""
+_BUILDS = (*IGNORED, "CMakeLists.txt", "package.xml", "pyproject.toml", "setup.cfg", "setup.py")
+"""Files that keep the build out of a folder, or by which colcon may build it as it is."""
+_LEVELS = 6
+"""Folders above another in which a package is looked for."""
 _WORD = re.compile(r"\w+")
+_NAME = re.compile(r"[A-Za-z][\w-]{0,199}")
 _GAZEBO = frozenset({"gazebo", "gazebo_ros", "gz", "gzserver", "ros_gz_sim", "ros_ign_gazebo"})
 """Words of launch files that start Gazebo or spawn into it."""
 
@@ -81,6 +88,16 @@ class Workspace(Record, eq=False, dict=True):
             return any(mark.exists() for mark in marks)
         except OSError:  # a name that no folder can have
             return False
+
+    def without_manifest(self, name: str) -> Path | None:
+        """Return the folder that would be the package of a name if it had a package.xml.
+
+        It has folders that packages share, and nothing by which a build tool finds it.
+        """
+        if self.package(name) is not None or not _NAME.fullmatch(name):
+            return None
+        places = (home / name for home in self.directories)
+        return next((folder for folder in places if _lacks_manifest(folder)), None)
 
     def _look_for(self, name: str) -> Package | None:
         if not name or name.startswith(".") or "/" in name or "\\" in name or "\0" in name:
@@ -201,6 +218,21 @@ class Workspace(Record, eq=False, dict=True):
         except etree.XMLSyntaxError:  # there is nothing at all in it
             return ""
         return str(tree.xpath("string(name)")).strip() if tree is not None else ""
+
+
+def _lacks_manifest(folder: Path) -> bool:
+    try:
+        if folder.is_symlink() or not any((folder / each).is_dir() for each in SHARED_FOLDERS):
+            return False
+        inside = (folder, *_subfolders(folder))
+        known = any(is_file(folder / each) for each in _BUILDS)
+    except OSError:
+        return False
+    return not known and not any(map(looks_like_package, inside)) and not _lies_in_package(folder)
+
+
+def _lies_in_package(folder: Path) -> bool:
+    return enclosing_package(folder.parent, _LEVELS) is not None
 
 
 def _is_package(folder: Path) -> bool:

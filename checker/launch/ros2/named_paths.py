@@ -160,6 +160,8 @@ def unavailable(package: Package, path: SharePath) -> str:
         return ""
     if package.workspace.ignores(name):
         return f"a file such as COLCON_IGNORE keeps package {name} from being built"
+    if package.workspace.without_manifest(name):
+        return f"the folder {name} has no package.xml, so it is no package"
     if package.exists(path.path):
         own = package.declared_name
         return (

@@ -20,6 +20,7 @@ from checker.package.package import Package
 from checker.source.text import Span
 
 _COMMAND = "$(command xacro "
+_READS = (_COMMAND, "$(file-content ")
 _OF_MOVEIT = ".setup_assistant"
 """What MoveItConfigsBuilder looks for in the package of its configuration, there or not."""
 _XACRO = re.compile(r"(?<![.\w])xacro\b")
@@ -68,7 +69,7 @@ def _of_parameter(parameter: Parameter | ParameterFile) -> Iterator[tuple[str, S
     text = parameter.value if isinstance(parameter.value, str) else ""
     if text.startswith(_COMMAND) and _XACRO.search(parameter.span.source.text):
         yield "xacro", parameter.span, "command xacro", ""
-    for word in text.split() if text.startswith(_COMMAND) else ():
+    for word in text.split() if text.startswith(_READS) else ():
         yield from _of_path(word.rstrip(")"), parameter.span)
 
 
