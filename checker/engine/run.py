@@ -34,7 +34,7 @@ from checker.finding import (
     without_line_numbers,
 )
 from checker.formats.xacro.files import as_written
-from checker.package.index import is_of_tests
+from checker.package.index import is_of_tests, is_retired
 from checker.report.report import Cause, NotChecked, Repeat, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
@@ -155,11 +155,11 @@ def _repeats(shares: Sequence[SplitFindings]) -> dict[Cover, list[Repeat]]:
 
 
 def _weighed(finding: Finding, severity: Severity, unloaded: Collection[str]) -> Finding:
-    """Return a finding; as information about what nothing loads, and of tests alone no error."""
+    """Return a finding; as information about what nothing loads, of tests or old files no error."""
     file = finding.places[0].file
     if file in unloaded:
         return replace(finding, severity=Severity.INFO)
-    if is_of_tests(file) and (finding.severity or severity) is Severity.ERROR:
+    if (is_of_tests(file) or is_retired(file)) and (finding.severity or severity) is Severity.ERROR:
         return replace(finding, severity=Severity.WARNING)
     return finding
 

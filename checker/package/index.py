@@ -154,6 +154,14 @@ def is_of_tests(path: str) -> bool:
     return not {"test", "tests"}.isdisjoint(path.split("/")[:-1])
 
 
+_RETIRED = {"old", "past", "backup", "archive", "archived", "deprecated", "unused", "obsolete"}
+
+
+def is_retired(path: str) -> bool:
+    """Return whether a path is in a folder whose name says that its files are not used any more."""
+    return not _RETIRED.isdisjoint(path.lower().split("/")[:-1])
+
+
 def normal_path(path: str) -> str | None:
     """Return a relative path without `.` and inner `..`, or None if it is absolute or empty.
 

@@ -19,7 +19,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.ros.topics import comparable
 
-_PARAMETER = re.compile(r"\{(\w+)(?::(\w+))?\}")
+_PARAMETER = re.compile(r"\{([\w/]+)(?::(\w+))?\}")
 _CHOICES = 30
 """Topics that one line of the table may represent: a plugin may name many joints."""
 

@@ -166,3 +166,16 @@ def test_a_converted_description_has_warnings(
 
     (found,) = (found for report in reports for found in report.findings if found.rule == "SDF005")
     assert found.severity is severity
+
+
+@pytest.mark.parametrize(("folder", "severity"), [("", Severity.ERROR), ("old/", Severity.WARNING)])
+def test_what_is_in_a_folder_of_old_files_has_warnings(
+    folder: str, severity: Severity, tmp_path: Path
+) -> None:
+    _check(tmp_path, _link(_GOOD))
+    path = tmp_path / NAME / f"launch/{folder}drive.launch.py"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("def generate_launch_description():\n    return LaunchDescription([])\n")
+    settings = Settings(select=("LCH011",), trial=False)
+    (found,) = check_package(tmp_path / NAME, settings).packages[0].findings
+    assert found.severity is severity
