@@ -163,6 +163,7 @@ def _follow(joint: str, state: str = "position") -> object:
 
 
 _FORWARD = "forward_command_controller/ForwardCommandController"
+_GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 _IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
 GOOD = [
     _follow("shoulder"),
@@ -179,5 +180,6 @@ BAD = [
         "    command_interfaces: [position]\n    state_interfaces: [position, velocity]"
     ),
     _arm("interface_name: velocity\n    joints: [shoulder]  # ^ R2C009", _FORWARD),
+    _arm("max_effort_interface: shoulder/effort  # ^ R2C009", _GRIPPER),
     _arm("sensor_name: imu_sensor  # ^ R2C009\n    frame_id: base_link", _IMU),
 ]

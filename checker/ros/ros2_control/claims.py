@@ -25,6 +25,8 @@ _GRIPPERS: Mapping[str, str] = {
     "effort_controllers": "effort",
     "parallel_gripper_action_controller": "position",
 }
+_OF_INTERFACES = ("max_effort_interface", "max_velocity_interface")
+"""Parameters of a gripper that name command interfaces in full: `finger/effort`."""
 _STEERING = ("AckermannSteering", "BicycleSteering", "TricycleSteering")
 _WHEELS = ("left_wheel_names", "right_wheel_names", "wheel_names")
 _CORNER = "_wheel_command_joint_name"
@@ -62,6 +64,10 @@ def claims_of(controller: Controller) -> Iterator[Claim]:
         for joint in controller.parameters[parameter].texts:
             if "/" not in joint.value and joint.value:
                 yield Claim(joint, commands, states)
+    for interface in (it for name in _OF_INTERFACES for it in controller.texts(name)):
+        joint_name, _, command = interface.value.rpartition("/")
+        if known is not None and joint_name and command:
+            yield Claim(Located(joint_name, interface.span), (command,))
 
 
 def sensors_of(controller: Controller) -> Iterator[Located[str]]:
