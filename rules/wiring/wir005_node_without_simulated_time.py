@@ -8,13 +8,15 @@ only.
 It is reported for nodes of localisation, mapping and navigation where all parameters of the node
 were read, and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another
 such node or a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away
-from the other's.
+from the other's. So it is where the argument `use_sim_time` of a launch file, false by default, is
+given to one of them and not to another, if a launch file of the workspace starts Gazebo.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
 
 from checker.launch.ros2.graph import NodeKind
+from checker.package.package import Package
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
@@ -30,7 +32,7 @@ _PACKAGES = (
 
 
 @rule("WIR005", "node-without-simulated-time", Severity.WARNING, Concern.INTERFACE)
-def check(wiring: Wiring) -> Findings:
+def check(wiring: Wiring, package: Package) -> Findings:
     """Report nodes that do not take their time from Gazebo, though it is there."""
     nodes = (it for it in wiring.nodes if it.node.kind is not NodeKind.INCLUDED)
     timed = [it for it in nodes if it.knows_parameters and _compares_time(it)]
@@ -39,22 +41,34 @@ def check(wiring: Wiring) -> Findings:
     if not _has_clock(wiring):
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
         reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
-    for node in timed if reason else ():
+    given = [node for node in timed if _is_given(node)]
+    if given and not simulated and not reason and package.workspace.may_start_gazebo:
+        reason = f"use_sim_time:=true reaches {given[0].label} and not this node"
+    for node in (it for it in timed if reason and it not in given):
         setting = node.settings.get(_PARAMETER)
         is_affected = node.node.package.value != STATE_PUBLISHER
         if is_affected and _text(node) == "false":
+            expected = "true" if simulated or not given else "the value of the argument"
             stated = "no use_sim_time" if setting is None else "use_sim_time: false"
             yield finding(
                 node.node.span if setting is None else setting.span,
-                f"{node.label} has {stated}, expected true: {reason}",
+                f"{node.label} has {stated}, expected {expected}: {reason}",
                 key=node.full_name,
-                related=[(it.settings[_PARAMETER].span, it.label) for it in simulated[:1]],
+                related=[
+                    (it.settings[_PARAMETER].span, it.label) for it in (simulated or given)[:1]
+                ],
             )
 
 
 def _compares_time(node: WiredNode) -> bool:
     """Return whether a node compares its time with that of messages, or stamps transforms."""
     return node.node.package.value in (*_PACKAGES, STATE_PUBLISHER)
+
+
+def _is_given(node: WiredNode) -> bool:
+    """Return whether an argument of the launch file gives a node its value, false by default."""
+    parameter = node.node.parameter(_PARAMETER)
+    return parameter is not None and parameter.substituted and _text(node) == "false"
 
 
 def _text(node: WiredNode) -> str | None:
@@ -97,6 +111,7 @@ def _filter(
 
 
 _PAIR = """<launch>
+  <arg name="sim" default="false"/>
   <node pkg="robot_state_publisher" exec="robot_state_publisher">
     <param name="robot_description" value="" type="str"/>
     <param name="use_sim_time" value="@"/>
@@ -110,6 +125,9 @@ def _pair(simulated: str, mark: str = "") -> dict[str, object]:
     """Return a launch file without Gazebo: of the state and a filter."""
     launch = _PAIR.replace("@", simulated).replace("%", mark)
     return {"@bridge": True, "launch/rover.launch.py": None, "launch/state.launch.xml": launch}
+
+
+_BESIDE = '<launch><include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/></launch>'
 
 
 _CONTAINER = """LaunchDescription([
@@ -131,6 +149,7 @@ def _component(simulated: str, mark: str = "") -> dict[str, object]:
 GOOD = [
     _component("True"),
     _pair("false"),
+    _pair("$(var sim)"),
     _filter("ekf_filter_node"),
     _filter("/**"),
     _filter("other", ', {"use_sim_time": True}'),
@@ -147,6 +166,7 @@ BAD = [
         },
     },
     _pair("true", "  <!-- ^ WIR005 -->"),
+    {**_pair("$(var sim)", "  <!-- ^ WIR005 -->"), "launch/gazebo.launch.xml": _BESIDE},
     _filter("other", mark=_MARK),
     _filter("ekf_filter_node", ', {"use_sim_time": False}]),  # ^ WIR005\n#'),
 ]

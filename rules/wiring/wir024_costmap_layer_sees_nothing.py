@@ -3,7 +3,8 @@
 An obstacle or voxel layer marks what the sources in `observation_sources` see. Without that
 parameter it subscribes to nothing, says so nowhere, and the robot drives into what its map does not
 have. A source in the list without a block of its name has the defaults: a LaserScan, of which
-nothing is marked above `max_obstacle_height`, which is 0. A voxel layer holds 16 voxels in each
+nothing is marked above `max_obstacle_height`, which is 0. So is it in a block that does not state
+it. A voxel layer holds 16 voxels in each
 column; above them nothing is marked, whatever `z_voxels` says.
 
 Layers of Nav2 that `plugins` lists are judged, by all parameter files of the package; for ROS 1
@@ -26,6 +27,7 @@ from checker.source.text import Located, SourceText
 from checker.source.yaml import YamlNode, read_root
 
 _SOURCES = "observation_sources"
+_HIGHEST = "max_obstacle_height"
 _MOST_VOXELS = 16
 _OF_ROS_1 = ("costmap_2d::ObstacleLayer", "costmap_2d::VoxelLayer")
 
@@ -77,6 +79,13 @@ def _sources(
                 f"{near.hint(word)}",
                 key=f"{name} {word}",
             )
+        elif costmap.may_mark(f"{name}.{word}") and f"{name}.{word}.{_HIGHEST}" not in given:
+            yield finding(
+                text,
+                f"source {word!r} of {name} has no {_HIGHEST}, which is 0 by default, so nothing "
+                f"above 0 m is marked: write `{_HIGHEST}: 2.0` below {word}",
+                key=f"{name} {word}",
+            )
 
 
 def _voxels(costmap: CostmapBlock, layer: str) -> Iterator[Finding]:
@@ -91,11 +100,11 @@ def _voxels(costmap: CostmapBlock, layer: str) -> Iterator[Finding]:
         it.number.value
         for name, it in costmap.block.parameters.items()
         if name.startswith(f"{layer}.")
-        and name.endswith(".max_obstacle_height")
+        and name.endswith(f".{_HIGHEST}")
         and it.number
         and name.count(".") == 2
     ]
-    highest = min(costmap.number(f"{layer}.max_obstacle_height", 2.0), max(seen, default=math.inf))
+    highest = min(costmap.number(f"{layer}.{_HIGHEST}", 2.0), max(seen, default=math.inf))
     top = bottom + _MOST_VOXELS * size
     if top < min(highest, bottom + number.value * size):
         yield finding(
@@ -176,10 +185,12 @@ def _ros_1(sources: str, mark: str = "") -> dict[str, object]:
 
 
 _LISTED = "        observation_sources: scan"
-_SCAN = "\n        scan: {topic: /scan, data_type: LaserScan}"
+_WITHOUT = "\n        scan: {topic: /scan, data_type: LaserScan}"
+_SCAN = _WITHOUT.replace("}", ", max_obstacle_height: 2.0}")
 _MARK = "  # ^ WIR024"
 GOOD = [
     _costmap(_LISTED + _SCAN),
+    _costmap(_LISTED + _WITHOUT.replace("}", ", marking: false}")),
     _costmap("        enabled: false"),
     _costmap(f"{_LISTED}{_SCAN}\n        z_voxels: 16"),
     _costmap(f"{_LISTED}{_SCAN}\n        z_voxels: 20\n        max_obstacle_height: 1.5"),
@@ -189,6 +200,7 @@ GOOD = [
 ]
 BAD = [
     _costmap("", _MARK),
+    _costmap(_LISTED + _MARK + _WITHOUT),
     _costmap(_SCAN[1:], _MARK),
     _costmap(f"{_LISTED}{_MARK}", "", _SCAN.replace("scan:", "laser:")),
     _costmap(f"        z_voxels: 40{_MARK}\n        z_resolution: 0.05\n", "", _LISTED + _SCAN),

@@ -50,6 +50,11 @@ class CostmapBlock(Record, eq=False):
         plugin = self.get(f"{layer}.plugin")
         return plugin.texts[0].value if plugin is not None and plugin.texts else ""
 
+    def may_mark(self, source: str) -> bool:
+        """Return whether a source, `layer.source`, is not for clearing alone."""
+        marking = self.get(f"{source}.marking")
+        return marking is None or marking.node.scalar is not False
+
     def observes(self, layer: str) -> bool:
         """Return whether a layer is one of Nav2's own that mark what sensors see."""
         return self.plugin(layer) in (OBSTACLE_LAYER, VOXEL_LAYER)
