@@ -41,14 +41,15 @@ def check(wiring: Wiring, package: Package) -> Findings:
     if not _has_clock(wiring):
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
         reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
-    given = [node for node in timed if _is_given(node)]
+    given, expected = [node for node in timed if _is_given(node)], "true"
     if given and not simulated and not reason and package.workspace.may_start_gazebo:
         reason = f"use_sim_time:=true reaches {given[0].label} and not this node"
-    for node in (it for it in timed if reason and it not in given):
+        expected = "the value of the argument"
+        timed = [node for node in timed if node not in given]
+    for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
         is_affected = node.node.package.value != STATE_PUBLISHER
         if is_affected and _text(node) == "false":
-            expected = "true" if simulated or not given else "the value of the argument"
             stated = "no use_sim_time" if setting is None else "use_sim_time: false"
             yield finding(
                 node.node.span if setting is None else setting.span,
