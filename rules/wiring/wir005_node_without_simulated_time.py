@@ -9,13 +9,14 @@ It is reported for nodes of localisation, mapping and navigation where all param
 were read, and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another
 such node or a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away
 from the other's. So it is where the argument `use_sim_time` of a launch file, false by default, is
-given to one of them and not to another, if a launch file of the workspace starts Gazebo.
+given to one of them and not to another, if a README starts launch files with `use_sim_time:=true`.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
 
 from checker.launch.ros2.graph import NodeKind
+from checker.package.files_above import README, files_around
 from checker.package.package import Package
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
@@ -23,6 +24,7 @@ from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _PARAMETER = "use_sim_time"
+_COMMAND = "use_sim_time:=true"
 _CLOCK = "rosgraph_msgs/msg/Clock"
 _PACKAGES = (
     *("robot_localization", "slam_toolbox", "nav2_amcl", "nav2_controller", "nav2_planner"),
@@ -42,7 +44,7 @@ def check(wiring: Wiring, package: Package) -> Findings:
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
         reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
     given, expected = [node for node in timed if _is_given(node)], "true"
-    if given and not simulated and not reason and package.workspace.may_start_gazebo:
+    if given and not simulated and not reason and _is_started_with_it(package):
         reason = f"use_sim_time:=true reaches {given[0].label} and not this node"
         expected = "the value of the argument"
         timed = [node for node in timed if node not in given]
@@ -64,6 +66,11 @@ def check(wiring: Wiring, package: Package) -> Findings:
 def _compares_time(node: WiredNode) -> bool:
     """Return whether a node compares its time with that of messages, or stamps transforms."""
     return node.node.package.value in (*_PACKAGES, STATE_PUBLISHER)
+
+
+def _is_started_with_it(package: Package) -> bool:
+    """Return whether a README of the package, or above it, gives the argument the value true."""
+    return any(_COMMAND in source.text.lower() for source in files_around(package, README))
 
 
 def _is_given(node: WiredNode) -> bool:
@@ -128,7 +135,7 @@ def _pair(simulated: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/rover.launch.py": None, "launch/state.launch.xml": launch}
 
 
-_BESIDE = '<launch><include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/></launch>'
+_README = "ros2 launch acme_rover_bringup state.launch.xml sim:=true use_sim_time:=true\n"
 
 
 _CONTAINER = """LaunchDescription([
@@ -167,7 +174,7 @@ BAD = [
         },
     },
     _pair("true", "  <!-- ^ WIR005 -->"),
-    {**_pair("$(var sim)", "  <!-- ^ WIR005 -->"), "launch/gazebo.launch.xml": _BESIDE},
+    {**_pair("$(var sim)", "  <!-- ^ WIR005 -->"), "README.md": _README},
     _filter("other", mark=_MARK),
     _filter("ekf_filter_node", ', {"use_sim_time": False}]),  # ^ WIR005\n#'),
 ]
