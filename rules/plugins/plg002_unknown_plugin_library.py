@@ -4,7 +4,8 @@ Gazebo cannot load it: it prints one line and continues without the drive, the s
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
 package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
 libraries: there it is an info, unless the name is one of Gazebo's own. It is a warning if the
-library is of a known package, on which package.xml does not depend, and an error if the ROS 2
+library is of a known package, on which package.xml does not depend (PKG007 reports it where the
+robot's <ros2_control> tags name that package, too), and an error if the ROS 2
 distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
 Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs. In a description that
 launch files load and never spawn into Gazebo it weighs less.
@@ -20,6 +21,7 @@ from msgspec.structs import replace
 
 from checker.base.resources import table
 from checker.base.words import Suggestions
+from checker.launch.ros2.package_launch import built_by_ament
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
     classic_plugin,
@@ -33,6 +35,7 @@ from checker.model.plugin_library import (
 )
 from checker.package.dependencies import AvailablePackages, available_packages
 from checker.package.package import Package
+from checker.ros.ros2_control.plugin_packages import plugin_uses
 from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -85,7 +88,8 @@ def _found(host: PluginHost, package: Package, context: Context) -> Findings:
             )
             continue
         successor = _successor(stem, package, context)
-        if not (context.is_subt or successor) and _may_be_lent(stem, package, lenders):
+        is_lent = _may_be_lent(stem, package, lenders) or _is_undeclared(stem, package)
+        if not (context.is_subt or successor) and is_lent:
             continue
         yield finding(
             plugin.filename,
@@ -103,6 +107,14 @@ def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> boo
     is_silent = bool(package.only) or not package.exists("package.xml")
     return package_of_library(stem) in lenders.missing or (
         is_silent and bool(package_of_library(stem))
+    )
+
+
+def _is_undeclared(stem: str, package: Package) -> bool:
+    """Return whether PKG007 looks for the package of a library: its hardware is used, too."""
+    lender = package_of_library(stem)
+    return built_by_ament(package) and any(
+        use.package_name == lender for use in plugin_uses(package)
     )
 
 
@@ -167,7 +179,26 @@ def _ignition(mark: str = "") -> dict[str, str]:
     return {"@profile": "ros2", "@urdf": f"<gazebo>{plugin}</gazebo>", "package.xml": _MANIFEST}
 
 
+_SYSTEM = """<gazebo><plugin filename="gz_ros2_control-system" name="p"/></gazebo>{}
+{}"""
+_HARDWARE = """<ros2_control name="arm" type="system">
+  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+</ros2_control>"""
+
+
+def _undeclared(hardware: str, mark: str = "") -> dict[str, object]:
+    return {
+        "@ros2": True,
+        "@profile": "ros2",
+        "urdf/arm.urdf": f'<robot name="arm"><link name="base"/>{_SYSTEM.format(mark, hardware)}'
+        "</robot>",
+        "package.xml": "<package format='3'><name>acme_arm_bringup</name><export>"
+        "<build_type>ament_cmake</build_type></export></package>",
+    }
+
+
 GOOD = [
+    _undeclared(_HARDWARE),
     '<plugin filename="ignition-gazebo-diff-drive-system" name="drive"/>',
     '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>',
     {
@@ -200,4 +231,5 @@ BAD = [
     _classic("libgazebo_ros_dif_drive.so", "  <!-- ^ PLG002 -->"),
     _classic("gz-sim-diff-drive-system", "  <!-- ^ PLG002 -->"),
     _ignition("  <!-- ^ PLG002 -->"),
+    _undeclared("", "  <!-- ^ PLG002 -->"),
 ]
