@@ -18,8 +18,9 @@ every file that it uses of it, the name is taken as the former name of this pack
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
 those that the build uses, too; write the package's own name instead of its former one.
 Source: REP 149, exec_depend; rosdep installs what package.xml names; package.xml of ros_gz,
-navigation2, nav2_bringup, ros2_control, ros2_controllers, gazebo_ros_pkgs and moveit; in model
-reviews, authors added the dependency on configuration 1.
+navigation2, nav2_bringup, ros2_control, ros2_controllers, gazebo_ros_pkgs, moveit, rtabmap_ros,
+turtlebot3 and its simulations, and of the variants of ROS (ros_core, ros_base, desktop, perception)
+for Humble to Rolling; in model reviews, authors added the dependency on configuration 1.
 """
 
 import re
@@ -59,12 +60,29 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
+_ROS_CORE = (
+    r"(?:actionlib|diagnostic|geometry|nav|sensor|shape|std|stereo|trajectory|visualization)_msgs"
+    r"|std_srvs|rclcpp(?:_action|_lifecycle)?|rclpy|launch(?:_ros|_xml|_yaml)?|ros2launch|pluginlib"
+)
+_ROS_BASE = (
+    rf"{_ROS_CORE}|tf2(?:_eigen|_geometry_msgs|_kdl|_msgs|_py|_ros|_sensor_msgs|_tools)?|urdf"
+    "|kdl_parser|robot_state_publisher"
+)
 _PACKAGES_OF_PACKAGES = {
+    "ros_core": _ROS_CORE,
+    "ros_base": _ROS_BASE,
+    "desktop": rf"{_ROS_BASE}|joy|rviz2|rviz_default_plugins|teleop_twist_(?:joy|keyboard)"
+    "|depthimage_to_laserscan|pcl_conversions|angles",
+    "perception": rf"{_ROS_BASE}|laser_filters|laser_geometry|cv_bridge|image_geometry",
+    "rtabmap_ros": "rtabmap_(?:conversions|demos|examples|launch|msgs|odom|python|rviz_plugins"
+    "|slam|sync|util|viz)",
+    "turtlebot3": "turtlebot3_(?:bringup|cartographer|description|example|navigation2|node|teleop)",
+    "turtlebot3_simulations": "turtlebot3_(?:fake_node|gazebo)",
     "ros_gz": "ros_gz_.*",
     "ros_ign": "ros_ign_.*",
     "gazebo_ros_pkgs": "gazebo_.*",
-    "navigation2": "nav2_.*",
-    "nav2_bringup": "nav2_.*|slam_toolbox",
+    "navigation2": "nav2_(?!bringup|minimal|loopback).*",
+    "nav2_bringup": "nav2_.*|slam_toolbox|navigation2|launch_ros",
     "ros2_control": "controller_manager|hardware_interface|joint_limits|ros2controlcli",
     "ros2_controllers": ".*_controllers?|.*_broadcaster",
     "moveit": "moveit_.*",
@@ -350,6 +368,10 @@ def _arm(*names: str, mark: str = "") -> str:
 _BRIDGE = """        Node(package='ros_gz_bridge', executable='parameter_bridge'),
         IncludeLaunchDescription(PathJoinSubstitution([
             FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py'])),"""
+_TELEOP = "        Node(package='teleop_twist_keyboard', executable='teleop_twist_keyboard'),"
+_MAPPING = "        Node(package='rtabmap_slam', executable='rtabmap'),"
+_NAVIGATION = """        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('nav2_bringup'), 'launch', 'navigation_launch.py'])),"""
 _COMMANDED = """        ExecuteProcess(
             cmd=['ros2', 'launch', 'slam_toolbox', 'online_async_launch.py']),"""
 _HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
@@ -379,6 +401,8 @@ install(DIRECTORY launch DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """
 GOOD = [
+    {"@ros2": _TELEOP, "package.xml": _arm("desktop")},
+    {"@ros2": _MAPPING, "package.xml": _arm("rtabmap_ros")},
     {"@ros2": _COMMANDED, "package.xml": _arm("slam_toolbox")},
     {
         "@ros2": _BRIDGE,
@@ -417,6 +441,8 @@ GOOD = [
     {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
 ]
 BAD = [
+    {"@ros2": _NAVIGATION, "package.xml": _arm("navigation2", mark="  <!-- ^ PKG007 -->")},
+    {"@ros2": _TELEOP, "package.xml": _arm("ros_base", mark="  <!-- ^ PKG007 -->")},
     {"@ros2": _COMMANDED, "package.xml": _arm("ros_gz_sim", mark="  <!-- ^ PKG007 -->")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", mark="  <!-- ^ PKG007 -->")},
     {

@@ -3,7 +3,8 @@
 `rosdep install` ends with "Cannot locate rosdep definition", so that users who clone the package
 cannot build it. A misspelt name is a warning, and so is one that another package has replaced in
 the distribution that the package names, and one that never was a package: `ros2_control_node` is a
-program of controller_manager, and `ament_python` a build type. Other names are infos: the package
+program of controller_manager, `ament_python` a build type, and `opencv-python` a name of pip, for
+which rosdep has `python3-opencv`. Other names are infos: the package
 may be built from source that is not available here, for example if only an older distribution has
 released it. Dependencies with a `condition` are skipped.
 
@@ -143,5 +144,7 @@ BAD = [
     _package(f"<exec_depend>ros2_control_node</exec_depend>{_MARK}"),
     _package(f"<buildtool_depend>ament_python</buildtool_depend>{_MARK}"),
     _package(f"<depend>OpenCV</depend>{_MARK}"),
+    _package(f"<exec_depend>pyserial</exec_depend>{_MARK}"),
+    _package(f"<exec_depend>numpy</exec_depend>{_MARK}"),
     _package(f"<exec_depend>acme_drivers</exec_depend>{_MARK}\n<depend>acme_tools</depend>"),
 ]
