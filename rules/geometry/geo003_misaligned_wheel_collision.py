@@ -4,7 +4,8 @@ The wheel tumbles like a coin instead of rolling. A cylinder's axis is its own z
 turns it, and that pose is missing or turns it about the wrong axis. No accepted package that we
 checked has this fault.
 
-A URDF joint without `<axis>` turns about its x axis.
+A URDF joint without `<axis>` turns about its x axis. Of a wheel that has no collision at all, the
+one visual cylinder is compared, with a warning: the wheel is drawn across its axle.
 
 Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`, in URDF with an
 `<origin rpy="1.5707963267948966 0 0"/>`; or give the joint the `<axis>` that it lacks.
@@ -17,10 +18,10 @@ import math
 from checker.finding import Fix
 from checker.formats.corrections import along_z, reposed, rewrite
 from checker.formats.xacro.expanded import written_element
-from checker.model.geometry.placed_shapes import Placed
+from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.locomotion import Wheel
-from checker.model.locomotion.wheels import misalignment, tread
+from checker.model.locomotion.wheels import angle_to_axle, tread
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import append_to
@@ -43,9 +44,11 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     moved = robot.locomotion
     judged = [(wheel, Severity.ERROR) for wheel in moved.wheels]
     judged += [(wheel, Severity.WARNING) for wheel in moved.undriven]
-    for wheel, severity in judged:
-        angle = misalignment(robot, wheel)
-        rolls = tread(robot, wheel)
+    for wheel, most in judged:
+        touching = tread(robot, wheel)
+        rolls = touching or _drawn(robot, wheel)
+        severity = most if touching is not None else Severity.WARNING
+        angle = angle_to_axle(wheel, rolls) if rolls is not None else None
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
             continue
         if robot.conventions.has_default_axis and not wheel.joint.axes[0].xyz[0].stated:
@@ -60,6 +63,19 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             related=[(wheel.joint, "the joint")],
             fix=_aligned(robot, wheel, rolls),
         )
+
+
+def _drawn(robot: Robot, wheel: Wheel) -> Placed | None:
+    """Return the disc that is all there is of a wheel without collisions; else None."""
+    visuals = [visual for link in wheel.body for visual in link.visuals]
+    if len(visuals) != 1 or any(link.collisions for link in wheel.body):
+        return None
+    shape = visuals[0].geometry
+    radius, length = ([it.value for it in shape.sizes.get(n, ())] for n in ("radius", "length"))
+    if shape.shape != "cylinder" or not radius or not length or length[0] >= 2 * radius[0]:
+        return None
+    placed = (it for link in wheel.body for it in place_shapes(robot, link, link.visuals))
+    return next(placed, None)
 
 
 def _aligned(robot: Robot, wheel: Wheel, rolls: Placed) -> Fix | None:
@@ -135,13 +151,14 @@ def _urdf(
     kind: str = "continuous",
     axis: str = '<axis xyz="0 1 0"/>',
     mark: str = "",
+    part: str = "collision",
 ) -> dict[str, str]:
     wheel = f"""
 <link name="left_wheel">
-  <collision>
+  <{part}>
     {origin}
     <geometry><cylinder radius="0.1" length="0.05"/></geometry>
-  </collision>
+  </{part}>
 </link>
 <joint name="left_axle" type="{kind}">{mark}
   <origin xyz="0 0.3 0"/>
@@ -169,6 +186,7 @@ GOOD = [
     _wheel("<collision name='c'><geometry><sphere/></geometry></collision>"),
     _urdf(_LYING),
     _urdf(_LYING, _CLASSIC),
+    _urdf(_LYING, part="visual"),
     # URDF's default axis is x.
     _urdf('<origin rpy="0 1.5707963267948966 0"/>', axis=""),
     # No wheel that rolls.
@@ -181,4 +199,5 @@ BAD = [
     _urdf("<origin/>  <!-- ^ GEO003 -->"),
     _urdf(_LYING, axis="", mark="  <!-- ^ GEO003 -->"),
     _urdf('<origin rpy="1.5 0 0"/>  <!-- ^ GEO003 -->', _CLASSIC),
+    _urdf(f"{_LYING}  <!-- ^ GEO003 -->", axis='<axis xyz="1 0 0"/>', part="visual"),
 ]

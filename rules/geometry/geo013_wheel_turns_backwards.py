@@ -3,7 +3,8 @@
 A joint turns about its axis by the right-hand rule: wheels roll forward, to +x, if their axes point
 to the left, to +y. With one axis reversed, the wheels work against each other. With all axes
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
-way. No accepted package that we checked has this fault.
+way: where all are swapped and roll forward, no axis is wrong. No accepted package that we checked
+has this fault.
 
 Wheels that are called left and right and that no plugin or controller lists are compared with their
 places: what drives them relies on their names.
@@ -20,6 +21,7 @@ sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 import re
 from collections.abc import Iterator, Sequence
 
+from checker.base.words import and_list
 from checker.finding import Fix
 from checker.formats.corrections import is_shared, rewrite
 from checker.model.components import Joint
@@ -27,7 +29,17 @@ from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.locomotion.undriven import undriven_wheels
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    rename,
+    rule,
+    unchecked,
+)
 
 _LEFT: Vector = (0.0, 1.0, 0.0)
 _UP: Vector = (0.0, 0.0, 1.0)
@@ -58,6 +70,12 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         swapped = [*_swapped_sides(drive, left, least_share)]
         if turned and len(turned) == len(swapped) == len(drive.wheels):
             yield _faces_backwards(drive)
+        elif (
+            swapped
+            and len(swapped) == len(drive.wheels)
+            and _rolls_forward(drive, left, least_cosine)
+        ):
+            yield _swapped(drive)
         else:
             yield from (*turned, *swapped)
         yield from _on_both_sides(drive)
@@ -142,6 +160,40 @@ def _faces_backwards(drive: WheelDrive) -> Finding:
         "its wheels are on the other side than it lists: swap left and right, and turn the axes",
         key=f"{drive.path} backwards",
         related=[(wheel.joint, "this joint") for wheel in drive.wheels],
+    )
+
+
+def _rolls_forward(drive: WheelDrive, left: Vector, least_cosine: float) -> bool:
+    """Return whether all axes point to the left, so that only the names are in the wrong places.
+
+    Where `<legacyMode>` swaps them, that tag may be what is missing.
+    """
+    axes = [wheel.axis for wheel in drive.wheels]
+    return not drive.swaps and all(axis and _dot(axis, left) >= least_cosine for axis in axes)
+
+
+def _swapped(drive: WheelDrive) -> Finding:
+    """Report a drive whose wheels are all on the other side than it lists."""
+    sides = {side: [w.name for w in drive.wheels if w.side is side] for side in Side}
+    pairs = zip(sides[Side.LEFT], sides[Side.RIGHT], strict=False)
+    fixes = [
+        rename(here, there.value)
+        for left, right in pairs
+        for here, there in ((left, right), (right, left))
+    ]
+    edits = [edit for fix in fixes if fix is not None for edit in fix.edits]
+    left, right = (and_list([name.value for name in sides[side]]) for side in Side)
+    first, *others = drive.wheels
+    return finding(
+        first.name,
+        f"{drive.plugin.label} lists {left} as left and {right} as right, but each is on the other "
+        "side, and the robot turns the wrong way: swap the left and the right joints",
+        key=f"{drive.path} swapped",
+        related=[
+            *((wheel.name, "and this") for wheel in others),
+            *((wheel.joint, "the joint") for wheel in drive.wheels),
+        ],
+        fix=Fix(Safety.UNSAFE, tuple(edits)) if len(edits) == len(drive.wheels) else None,
     )
 
 
@@ -343,9 +395,9 @@ _MODERN = "<legacyMode>false</legacyMode>"
 _Y, _BACK = '0 1 0"/>', '0 -1 0"/>'
 
 
-def _marked(drive: str) -> str:
-    """Mark the lines of a plugin that name joints."""
-    return drive.replace("oint>\n", f"oint>{_MARK}\n")
+def _marked(drive: str, lines: int = 2) -> str:
+    """Mark the first lines of a plugin that name joints."""
+    return drive.replace("oint>\n", f"oint>{_MARK}\n", lines)
 
 
 _END = "</xyz>"
@@ -373,7 +425,7 @@ BAD = [
         _LEFTWARD,
         _LEFTWARD,
         f"""<left_joint>right_axle</left_joint>{_MARK}
-  <right_joint>left_axle</right_joint>{_MARK}""",
+  <right_joint>left_axle</right_joint>""",
     ),
     _rover(
         _LEFTWARD,
@@ -381,7 +433,7 @@ BAD = [
         f"""<left_joint>left_axle</left_joint>
   <right_joint>left_axle</right_joint>{_MARK}""",
     ),
-    _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN))),
+    _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN), 1)),
     _urdf(_Y, _Y, _marked(_classic(_DIFF, _STRAIGHT))),
     _urdf(
         _BACK,

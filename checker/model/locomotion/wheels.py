@@ -43,7 +43,15 @@ def misalignment(robot: Robot, wheel: Wheel) -> float | None:
     None if one of them has no axis: a sphere or box, a joint whose axis is not known.
     """
     rolls = tread(robot, wheel)
-    if rolls is None or wheel.axis is None or rolls.shape.geometry.shape not in _ROUND:
+    return angle_to_axle(wheel, rolls) if rolls is not None else None
+
+
+def angle_to_axle(wheel: Wheel, rolls: Placed) -> float | None:
+    """Return the angle between the axis of a shape and that of a wheel's joint, 0…π/2 rad.
+
+    None if one of them has no axis.
+    """
+    if wheel.axis is None or rolls.shape.geometry.shape not in _ROUND:
         return None
     along = rolls.pose.rotate((0.0, 0.0, 1.0))
     cosine = abs(sum(a * b for a, b in zip(along, wheel.axis, strict=True)))
