@@ -96,6 +96,33 @@ CONTROLLED = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 </robot>
 """
 CHOSEN = {"@urdf": True, "urdf/arm.urdf": None, "urdf/arm.urdf.xacro": CONTROLLED}
+MESH_WHEEL = """<robot name="rover"><link name="base_link"/>
+<link name="left_wheel"><collision><geometry>{}</geometry></collision></link>
+<link name="right_wheel"><collision><geometry>
+  <mesh filename="package://acme_rover_bringup/meshes/wheel.stl"/>
+</geometry></collision></link>
+<joint name="left" type="continuous"><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+  <parent link="base_link"/><child link="left_wheel"/></joint>
+<joint name="right" type="continuous"><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+  <parent link="base_link"/><child link="right_wheel"/></joint>
+</robot>
+"""
+OFF_PATH = '<mesh filename="package://acme_rover_bringup/meshes/wheel.stl"/>'
+ROLLING = {"@bridge": True, "urdf/rover.urdf": MESH_WHEEL.format(OFF_PATH)}
+ON_A_BALL = {"@bridge": True, "urdf/rover.urdf": MESH_WHEEL.format('<sphere radius="0.1"/>')}
+DRAWN_WHEEL = """<link name="wheel">
+  <visual name="v">
+    <geometry><cylinder><radius>0.1</radius><length>0.05</length></cylinder></geometry>
+  </visual>
+</link>
+<joint name="axle" type="revolute">
+  <parent>base_link</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>axle</left_joint>
+</plugin>
+"""
+TOUCHING_WHEEL = DRAWN_WHEEL.replace("visual", "collision")
 FORMER = {"@ros2": "        Node(package='p', node_executable='e'),"}
 LEFT = {
     "package.xml": """<package format="3">
@@ -170,6 +197,10 @@ CASES: list[tuple[str, Example, str]] = [
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
+    ("GEO003", DRAWN_WHEEL, "warning"),
+    ("GEO003", TOUCHING_WHEEL, "error"),
+    ("LCH012", ROLLING, "error"),
+    ("LCH012", ON_A_BALL, "warning"),
     ("LCH004", FORMER, "error"),
     ("LCH004", {**FORMER, "README.md": "A rover with ROS 2 Foxy\n"}, "warning"),
     ("LCH004", {**FORMER, "README.md": "A rover with ROS 2 Humble\n"}, "error"),

@@ -3,7 +3,8 @@
 RViz finds `package://arm_description/meshes/link.dae` by the index of packages. Gazebo makes
 `model://arm_description/meshes/link.dae` of it and looks below the folders of its resource path:
 unless the folder above `share/arm_description` is one of them, the part is visible in RViz,
-missing in Gazebo, and a collision of that shape touches nothing.
+missing in Gazebo, and a collision of that shape touches nothing. It is an error if all wheels of
+the robot have no other collision: it does not stand on them and does not drive.
 
 It is reported of a launch file that starts Gazebo itself and was read in full, for packages that
 are available, when no environment hook, no package.xml and no launch file there puts that folder on
@@ -17,11 +18,12 @@ the package with the meshes: `gz_sim.launch.py`, and `gzserver.launch.py` of Gaz
 it, and `${prefix}` is its share folder. A hook with the line
 `prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` too.
 Source: libsdformat, parser_urdf.cc; gz-sim, resource paths; ros_gz_sim, gz_sim.launch.py; ros_gz
-issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one level too deep.
+issue 132; gz-sim issue 1959, "geometry element of collision […] couldn't be created"; ros_gz issue
+684 for a path that ends one level too deep.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from checker.finding import Fix
 from checker.formats.xacro.expanded import ExpandedText
@@ -51,7 +53,9 @@ def check(simulations: Simulations, package: Package) -> Findings:
         if path.holds_packages:
             continue
         for spawned in simulation.classic_robots or simulation.robots:
-            for name, uri in _packages(package, spawned.robot).items():
+            missing = _packages(package, spawned.robot)
+            stands = not _rolls_on(spawned.robot, missing)
+            for name, uri in missing.items():
                 deep = path.inside(name)
                 reason = (
                     f"share/{name} is on the resource path, and not the folder above it"
@@ -61,12 +65,31 @@ def check(simulations: Simulations, package: Package) -> Findings:
                 hook = _HOOK.format(_CLASSIC_PATH if classic else _PATH)
                 yield finding(
                     deep or spawned.node,
-                    f"{uri} is visible in RViz and missing in Gazebo: {reason}; expected "
+                    f"{uri} is visible in RViz and missing in Gazebo"
+                    f"{'' if stands else ', where the wheels touch nothing'}: {reason}; expected "
                     f"{_EXPORT if simulation.reads_exports else hook} {name}",
-                    severity=Severity.ERROR if classic and deep is not None else None,
+                    severity=Severity.ERROR if (classic and deep) or not stands else None,
                     key=name,
                     fix=_fix(package, name) if simulation.reads_exports else None,
                 )
+
+
+def _rolls_on(robot: Robot, packages: Container[str]) -> bool:
+    """Return whether all that the wheels of a robot touch are meshes of these packages."""
+    moved = robot.locomotion
+    wheels = [
+        [shape.geometry.uri for link in wheel.body for shape in link.collisions]
+        for wheel in (*moved.wheels, *moved.undriven)
+    ]
+    return bool(wheels) and all(
+        uris and all(uri is not None and _holder_of(uri.value) in packages for uri in uris)
+        for uris in wheels
+    )
+
+
+def _holder_of(uri: str) -> str:
+    named = _NAMED.match(uri)
+    return named[1] if named is not None else ""
 
 
 def _fix(package: Package, name: str) -> Fix | None:
@@ -104,6 +127,20 @@ _URDF = """<robot name="rover">
   </link>
 </robot>
 """
+_WHEEL = """<link name="{0}_wheel">
+  <collision><geometry>
+    <mesh filename="package://acme_rover_bringup/meshes/wheel.stl"/>
+  </geometry></collision>
+</link>
+<joint name="{0}_axle" type="continuous">
+  <origin xyz="0 {1} 0"/>
+  <parent link="base_link"/>
+  <child link="{0}_wheel"/>
+  <axis xyz="0 1 0"/>
+</joint>
+"""
+_WHEELS = _WHEEL.format("left", 0.2) + _WHEEL.format("right", -0.2)
+_ROLLING = _URDF.replace("</robot>", f"{_WHEELS}</robot>")
 _FILES = {"@bridge": True, "urdf/rover.urdf": _URDF, "meshes/base.dae": "<COLLADA/>"}
 _MANIFEST = """<package format="3">
   <name>acme_rover_bringup</name>
@@ -173,6 +210,7 @@ GOOD = [
     {**_FILES, "@launch": {"IncludeLaunchDescription(gazebo": "IncludeLaunchDescription(URDF"}},
 ]
 BAD = [
+    {**_FILES, "urdf/rover.urdf": _ROLLING, "@launch": _MARKED},
     {**_FILES, "@launch": _MARKED},
     _export_example("${prefix}", "  <!-- ^ LCH012 -->"),
     {**_hook_example(f"{_PREPEND}/@PROJECT_NAME@/models"), "@launch": _MARKED},
