@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain
 
 from checker.base.parts import NotAvailable
+from checker.base.record import Record
+from checker.base.words import count
 from checker.engine.subject import Subject
 from checker.formats.mjcf.model import MjcfModel
 from checker.formats.mjcf.models import MODELS_LIMIT, MjcfFiles
@@ -17,13 +19,28 @@ from checker.model.robot import Robot
 from checker.package.formats import robot_suffixes
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.package.released import distributions_with
 from checker.package.unchecked_models import unchecked_models
 from checker.report.report import FILES, ROBOT, Cause, NotChecked
 from checker.ros.simulation import Simulations
 
 _NO_ROBOT = "no URDF, xacro, SDF or MJCF file of it is a robot, and no launch file starts one"
 _TEMPLATE = re.compile(r"\.(?:sdf|urdf|xacro)\.(?:jinja2?|j2|em|erb)$")
+_OF_ROBOT = frozenset({"controller_manager", "robot_state_publisher"})
+"""Packages whose nodes are started for a robot alone."""
 _WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.WORLD)
+
+
+class _Reason(Record):
+    """Why a robot was not read.
+
+    Attributes:
+        text: The reason.
+        released: Whether it is in a launch file that is included from a package of ROS.
+    """
+
+    text: str
+    released: bool = False
 
 
 def unread_robots(subject: Subject) -> Iterator[NotChecked]:
@@ -42,8 +59,8 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
     if not was_read and package.kind not in _WITHOUT_ROBOT:
         yield from _without_robot(subject)
     elif not was_read:
-        for reason in _of_roslaunch_files(subject):
-            yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
+        for each in _of_roslaunch_files(subject):
+            yield NotChecked(ROBOT, each.text, Cause.NOT_AT_HAND)
 
 
 def _without_robot(subject: Subject) -> Iterator[NotChecked]:
@@ -55,13 +72,31 @@ def _without_robot(subject: Subject) -> Iterator[NotChecked]:
         _of_mujoco(subject),
     )
     reasons = list(dict.fromkeys(sources))
+    starts = _starts_robot(subject)
+    holds_none = package.kind is PackageKind.UNKNOWN and not starts
     for reason in reasons:
-        yield NotChecked(ROBOT, reason, Cause.NOT_AT_HAND)
+        cause = Cause.NOT_APPLICABLE if holds_none and reason.released else Cause.NOT_AT_HAND
+        yield NotChecked(ROBOT, reason.text, cause)
     if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
-        # Beside packages with robots, one without may hold messages, maps or code.
-        beside = any(other.kind is not PackageKind.UNKNOWN for other in package.other_packages)
-        cause = Cause.NOT_APPLICABLE if beside else Cause.NOT_AT_HAND
+        # Beside other packages, one without a robot may hold messages, maps or code.
+        others = package.other_packages
+        beside = any(other.kind is not PackageKind.UNKNOWN for other in others)
+        none_expected = beside or (others and holds_none)
+        cause = Cause.NOT_APPLICABLE if none_expected else Cause.NOT_AT_HAND
         yield NotChecked(ROBOT, _NO_ROBOT, cause)
+
+
+def _starts_robot(subject: Subject) -> bool:
+    """Return whether an own launch file may start what every robot needs, or was not read."""
+    launch, entries = subject.one(Ros2Launch), subject.one(LaunchEntries)
+    nodes: list[str] = []
+    if not isinstance(launch, NotAvailable):
+        own = (node for node in launch.nodes if not node.span.source.file.startswith("../"))
+        nodes += (node.package.value for node in own if node.starts is not False)
+        nodes += _OF_ROBOT if launch.unread else ()
+    if not isinstance(entries, NotAvailable):
+        nodes += (node.package for node in entries.graph.nodes)
+    return not _OF_ROBOT.isdisjoint(nodes)
 
 
 def _was_read(subject: Subject) -> bool:
@@ -72,44 +107,57 @@ def _was_read(subject: Subject) -> bool:
     return any(simulation.robots for simulation in launched)
 
 
-def _of_launch_files(subject: Subject) -> Iterator[str]:
+def _of_launch_files(subject: Subject) -> Iterator[_Reason]:
     launch, simulations = subject.one(Ros2Launch), subject.one(Simulations)
     graphs = () if isinstance(launch, NotAvailable) else launch.entries
-    elsewhere = [reason for graph in graphs for reason in _elsewhere(subject.package, graph)]
+    elsewhere = [*_elsewhere(subject.package, graphs)]
     yield from elsewhere
     if not elsewhere and not isinstance(simulations, NotAvailable):
         for simulation in simulations.launched:
             file = simulation.graph.file if simulation.graph is not None else ""
-            yield from (f"{file}: {reason}" for reason in simulation.unknown_robots)
+            yield from (_Reason(f"{file}: {reason}") for reason in simulation.unknown_robots)
 
 
-def _of_roslaunch_files(subject: Subject) -> Iterator[str]:
+def _of_roslaunch_files(subject: Subject) -> Iterator[_Reason]:
     """Yield what launch files of ROS 1 include from packages that are not available."""
     launch = subject.one(LaunchEntries)
     for include in () if isinstance(launch, NotAvailable) else launch.graph.unresolved_includes:
         path = SharePath(include.package, include.file)
         if include.package and (why := unavailable(subject.package, path)):
             file = include.span.source.file
-            yield f"{file} includes $(find {include.package})/{include.file}: {why}"
+            yield _Reason(
+                f"{file} includes $(find {include.package})/{include.file}: {why}",
+                bool(distributions_with(include.package)),
+            )
 
 
-def _elsewhere(package: Package, graph: LaunchGraph) -> Iterator[str]:
-    """Yield what a launch file takes from packages that are not available."""
-    for named in named_paths(graph):
-        concerns = named.needed and (named.include or named.path.path.endswith(robot_suffixes()))
-        if concerns and (why := unavailable(package, named.path)):
-            what = "includes" if named.include else "takes the robot from"
-            yield f"{graph.file} {what} {named.path}: {why}"
+def _elsewhere(package: Package, graphs: Iterable[LaunchGraph]) -> Iterator[_Reason]:
+    """Yield what launch files take from packages that are not available, each file of it once."""
+    files: dict[tuple[str, bool], dict[str, None]] = {}
+    for graph in graphs:
+        for named in named_paths(graph):
+            concerns = named.needed and (
+                named.include or named.path.path.endswith(robot_suffixes())
+            )
+            if concerns and (why := unavailable(package, named.path)):
+                what = "includes" if named.include else "takes the robot from"
+                released = named.include and bool(distributions_with(named.path.package))
+                taken = f"{what} {named.path}: {why}"
+                files.setdefault((taken, released), {})[graph.file] = None
+    for (taken, released), (first, *others) in files.items():
+        more = f" (and so with {count(len(others), 'more launch file')})" if others else ""
+        yield _Reason(f"{first} {taken}{more}", released)
 
 
-def _of_mujoco(subject: Subject) -> Iterator[str]:
+def _of_mujoco(subject: Subject) -> Iterator[_Reason]:
     """Yield why there is no model of MuJoCo although files of one are there."""
     models = subject.one(MjcfModel)
     if isinstance(models, NotAvailable) and models.applicable:
-        yield models.reason
+        yield _Reason(models.reason)
 
 
-def _of_templates(package: Package) -> Iterator[str]:
+def _of_templates(package: Package) -> Iterator[_Reason]:
     for file in package.index.files:
         if _TEMPLATE.search(file.path):
-            yield f"{file.path} is a template, which is not read: check the model that it makes"
+            reason = f"{file.path} is a template, which is not read: check the model that it makes"
+            yield _Reason(reason)

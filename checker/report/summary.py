@@ -51,12 +51,17 @@ class Sentence(Record):
         return f"{text} ({self.aside})" if self.aside else text
 
 
-def sentence(package: PackageReport) -> Sentence:
-    """Return whether a package can be accepted, and what is left to do."""
+def sentence(package: PackageReport, *, names_robots: bool = True) -> Sentence:
+    """Return whether a package can be accepted, and what is left to do.
+
+    Args:
+        package: The report of the package.
+        names_robots: Whether it says why no robot was read; a report that does, says it once.
+    """
     warnings = package.count(Severity.WARNING)
     phrases = [_errors(package)] if package.errors else []
     if package.verdict is VerdictKind.INCOMPLETE:
-        phrases.insert(0, f"{'' if phrases else 'no error, but '}{_unseen(package)}")
+        phrases.insert(0, f"{'' if phrases else 'no error, but '}{_unseen(package, names_robots)}")
     phrases += [count(warnings, "warning")] if warnings else []
     rest = ", ".join(phrases) or "nothing to fix"
     return Sentence(package.verdict.lead, rest, _aside(package))
@@ -85,13 +90,15 @@ def _owner(package: PackageReport, found: ReportedFinding) -> str:
     return package.neighbours.get(place.file, place.file.split("/")[1]) if is_foreign(place) else ""
 
 
-def _unseen(package: PackageReport) -> str:
+def _unseen(package: PackageReport, names_robots: bool) -> str:
     unseen = [spot for spot in package.blind_spots if spot.may_hide_error]
     robots = list(dict.fromkeys(spot.reason for spot in unseen if spot.rule == ROBOT))
     others = [spot for spot in unseen if spot.rule != ROBOT]
     reasons = robots or list(dict.fromkeys(it.reason for it in by_reason(others)))
     shown = plain(shortened(and_list(reasons[:3]), _REASON_LIMIT))
     blind = len({spot.rule for spot in others})
+    if robots and not names_robots:
+        return "no robot was read"
     what = "no robot was read" if robots else f"{count(blind, 'rule')} for errors could not run"
     return f"{what}: {shown}"
 

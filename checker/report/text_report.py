@@ -142,6 +142,7 @@ class TextReport:
         """
         self._settings = settings
         self._owners: dict[Identity, str] = {}
+        self._told: dict[str, str] = {}
         self._awaited = {posixpath.normpath(path) for path in awaited}
         self._waiting: list[PackageReport] = []
         self._is_first, self._after_line = True, False
@@ -175,7 +176,7 @@ class TextReport:
     def _package_text(self, package: PackageReport) -> str:
         if self._settings.concise:
             return concise_text(package, self._owners, self._settings)
-        text = _package(package, self._owners, self._settings)
+        text = _package(package, self._owners, self._settings, self._told)
         # Packages of one line follow each other without a gap.
         is_line = text.count("\n") == 1
         gap = "" if self._settings.quiet or (is_line and self._after_line) else "\n"
@@ -233,8 +234,19 @@ def _hint(report: Report, settings: RenderSettings) -> str:
 
 
 def _package(
-    package: PackageReport, owner_of: Mapping[Identity, str], settings: RenderSettings
+    package: PackageReport,
+    owner_of: Mapping[Identity, str],
+    settings: RenderSettings,
+    told: dict[str, str],
 ) -> str:
+    """Return the text of a package.
+
+    Args:
+        package: The report of the package.
+        owner_of: The package in which each finding is listed.
+        settings: How it is shown.
+        told: Why no robot was read, and the first package of which it is told; is added to.
+    """
     palette = settings.palette
     share = share_of(package, owner_of)
     own = [found for found in share.own if is_shown(found, settings)]
@@ -245,9 +257,13 @@ def _package(
     if not (share.own or share.elsewhere or settings.full or _has_more(package)):
         return verdict_text(package, palette) + "\n"
     kind = package.kind.replace("_", " ") + _profile(package)
-    head = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), *_unread_robots(package)]
+    head = [
+        palette.bold(plain(package.name)) + palette.dim(f"  {kind}"),
+        *_unread_robots(package, told),
+    ]
+    verdict = sentence(package, names_robots=False)
     if lines:
-        head.append(palette.verdict(package.verdict, str(sentence(package))))
+        head.append(palette.verdict(package.verdict, str(verdict)))
     lines[:0] = [*head, ""]
     lines += _infos(len(share.own) - len(own))
     lines += [
@@ -262,8 +278,9 @@ def _package(
     lines += _inherited(package)
     others = [unseen for unseen in package.not_checked if unseen.rule != ROBOT]
     lines += _not_checked(others, settings)
+    lines += _without_robot(package, told)
     lines += _robots(package, palette)
-    lines.append(verdict_text(package, palette))
+    lines.append(palette.verdict(package.verdict, f"{plain(package.name)}: {verdict}"))
     return "\n".join(lines) + "\n"
 
 
@@ -334,10 +351,23 @@ def _inherited(package: PackageReport) -> Iterator[str]:
         yield f"inherited from {plain(source)}: {plain(and_list(parts))}"
 
 
-def _unread_robots(package: PackageReport) -> Iterator[str]:
+def _unread_robots(package: PackageReport, told: dict[str, str]) -> Iterator[str]:
+    """Yield why no robot was read; what several packages share, of the first alone."""
     for unseen in package.blind_spots:
         if unseen.rule == ROBOT:
-            yield f"no robot was read: {plain(shortened(unseen.reason, MESSAGE_LIMIT))}"
+            first = told.setdefault(unseen.reason, package.name)
+            if first == package.name:
+                yield f"no robot was read: {plain(shortened(unseen.reason, MESSAGE_LIMIT))}"
+            else:
+                yield f"no robot was read, for the reason given at {plain(first)}"
+
+
+def _without_robot(package: PackageReport, told: dict[str, str]) -> Iterator[str]:
+    """Yield why a package that needs no robot has none, once of all packages."""
+    for unseen in package.not_checked:
+        is_robot = unseen.rule == ROBOT and unseen.cause is Cause.NOT_APPLICABLE
+        if is_robot and told.setdefault(unseen.reason, package.name) == package.name:
+            yield f"not checked: robot: {plain(shortened(unseen.reason, MESSAGE_LIMIT))}"
 
 
 def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) -> Iterator[str]:

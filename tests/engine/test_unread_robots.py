@@ -5,13 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from checker.pipeline import check_package
-from checker.report.report import ROBOT, PackageReport, VerdictKind
+from checker.report.render_settings import Palette, RenderSettings
+from checker.report.report import ROBOT, Cause, PackageReport, Report, VerdictKind
 from checker.report.summary import sentence
+from checker.report.text_report import to_text
 from checker.rule_testing import write_example
 from checker.settings import Settings
 
+MANNER = RenderSettings(Palette(enabled=False))
 BRINGUP = "acme_arm_bringup"
 ARM = "urdf/arm.urdf.xacro"
 OF_ANOTHER = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
@@ -57,6 +61,48 @@ def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
 def test_beside_a_package_with_a_robot_it_is(tmp_path: Path) -> None:
     report = checked({**WITHOUT_ROBOT, **HAND}, tmp_path)
     assert reasons(report) == []
+
+
+MESSAGES = {"../acme_msgs/package.xml": "<package format='3'><name>acme_msgs</name></package>"}
+
+
+def test_beside_other_packages_it_is_as_well(tmp_path: Path) -> None:
+    report = checked({**WITHOUT_ROBOT, **MESSAGES}, tmp_path)
+    assert reasons(report) == []
+    assert "not checked: robot: no URDF" in to_text(Report((report,), {}), MANNER)
+
+
+@pytest.mark.parametrize("starts", [False, True])
+def test_what_a_package_of_ros_starts_is_missed_where_a_robot_is_started(
+    tmp_path: Path, starts: bool
+) -> None:
+    camera = """        IncludeLaunchDescription(PythonLaunchDescriptionSource(os.path.join(
+            get_package_share_directory('depthai_descriptions'), 'launch', 'urdf_launch.py'))),"""
+    publisher = """
+        Node(package='robot_state_publisher', executable='robot_state_publisher'),"""
+    report = checked({"@ros2": camera + publisher * starts, ARM: None}, tmp_path)
+    (unseen,) = (each for each in report.not_checked if each.rule == ROBOT)
+    assert "depthai_descriptions is not available" in unseen.reason
+    assert unseen.cause is (Cause.NOT_AT_HAND if starts else Cause.NOT_APPLICABLE)
+
+
+def test_the_reason_is_told_once(tmp_path: Path) -> None:
+    example = {"@ros2": OF_ANOTHER, ARM: None}
+    report = checked(example, tmp_path)
+    again = replace(report, name="acme_other", path="acme_other")
+    text = to_text(Report((report, again), {}), MANNER)
+    assert text.count("acme_hand is not available") == 1
+    assert "no robot was read, for the reason given at acme_arm_bringup" in text
+
+
+def test_launch_files_with_one_reason_are_told_of_together(tmp_path: Path) -> None:
+    package = write_example({"@ros2": OF_ANOTHER, ARM: None}, tmp_path)
+    launch = package / "launch"
+    (launch / "arm_2.launch.py").write_text((launch / "arm.launch.py").read_text())
+    settings = Settings(profile="ros2", profile_chosen=True, trial=False)
+    (report,) = check_package(package, settings).packages
+    (reason,) = reasons(report)
+    assert reason.endswith("--package-path DIR (and so with 1 more launch file)")
 
 
 @pytest.mark.parametrize("ignored", [False, True])
