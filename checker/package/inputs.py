@@ -173,7 +173,7 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     found = units_below(folder)
     if found.units:
         around = () if folder == found.units[0].folder else found.units
-        skipped = tuple(_skipped(folder, found)) if around else ()
+        skipped = (*(_skipped(folder, found) if around else ()), *_nested(folder, found))
         return _opened(found, folder, skipped, within)
     enclosing = enclosing_package(folder)
     advice = f"give the package folder {enclosing}" if enclosing else WHAT_TO_GIVE
@@ -243,6 +243,14 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
             yield Skipped(place.name, f"{why}; {models}" if models else why)
     if models := models_of(folder, seen):
         yield Skipped("", f"contains models outside its packages: {models}")
+
+
+def _nested(folder: Path, found: Units) -> Iterator[Skipped]:
+    """Yield the packages in other packages."""
+    for place, around in found.nested:
+        home = around.name if around == folder else around.relative_to(folder).as_posix()
+        why = f"is inside package {home}, where colcon and catkin look for no other package"
+        yield Skipped(place.relative_to(folder).as_posix(), why)
 
 
 def _open_single(path: Path, file: Path) -> Opened:

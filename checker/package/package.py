@@ -45,7 +45,7 @@ from checker.package.references import (
     loaded_files,
     spawner_references,
 )
-from checker.package.repository import units_below
+from checker.package.repository import Units, units_below
 from checker.package.simulator_signs import simulator_signs
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
@@ -376,9 +376,10 @@ class Package(Record, eq=False, dict=True):
 
     @cached_property
     def _units(self) -> frozenset[str]:
-        """Paths of the models and worlds within that are checked by themselves."""
-        units = () if self.only else units_below(self.root).units
-        places = (unit.folder / unit.only for unit in units)
+        """Paths of what is within and no part of it: models and worlds, and packages as well."""
+        found = Units(()) if self.only else units_below(self.root)
+        places = [unit.folder / unit.only for unit in found.units]
+        places += [folder for folder, _ in found.nested]
         return frozenset(
             place.relative_to(self.root).as_posix() for place in places if place != self.root
         )

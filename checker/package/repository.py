@@ -24,6 +24,9 @@ MAX_FOLDERS = 5_000
 MAX_DEPTH = 60
 _ITEMS = 5_000
 """Greatest number of items of one folder that are read."""
+_MANIFEST = "package.xml"
+_SOURCE_SPACE = "src"
+"""Of a workspace, which may itself look like a package: the build tools may start below it."""
 _URDF_FOLDER = "urdf"
 
 
@@ -51,11 +54,13 @@ class Units(Record):
         units: The units by path, packages before what is in them.
         complete: Whether all folders were read.
         ignored: Files that keep the build tools, and this search, out of their folders.
+        nested: ROS packages in others, each with the package around it: no build tool finds them.
     """
 
     units: tuple[Unit, ...]
     complete: bool = True
     ignored: tuple[Path, ...] = ()
+    nested: tuple[tuple[Path, Path], ...] = ()
 
 
 def units_below(folder: Path) -> Units:
@@ -63,7 +68,8 @@ def units_below(folder: Path) -> Units:
 
     What is in a model folder or a submission is a part of it; models with a model.config in a model
     folder without a model of its own are separate units. A ROS package may contain models and
-    worlds; these are separate units. Links are not followed.
+    worlds; these are separate units. A ROS package in another one is none: neither colcon nor
+    catkin looks for packages below a package (colcon/colcon-cargo#63). Links are not followed.
 
     Args:
         folder: Links resolved; itself a unit if it is a package or model. It is also read
@@ -71,7 +77,7 @@ def units_below(folder: Path) -> Units:
     """
     search = _Search()
     found = tuple(search.at(folder, inside=False, depth=0))
-    return Units(found, search.complete, tuple(search.ignored))
+    return Units(found, search.complete, tuple(search.ignored), tuple(search.nested))
 
 
 def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
@@ -94,9 +100,16 @@ class _Search:
         self.folders = 0
         self.complete = True
         self.ignored: list[Path] = []
+        self.nested: list[tuple[Path, Path]] = []
 
     def at(
-        self, folder: Path, *, inside: bool, depth: int, below_loose: bool = False
+        self,
+        folder: Path,
+        *,
+        inside: bool,
+        depth: int,
+        below_loose: bool = False,
+        around: Path | None = None,
     ) -> Iterator[Unit]:
         """Yield a folder if it is a unit, and what it contains.
 
@@ -106,18 +119,17 @@ class _Search:
             depth: Folders above it that were searched.
             below_loose: Whether it is in a loose folder of URDF, MuJoCo or launch files, to which
                 its own then belong.
+            around: The ROS package that it is in, if it is in one.
         """
         self.folders += 1
         if self.folders > MAX_FOLDERS or depth > MAX_DEPTH:
             self.complete = False
             return
         files, folders = _content(folder)
-        if depth and is_environment((*files, *folders)):
+        if depth and self._is_left_out(folder, files, folders):
             return
-        if depth and (marks := IGNORED.intersection(files)):
-            self.ignored.append(folder / min(marks))
-            return
-        if folder.name == "debian" and "control" in files:  # below it lies what was installed
+        is_debian = folder.name == "debian" and "control" in files  # below it is what was installed
+        if is_debian or self._is_nested(folder, files, around):
             return
         is_package = looks_like_package(folder)
         if is_package:
@@ -128,6 +140,7 @@ class _Search:
                 yield from self._below_config(folder, files, folders, depth)
                 return
         inside = inside or is_package
+        around = folder if is_package else around
         # Loose launch files and model files of URDF and MuJoCo belong to the package around.
         loose = [] if below_loose else files
         holds_urdf = not inside and _holds_urdf(folder, loose, folders)
@@ -142,7 +155,24 @@ class _Search:
                 inside=inside or is_part,
                 depth=depth + 1,
                 below_loose=below_loose or is_loose,
+                around=around if name != _SOURCE_SPACE else None,
             )
+
+    def _is_left_out(self, folder: Path, files: list[str], folders: list[str]) -> bool:
+        """Return whether the build tools keep out of a folder, or made what is in it."""
+        if is_environment((*files, *folders)):
+            return True
+        if marks := IGNORED.intersection(files):
+            self.ignored.append(folder / min(marks))
+            return True
+        return False
+
+    def _is_nested(self, folder: Path, files: list[str], around: Path | None) -> bool:
+        """Return whether a folder is a ROS package in another, and no model."""
+        if around is None or _MANIFEST not in files or not MODEL_MARKERS.isdisjoint(files):
+            return False
+        self.nested.append((folder, around))
+        return True
 
     def _below_config(
         self, folder: Path, files: list[str], folders: list[str], depth: int

@@ -113,6 +113,33 @@ def test_what_tools_made_is_left_out(write: Write) -> None:
     assert names(write(files)) == ["b"]
 
 
+def test_a_ros_package_in_another_is_none(write: Write) -> None:
+    files = {
+        "src/arm/package.xml": "<package><name>arm</name></package>",
+        "src/arm/urdf/arm.urdf": "<robot name='arm'><link name='base'/></robot>",
+        "src/arm/old/arm/package.xml": "<package><name>arm</name></package>",
+        "src/arm/old/arm/urdf/old.urdf": "<robot name='old'><link name='base'/></robot>",
+        "src/arm/models/cup/model.config": "<model/>",
+        "src/arm/models/cup/package.xml": "<package><name>cup</name></package>",
+        "src/arm/models/cup/model.sdf": MODEL,
+    }
+    space = write(files)
+    with open_input(space) as opened:
+        assert [package.name for package in opened.packages] == ["arm", "cup"]
+        assert opened.packages[0].xml_files == ("package.xml", "urdf/arm.urdf")
+        (skipped,) = opened.skipped
+    assert skipped.name == "src/arm/old/arm"
+    assert skipped.reason.startswith("is inside package src/arm, where colcon")
+    assert names(space / "src/arm/old/arm") == ["arm"]
+
+
+def test_the_source_space_of_a_workspace_that_looks_like_a_package_is_searched(
+    write: Write,
+) -> None:
+    files = {"package.xml": "<package/>", **{f"src/{name}": text for name, text in ROVER.items()}}
+    assert "rover" in names(write(files))
+
+
 def test_a_folder_that_is_named_is_opened_although_it_is_ignored(write: Write) -> None:
     space = write({"rover/COLCON_IGNORE": "", **ROVER})
     assert names(space / "rover") == ["rover"]
