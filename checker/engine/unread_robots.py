@@ -59,8 +59,7 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
     if not was_read and package.kind not in _WITHOUT_ROBOT:
         yield from _without_robot(subject)
     elif not was_read:
-        for each in _of_roslaunch_files(subject):
-            yield NotChecked(ROBOT, each.text, Cause.NOT_AT_HAND)
+        yield from _reported(subject, _of_roslaunch_files(subject))
 
 
 def _without_robot(subject: Subject) -> Iterator[NotChecked]:
@@ -72,18 +71,28 @@ def _without_robot(subject: Subject) -> Iterator[NotChecked]:
         _of_mujoco(subject),
     )
     reasons = list(dict.fromkeys(sources))
-    starts = _starts_robot(subject)
-    holds_none = package.kind is PackageKind.UNKNOWN and not starts
-    for reason in reasons:
-        cause = Cause.NOT_APPLICABLE if holds_none and reason.released else Cause.NOT_AT_HAND
-        yield NotChecked(ROBOT, reason.text, cause)
+    yield from _reported(subject, reasons)
     if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
         # Beside other packages, one without a robot may hold messages, maps or code.
         others = package.other_packages
         beside = any(other.kind is not PackageKind.UNKNOWN for other in others)
-        none_expected = beside or (others and holds_none)
+        none_expected = beside or (others and _holds_none(subject))
         cause = Cause.NOT_APPLICABLE if none_expected else Cause.NOT_AT_HAND
         yield NotChecked(ROBOT, _NO_ROBOT, cause)
+
+
+def _reported(subject: Subject, reasons: Iterable[_Reason]) -> Iterator[NotChecked]:
+    """Yield reasons; what a package without robot includes from ROS keeps nothing from it."""
+    for reason in reasons:
+        needless = reason.released and _holds_none(subject)
+        cause = Cause.NOT_APPLICABLE if needless else Cause.NOT_AT_HAND
+        yield NotChecked(ROBOT, reason.text, cause)
+
+
+def _holds_none(subject: Subject) -> bool:
+    """Return whether a package neither describes nor starts a robot."""
+    kinds = (PackageKind.UNKNOWN, PackageKind.PLUGIN)
+    return subject.package.kind in kinds and not _starts_robot(subject)
 
 
 def _starts_robot(subject: Subject) -> bool:

@@ -115,19 +115,29 @@ def test_a_launch_file_names_the_package_that_is_missing(tmp_path: Path, ignored
     assert ("COLCON_IGNORE" if ignored else "--package-path DIR") in reason
 
 
-@pytest.mark.parametrize("more", [{}, {"src/node.cpp": "", "CMakeLists.txt": "add_library(a b)"}])
-def test_a_launch_file_of_ros_1_does_so_too(tmp_path: Path, more: dict[str, object]) -> None:
+LIBRARY = {"src/node.cpp": "", "CMakeLists.txt": "add_library(a b)"}
+
+
+@pytest.mark.parametrize("more", [{}, LIBRARY])
+@pytest.mark.parametrize("included", ["acme_hand", "rgbd_launch"])
+def test_a_launch_file_of_ros_1_does_so_too(
+    tmp_path: Path, included: str, more: dict[str, object]
+) -> None:
     folder = tmp_path / "acme_demo"
     folder.mkdir()
-    launch = '<launch><include file="$(find acme_hand)/launch/hand.launch"/></launch>'
-    files = {"package.xml": CATKIN, "launch/demo.launch": launch, **more}
+    launch = '<launch><include file="$(find @)/launch/hand.launch"/></launch>'
+    files = {"package.xml": CATKIN, "launch/demo.launch": launch.replace("@", included), **more}
     for name, text in files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(str(text))
     (report,) = check_package(folder, Settings(trial=False)).packages
-    assert report.verdict is VerdictKind.INCOMPLETE
-    (reason,) = reasons(report)
-    assert reason.startswith("launch/demo.launch includes $(find acme_hand)/launch/hand.launch:")
+    (unseen,) = (each for each in report.not_checked if each.rule == ROBOT)
+    start = f"launch/demo.launch includes $(find {included})/launch/hand.launch:"
+    assert unseen.reason.startswith(start)
+    # What a package without robot includes from ROS is no robot of the user's.
+    is_own = included == "acme_hand"
+    assert unseen.cause is (Cause.NOT_AT_HAND if is_own else Cause.NOT_APPLICABLE)
+    assert (report.verdict is VerdictKind.INCOMPLETE) == is_own
 
 
 def test_a_template_is_no_robot(tmp_path: Path) -> None:
