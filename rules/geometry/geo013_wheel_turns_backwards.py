@@ -70,11 +70,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         swapped = [*_swapped_sides(drive, left, least_share)]
         if turned and len(turned) == len(swapped) == len(drive.wheels):
             yield _faces_backwards(drive)
-        elif (
-            swapped
-            and len(swapped) == len(drive.wheels)
-            and _rolls_forward(drive, left, least_cosine)
-        ):
+        elif swapped and len(swapped) == len(drive.wheels) and _rolls_forward(drive, least_cosine):
             yield _swapped(drive)
         else:
             yield from (*turned, *swapped)
@@ -163,13 +159,14 @@ def _faces_backwards(drive: WheelDrive) -> Finding:
     )
 
 
-def _rolls_forward(drive: WheelDrive, left: Vector, least_cosine: float) -> bool:
-    """Return whether all axes point to the left, so that only the names are in the wrong places.
+def _rolls_forward(drive: WheelDrive, least_cosine: float) -> bool:
+    """Return whether all axes point to +y, so that only the names are in the wrong places.
 
-    Where `<legacyMode>` swaps them, that tag may be what is missing.
+    Of a robot that faces elsewhere the axes may be wrong, and where `<legacyMode>` swaps the sides,
+    that tag may be what is missing.
     """
     axes = [wheel.axis for wheel in drive.wheels]
-    return not drive.swaps and all(axis and _dot(axis, left) >= least_cosine for axis in axes)
+    return not drive.swaps and all(axis and _dot(axis, _LEFT) >= least_cosine for axis in axes)
 
 
 def _swapped(drive: WheelDrive) -> Finding:
