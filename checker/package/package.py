@@ -36,7 +36,7 @@ from checker.package.inheritance import (
 )
 from checker.package.installed import data_file_items, installed_items
 from checker.package.kind import PackageKind, kind_of, looks_like_package
-from checker.package.mentions import mentioned_names
+from checker.package.mentions import has_word, mentioned_names
 from checker.package.model_file import own_model
 from checker.package.overlay import Overlay, OverlayText
 from checker.package.references import (
@@ -195,6 +195,13 @@ class Package(Record, eq=False, dict=True):
         paths = (it.path for it in self.index.files if _LAUNCH_FILE.search(it.path))
         texts = {path: self.read(path) for path in paths}
         return {path: it.text for path, it in texts.items() if isinstance(it, SourceText)}
+
+    @cached_property
+    def naming_launch_texts(self) -> dict[str, str]:
+        """The launch files of the package, and those of other packages that name it."""
+        name = self.declared_name
+        others = self.workspace.launch_texts.items()
+        return self.launch_texts | {path: text for path, text in others if has_word(text, name)}
 
     @cached_property
     def distribution_sign(self) -> DistributionSign | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
@@ -181,10 +182,12 @@ class PackageDescriptions:
                 else it
                 for it in descriptions
             ]
-        texts = self._package.workspace.launch_texts
+        texts = self._package.naming_launch_texts
         return [
             it
-            if it.file in loaded or may_be_loaded(texts, it.file)
+            if it.file in loaded
+            or self._package.workspace.launches_with(posixpath.basename(it.file))
+            or may_be_loaded(texts, it.file)
             else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
             for it in descriptions
         ]

@@ -28,7 +28,7 @@ def may_be_loaded(launch_texts: Mapping[str, str], path: str) -> bool:
     So does one with an argument that takes any file.
 
     Args:
-        launch_texts: The launch files of the workspace.
+        launch_texts: The launch files that may load it.
         path: The path of the description.
     """
     name = posixpath.basename(path)

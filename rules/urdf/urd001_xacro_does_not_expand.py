@@ -43,6 +43,7 @@ from checker.source.xml import Element
 
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
 _PRIVATE = re.compile(r"double underscore:\s{0,8}(__\w{1,100})")
+_WITHOUT = "without xacro"
 _FOREIGN = ("gazebo",)
 """Elements with content that URDF does not define, so braces may mean anything."""
 
@@ -62,7 +63,10 @@ def check(files: UrdfFiles, context: Context) -> Findings:
         else:
             yield _refused(fault)
     for description in files.descriptions:
-        yield from _left_behind(description, context)
+        for found in _left_behind(description, context):
+            # What nothing loads may be given to xacro by hand.
+            if not description.unloaded or found.key != _WITHOUT:
+                yield found
 
 
 def _refused(fault: XacroFault) -> Finding:
@@ -119,7 +123,7 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
             yield finding(
                 element.attribute(name) or element,
                 f"{match.group()} is not expanded: the file is loaded without xacro",
-                key="without xacro",
+                key=_WITHOUT,
             )
         elif match := BRACES.search(value):
             yield finding(

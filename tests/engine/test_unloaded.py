@@ -179,3 +179,18 @@ def test_what_is_in_a_folder_of_old_files_has_warnings(
     settings = Settings(select=("LCH011",), trial=False)
     (found,) = check_package(tmp_path / NAME, settings).packages[0].findings
     assert found.severity is severity
+
+
+@pytest.mark.parametrize(("name", "count"), [("hand.urdf", 0), ("new.urdf", 1)])
+def test_what_nothing_loads_may_be_given_to_xacro_by_hand(
+    name: str, count: int, tmp_path: Path
+) -> None:
+    _check(tmp_path, _link(_GOOD))
+    folder = tmp_path / NAME
+    (folder / "urdf/new.urdf.xacro").rename(folder / "urdf/new.urdf")
+    launch = _LAUNCH.replace("xacro ", "cat ").replace("new.urdf.xacro", "new.urdf")
+    (folder / "launch/show.launch.py").write_text(python(launch))
+    text = f'<robot name="hand"><link name="$(find {NAME})"/></robot>'
+    (folder / "urdf" / name).write_text(text)
+    settings = Settings(select=("URD001",), trial=False)
+    assert len(check_package(folder, settings).packages[0].findings) == count

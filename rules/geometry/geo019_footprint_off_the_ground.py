@@ -1,0 +1,68 @@
+"""A base_footprint that is not at the height of the ground on which the wheels stand.
+
+base_footprint is the place of the robot on the ground. Odometry and localisation give it the height
+0: if the wheels reach below it, the robot is drawn in the ground, all that its sensors see is too
+low, and a costmap with `min_obstacle_height: 0.0` drops what is near the ground. If it is below the
+wheels, all is too high. Spawned at a height of 0, the wheels start in the ground or fall.
+
+Fix: put the joint between base_footprint and the next link at the height that the message names.
+Source: REP 120, base_footprint: the projection of the robot on the ground.
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_NAME = "base_footprint"
+_LEAST_WHEELS = 2
+
+
+@rule("GEO019", "footprint-off-the-ground", Severity.WARNING, Concern.ROBOT)
+def check(robot: Robot, *, metres: float = 0.02) -> Findings:
+    """Report a base_footprint above or below the lowest point of the wheels.
+
+    Options:
+        metres: Greatest distance; more is reported.
+    """
+    link, pose = robot.links_by_name.get(_NAME), robot.pose_of(_NAME)
+    if link is None or pose is None or _NAME not in robot.tree.base:
+        return
+    boxes = [robot.box_of(wheel) for wheel in robot.wheels]
+    known = [box for box in boxes if box is not None]
+    if len(known) < max(_LEAST_WHEELS, len(boxes)):
+        return
+    height = min(box.low[2] for box in known) - pose.translation[2]
+    if abs(height) > metres:
+        side = "below" if height < 0 else "above"
+        yield finding(
+            link,
+            f"the wheels reach {abs(height):.3g} m {side} base_footprint, which is on the ground: "
+            f"move the links on it {'up' if height < 0 else 'down'} by {abs(height):.3g} m",
+        )
+
+
+def _rover(height: float, mark: str = "") -> dict[str, object]:
+    wheels = "".join(
+        f"""<link name="{side}_wheel"><collision>
+  <origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.04"/></geometry>
+</collision></link>
+<joint name="{side}_axle" type="continuous">
+  <parent link="base_link"/><child link="{side}_wheel"/>
+  <origin xyz="0 {y} 0"/><axis xyz="0 1 0"/>
+</joint>"""
+        for side, y in (("left", 0.2), ("right", -0.2))
+    )
+    return {
+        "@urdf": True,
+        "urdf/acme_arm.urdf": f"""<robot name="rover">
+<link name="base_footprint"/>{mark}
+<link name="base_link"/>
+<joint name="base_joint" type="fixed">
+  <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 {height}"/>
+</joint>
+{wheels}</robot>
+""",
+    }
+
+
+GOOD = [_rover(0.1), _rover(0.11)]
+BAD = [_rover(0.0, "  <!-- ^ GEO019 -->"), _rover(0.2, "  <!-- ^ GEO019 -->")]
