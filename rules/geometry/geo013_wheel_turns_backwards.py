@@ -71,7 +71,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         if turned and len(turned) == len(swapped) == len(drive.wheels):
             yield _faces_backwards(drive)
         elif swapped and len(swapped) == len(drive.wheels) and _rolls_forward(drive, least_cosine):
-            yield _swapped(drive)
+            yield from _swapped(drive)
         else:
             yield from (*turned, *swapped)
         yield from _on_both_sides(drive)
@@ -169,8 +169,8 @@ def _rolls_forward(drive: WheelDrive, least_cosine: float) -> bool:
     return not drive.swaps and all(axis and _dot(axis, _LEFT) >= least_cosine for axis in axes)
 
 
-def _swapped(drive: WheelDrive) -> Finding:
-    """Report a drive whose wheels are all on the other side than it lists."""
+def _swapped(drive: WheelDrive) -> Iterator[Finding]:
+    """Report a drive whose wheels are all on the other side than it lists, in each of its lists."""
     sides = {side: [w.name for w in drive.wheels if w.side is side] for side in Side}
     pairs = zip(sides[Side.LEFT], sides[Side.RIGHT], strict=False)
     fixes = [
@@ -180,18 +180,16 @@ def _swapped(drive: WheelDrive) -> Finding:
     ]
     edits = [edit for fix in fixes if fix is not None for edit in fix.edits]
     left, right = (and_list([name.value for name in sides[side]]) for side in Side)
-    first, *others = drive.wheels
-    return finding(
-        first.name,
-        f"{drive.plugin.label} lists {left} as left and {right} as right, but each is on the other "
-        "side, and the robot turns the wrong way: swap the left and the right joints",
-        key=f"{drive.path} swapped",
-        related=[
-            *((wheel.name, "and this") for wheel in others),
-            *((wheel.joint, "the joint") for wheel in drive.wheels),
-        ],
-        fix=Fix(Safety.UNSAFE, tuple(edits)) if len(edits) == len(drive.wheels) else None,
-    )
+    fix = Fix(Safety.UNSAFE, tuple(edits)) if len(edits) == len(drive.wheels) else None
+    for wheel in drive.wheels:
+        yield finding(
+            wheel.name,
+            f"{drive.plugin.label} lists {left} as left and {right} as right, but each is on the "
+            "other side, and the robot turns the wrong way: swap the left and the right joints",
+            key=f"{drive.path} swapped",
+            related=[(wheel.joint, "the joint")],
+            fix=fix if wheel is drive.wheels[0] else None,
+        )
 
 
 def _turned_round(robot: Robot, joint: Joint) -> Fix | None:
@@ -392,9 +390,9 @@ _MODERN = "<legacyMode>false</legacyMode>"
 _Y, _BACK = '0 1 0"/>', '0 -1 0"/>'
 
 
-def _marked(drive: str, lines: int = 2) -> str:
-    """Mark the first lines of a plugin that name joints."""
-    return drive.replace("oint>\n", f"oint>{_MARK}\n", lines)
+def _marked(drive: str) -> str:
+    """Mark the first two lines of a plugin that name joints."""
+    return drive.replace("oint>\n", f"oint>{_MARK}\n", 2)
 
 
 _END = "</xyz>"
@@ -422,7 +420,7 @@ BAD = [
         _LEFTWARD,
         _LEFTWARD,
         f"""<left_joint>right_axle</left_joint>{_MARK}
-  <right_joint>left_axle</right_joint>""",
+  <right_joint>left_axle</right_joint>{_MARK}""",
     ),
     _rover(
         _LEFTWARD,
@@ -430,7 +428,7 @@ BAD = [
         f"""<left_joint>left_axle</left_joint>
   <right_joint>left_axle</right_joint>{_MARK}""",
     ),
-    _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN), 1)),
+    _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN))),
     _urdf(_Y, _Y, _marked(_classic(_DIFF, _STRAIGHT))),
     _urdf(
         _BACK,

@@ -41,6 +41,7 @@ from checker.rule import Concern, Context, Finding, Findings, Severity, finding,
 
 _NONE = "__default__"
 """Value that old releases of libsdformat wrote if a file names no library."""
+_OF_CONTROL = frozenset({"gz_ros2_control", "ign_ros2_control", "gazebo_ros2_control"})
 
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
@@ -88,7 +89,7 @@ def _found(host: PluginHost, package: Package, context: Context) -> Findings:
             )
             continue
         successor = _successor(stem, package, context)
-        is_lent = _may_be_lent(stem, package, lenders) or _is_undeclared(stem, package)
+        is_lent = _may_be_lent(stem, package, lenders) or _is_undeclared(stem, package, lenders)
         if not (context.is_subt or successor) and is_lent:
             continue
         yield finding(
@@ -110,12 +111,14 @@ def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> boo
     )
 
 
-def _is_undeclared(stem: str, package: Package) -> bool:
-    """Return whether PKG007 looks for the package of a library: its hardware is used, too."""
+def _is_undeclared(stem: str, package: Package, lenders: AvailablePackages) -> bool:
+    """Return whether PKG007 looks for the package of a library: its hardware is used, too.
+
+    A package that names another package of ros2_control for Gazebo has the wrong names.
+    """
     lender = package_of_library(stem)
-    return built_by_ament(package) and any(
-        use.package_name == lender for use in plugin_uses(package)
-    )
+    named = any(use.package_name == lender for use in plugin_uses(package))
+    return named and built_by_ament(package) and _OF_CONTROL.isdisjoint(lenders.missing)
 
 
 def _successor(stem: str, package: Package, context: Context) -> str:
