@@ -1,29 +1,24 @@
-"""A node of a launch file lacks its executable, or has keywords of another release.
+"""A node of a launch file lacks its executable, or has a keyword that launch does not know.
 
 `node_name`, `node_executable` and `node_namespace` are of releases before Galactic, `type` is of
 ROS 1. Without `executable` (in XML and YAML `exec`) the launch file ends with an error. In a file
 that is named for one of these releases (`robot_eloquent.launch.py`) this is a warning, and so it is
 in a package whose README or Dockerfile names Foxy, which knows the former keywords too, and logs
-that they are deprecated.
+that they are deprecated. A misspelt keyword, such as `arguements`, ends the launch as well.
 
 Fix: write `name`, `executable` and `namespace`.
-Source: launch_ros, `Node`: `executable` is required, and other keywords raise a TypeError.
+Source: launch_ros, `Node`: `executable` is required, and other keywords raise a TypeError; launch,
+`ExecuteProcess`, which gets what `Node` does not take.
 """
 
 import re
-from collections.abc import Mapping
 
 from checker.finding import Fix
+from checker.launch.ros2.actions.nodes import OLD_KEYWORDS, meant_keyword
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span
-
-OLD: Mapping[str, str] = {
-    "node_name": "name",
-    "node_executable": "executable",
-    "node_namespace": "namespace",
-}
 
 _RELEASES = re.compile(r"(?<![a-z])(?:ardent|bouncy|crystal|dashing|eloquent|foxy)(?![a-z])")
 """Releases of ROS 2 that know the former keywords."""
@@ -37,9 +32,10 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
     for graph in launch.entries:
         for fault in graph.faults:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:
-                new = OLD.get(fault.name)
+                new = meant_keyword(fault.name)
                 hint = f"; write {new}" if new else f"; add {_executable(fault.span)}"
-                is_for_old = bool(new and _RELEASES.search(f"{distro} {fault.span.source.file}"))
+                release = _RELEASES.search(f"{distro} {fault.span.source.file}")
+                is_for_old = fault.name in OLD_KEYWORDS and release is not None
                 yield finding(
                     fault,
                     f"{fault.message}{hint}",
@@ -65,6 +61,7 @@ GOOD = [{"@ros2": True}]
 BAD = [
     {"@ros2": "        Node(package='p', node_executable='e'),  # ^ LCH004"},
     {"@ros2": "        Node(package='p', executable='e', node_name='n'),  # ^ LCH004"},
+    {"@ros2": "        Node(package='p', executable='e', arguements=[]),  # ^ LCH004"},
     {
         "@ros2": True,
         "launch/driver_eloquent.launch.py": """from launch import LaunchDescription

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from checker.base.words import Suggestions
 from checker.launch.ros2.actions import flow
 from checker.launch.ros2.actions.commands import (
     Words,
@@ -49,7 +50,17 @@ from checker.source.text import Located
 if TYPE_CHECKING:
     from checker.launch.ros2.actions.visitor import Visitor
 
-_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+OLD_KEYWORDS: Mapping[str, str] = MappingProxyType(
+    {"node_name": "name", "node_executable": "executable", "node_namespace": "namespace"}
+)
+_KEYWORDS = (
+    *("package", "executable", "name", "namespace", "exec_name", "parameters", "remappings"),
+    *("ros_arguments", "arguments", "composable_node_descriptions", "condition"),
+    *("cmd", "prefix", "cwd", "env", "additional_env", "shell", "sigterm_timeout"),
+    *("sigkill_timeout", "emulate_tty", "output", "output_format", "cached_output", "log_cmd"),
+    *("on_exit", "respawn", "respawn_delay", "respawn_max_retries"),
+)
+"""Keywords of nodes and containers, with those of `ExecuteProcess`, which gets the others."""
 """Keywords of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
@@ -217,8 +228,15 @@ def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]
     return parameters_of(value, context, made.span, unread), unread
 
 
+def meant_keyword(name: str) -> str | None:
+    """Return the keyword of a node for which an unknown one stands, an old or a misspelt one."""
+    if name in _KEYWORDS:
+        return None
+    return OLD_KEYWORDS.get(name) or Suggestions(_KEYWORDS).correction(name)
+
+
 def _keywords(made: Made, context: Context) -> None:
-    for name in _OLD_KEYWORDS.intersection(made.values):
+    for name in filter(meant_keyword, made.values):
         where = made.keywords.get(name, made.span)
         message = f"{made.name} has no keyword {name!r}"
         context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
