@@ -296,7 +296,7 @@ def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
         name = dependency.package.value
         is_plugin = "plugin" in name
         is_of_teams = is_plugin or SUBMISSION_NAME.search(name) or name.startswith(prefixes)
-        if not is_of_teams or package.workspace.package(name):
+        if not is_of_teams or package.workspace.package(name) or distributions_with(name):
             continue
         for other in package.workspace.packages:
             slip = is_slip_for(name, other) or (is_plugin and _is_own(package, name, other))
@@ -411,6 +411,12 @@ GOOD = [
     },
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
+    {
+        "@name": "ros_gz_bringup",
+        "@urdf": True,
+        "package.xml": _package("ros_gz_bringup", "ros_gz"),
+        "../ros_gz_application/package.xml": _package("ros_gz_application"),
+    },
     {
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz"),

@@ -95,14 +95,15 @@ def _fix(robot: Robot, package: Package, prefixes: set[str]) -> Fix | None:
 
 
 def _prefix(part: Link | Joint) -> str:
-    """Return the part of a name before the first slash."""
+    """Return the part of a name before its slash; `model/link/sensor` is the frame of a sensor."""
     before, slash, behind = part.name.value.partition("/")
-    return before if slash and behind else ""
+    return before if slash and behind and "/" not in behind else ""
 
 
 GOOD = [
     '<link name="arm"/>',
     '<link name="front/wheel"/><link name="rear/wheel"/>',
+    '<link name="X1/base_link/lidar"/>',
 ]
 BAD = [
     {
