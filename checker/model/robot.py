@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import posixpath
+import re
 from collections.abc import Iterator
 from functools import cached_property
 
@@ -49,6 +50,9 @@ from checker.source.xml import Element, XmlDocument
 EARTH_GRAVITY = 9.81
 """m/s², as Pinocchio and MuJoCo have it; Gazebo's default is 9.8."""
 _NEAR_EARTH = 0.05
+
+
+_BALANCING = re.compile(r"balanc|segway|pendulum", re.IGNORECASE)
 
 
 class Robot(Part, dict=True):
@@ -180,6 +184,11 @@ class Robot(Part, dict=True):
     def locomotion(self) -> Locomotion:
         """Parts that its drive plugins move, and their limits."""
         return read_locomotion(self)
+
+    @property
+    def balances(self) -> bool:
+        """True if its name says that a controller keeps it upright, as on two wheels."""
+        return _BALANCING.search(self.name.value) is not None
 
     @cached_property
     def stands_alone(self) -> bool:

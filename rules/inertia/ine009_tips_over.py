@@ -4,8 +4,9 @@ The tip angle is the tilt at which the centre of mass is above the nearest edge 
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
 with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot
-of URDF that stands on legs is not judged: its controller decides how it stands. For a description
-that no simulator gets, such as one for transforms alone, it is an info.
+of URDF that stands on legs is not judged, nor is one whose name says that it balances: a controller
+decides how it stands. For a description that no simulator gets, such as one for transforms alone,
+it is an info.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
 wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
@@ -48,7 +49,11 @@ def check(
             flat ground.
     """
     robot = masses.robot
-    if robot.is_static or not (robot.drives or (robot.stands_alone and context.is_subt)):
+    if (
+        robot.balances
+        or robot.is_static
+        or not (robot.drives or (robot.stands_alone and context.is_subt))
+    ):
         return
     if robot.flies and not context.is_subt:
         return  # It stands on level ground, on an undercarriage as narrow as that of a plane.
@@ -129,7 +134,11 @@ def _rover(x: float, z: float = 0.0, mark: str = "", front: float = 0.1) -> str:
 
 
 _MARK = "  <!-- ^ INE009 -->"
-GOOD = [_rover(0), _rover(0.05), _rover(0, front=0.08)]
+GOOD = [
+    _rover(0),
+    _rover(0.05),
+    _rover(0, front=0.08),
+]
 BAD = [
     _rover(0.35, mark=_MARK),
     _rover(0.17, mark=_MARK),

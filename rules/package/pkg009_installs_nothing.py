@@ -208,7 +208,8 @@ def _missing_items(
             for item in install.items
             if item.value
             and _MADE_ELSEWHERE.search(item.value) is None
-            and not package.exists(posixpath.normpath(item.value.rstrip("/") or "."))
+            and (path := posixpath.normpath(item.value.rstrip("/") or ".")) != "."
+            and not package.exists(path)
         ]
         if missing:
             yield install, missing
@@ -219,6 +220,7 @@ install(DIRECTORY launch/ urdf
   ./worlds
   ${CMAKE_CURRENT_SOURCE_DIR}/thumbnails
   DESTINATION share)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/ ./ DESTINATION share)
 """
 
 _TARGETS = """project(acme_rover_sensor_config_1)

@@ -31,9 +31,9 @@ def leaning(name: str) -> str:
     return f'<link name="{name}">{_SOLID.format(z=0.5, mass=9, height=1)}</link>' + hinge(name, x=1)
 
 
-def checked(body: str, folder: Path, *, trial: bool = False) -> PackageReport:
+def checked(body: str, folder: Path, *, name: str = "crane", trial: bool = False) -> PackageReport:
     file = folder / "crane.urdf"
-    file.write_text(f'<robot name="crane">{body}</robot>')
+    file.write_text(f'<robot name="{name}">{body}</robot>')
     (report,) = check_package(file, Settings(trial=trial, cache=False)).packages
     return report
 
@@ -45,6 +45,11 @@ def severities(report: PackageReport) -> Mapping[str, Severity]:
 def test_an_arm_is_mounted_and_a_rover_stands(tmp_path: Path) -> None:
     assert "INE009" not in severities(checked(_BASE + leaning("boom"), tmp_path))
     assert severities(checked(_BASE + leaning("wheel"), tmp_path))["INE009"] is Severity.ERROR
+
+
+def test_a_robot_that_balances_falls_without_its_controller(tmp_path: Path) -> None:
+    leaning_rover = checked(_BASE + leaning("wheel"), tmp_path, name="self_balancing")
+    assert "INE009" not in severities(leaning_rover)
 
 
 def test_the_trial_holds_the_base_of_an_arm(tmp_path: Path) -> None:
