@@ -13,7 +13,7 @@ from checker.package.kind import BUILT, IGNORED, is_environment
 
 MAX_ENTRIES = 20_000
 MAX_DEPTH = 50
-SKIPPED_FOLDERS = frozenset({".git"})
+SKIPPED_FOLDERS = frozenset({".git", ".ipynb_checkpoints"})
 
 Inside = Callable[[Path], bool]
 """Function that returns whether a real path belongs to an available sibling package."""

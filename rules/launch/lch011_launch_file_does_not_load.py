@@ -79,6 +79,9 @@ BAD = [
         "@ros2": "        Node(package='p' executable='e'),  # ^ LCH011",
     },
     {
+        "@ros2": "        Node(package='p', executable='e', output='log', output='both'),  # ^ LCH011",
+    },
+    {
         "@ros2": """        Node(package='p', executable='e', remappings=[
             ('a', 'b')('c', 'd'),  # ^ LCH011
         ]),""",

@@ -36,6 +36,7 @@ _FATAL = (
     LaunchFaultKind.MISSING_FILE,
     LaunchFaultKind.INCLUDE_LOOP,
 )
+_DECLARED = re.compile(r"""<arg\b[^<>]{0,300}?\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})""")
 _WORD = re.compile(r"[\w.-]+")
 _BUILD = ("CMakeLists.txt", "setup.py")
 _NOT_PLAIN = re.compile(r"\bGLOB\b|\bforeach\b|\badd_subdirectory\b|add_executable\W{1,8}\$")
@@ -49,7 +50,7 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
     if is_ros2_only(package):
         return
     for fault in launch.graph.faults:
-        if fault.kind in _FATAL and not _may_be_given(fault):
+        if fault.kind in _FATAL and not (_may_be_given(fault) or _may_be_declared(fault)):
             yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
     if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
         for entry in launch.entries:
@@ -66,6 +67,14 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
 def _may_be_given(fault: LaunchFault) -> bool:
     """Return whether an arg is missing in the file that a person starts, and gives it to."""
     return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
+
+
+def _may_be_declared(fault: LaunchFault) -> bool:
+    """Return whether the file declares an arg that is used, on a condition that is not known."""
+    if fault.kind is not LaunchFaultKind.UNDECLARED_ARG:
+        return False
+    declared = _DECLARED.findall(fault.span.source.text[: fault.span.start])
+    return any(f"{name!r}" in fault.message for name in declared)
 
 
 def _of_one_name(nodes: Iterable[Node]) -> Iterator[Finding]:
@@ -160,6 +169,12 @@ GOOD = [
     _two(' if="false"'),
     _two("", around=' ns="arm"'),
     _launch('<arg name="rate" default="5"/>\n<param name="rate" value="$(arg rate)"/>'),
+    _launch(
+        """<arg name="file" default="$(env ARM)"/>
+<arg if="$(eval file == '')" name="rate" value="1"/>
+<arg unless="$(eval file == '')" name="rate" value="2"/>
+<param name="rate" value="$(arg rate)"/>"""
+    ),
 ]
 BAD = [
     _launch(f'<param name="rate" value="$(arg rate)"/>{_MARK}'),

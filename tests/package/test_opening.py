@@ -140,6 +140,12 @@ def test_the_source_space_of_a_workspace_that_looks_like_a_package_is_searched(
     assert "rover" in names(write(files))
 
 
+def test_copies_of_jupyter_are_no_part_of_a_package(write: Write) -> None:
+    copy = "rover/launch/.ipynb_checkpoints/drive-checkpoint.launch"
+    with open_input(write({**ROVER, copy: "<launch/>"}) / "rover") as opened:
+        assert not opened.packages[0].index.with_suffix(".launch")
+
+
 def test_a_folder_that_is_named_is_opened_although_it_is_ignored(write: Write) -> None:
     space = write({"rover/COLCON_IGNORE": "", **ROVER})
     assert names(space / "rover") == ["rover"]

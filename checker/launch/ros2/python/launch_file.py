@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from checker.launch.ros2.actions.gathered import Gathered
 from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind
@@ -27,11 +27,22 @@ def parse_source(source: SourceText) -> ast.Module | str:
     if len(source.text) > LENGTH_LIMIT:
         return f"is longer than {LENGTH_LIMIT} characters"
     try:
-        return ast.parse(source.text)
+        tree = ast.parse(source.text)
     except SyntaxError as error:
         return f"line {error.lineno}: {error.msg}"
     except (ValueError, RecursionError, MemoryError):
         return "it is nested too deeply, or contains characters that are not allowed"
+    return next(_repeated_keywords(tree), tree)
+
+
+def _repeated_keywords(tree: ast.Module) -> Iterator[str]:
+    """Yield keywords that a call gets twice, which Python refuses after it has parsed the file."""
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        seen: set[str] = set()
+        for keyword in call.keywords:
+            if keyword.arg in seen:
+                yield f"line {keyword.lineno}: keyword argument repeated: {keyword.arg}"
+            seen |= {keyword.arg} if keyword.arg else set()
 
 
 def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
