@@ -39,6 +39,7 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
         for link, shape in _ground(robot, foot_height)
     ]
     driven = {it.scoped_name for wheel in robot.locomotion.wheels for it in wheel.body}
+    driven |= {track.link.scoped_name for track in robot.locomotion.tracks}
     stating = {
         link.scoped_name in driven for link, _, friction in touching if friction.first is not None
     }

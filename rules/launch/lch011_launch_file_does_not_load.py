@@ -79,7 +79,7 @@ BAD = [
         "@ros2": "        Node(package='p' executable='e'),  # ^ LCH011",
     },
     {
-        "@ros2": "        Node(package='p', executable='e', output='log', output='both'),  # ^ LCH011",
+        "@ros2": "        Node(package='p', executable='e', output='a', output='b'),  # ^ LCH011",
     },
     {
         "@ros2": """        Node(package='p', executable='e', remappings=[
