@@ -230,6 +230,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("SDF001", {"arm.urdf": ""}, "warning"),
     ("SDF001", {"arm.urdf": "", "launch/a.launch": "<launch name='arm.urdf'/>"}, "error"),
     ("SDF001", {"launch/a.launch": "<launch><!-- a -- b --></launch>"}, "error"),
+    ("SDF001", {"parts/hand.urdf": "<gazebo/><gazebo/>"}, "warning"),
+    ("SDF001", {"config/arm.srdf": "<robot>"}, "warning"),
     ("SDF002", {"model.sdf": sdf("1.7")}, "warning"),
     ("SDF002", {"model.sdf": sdf("1.9")}, "error"),
     ("SDF003", '<sensor name="s" type="imu"><alwaysOn>1</alwaysOn></sensor>', "warning"),

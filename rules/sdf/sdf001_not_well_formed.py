@@ -7,7 +7,8 @@ element. In files that only Gazebo, pluginlib or Nav2 reads these are infos; the
 ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
 faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
 and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty file that no launch
-file names is a warning, and so is such an SRDF.
+file names is a warning, and so are such an SRDF, and a fragment of a URDF without `<robot>`, which
+other programs paste into a robot.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
@@ -70,8 +71,9 @@ def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
-        unused = path.endswith(".srdf") and not _is_used(path, package)
-        yield _finding(path, fault, Severity.WARNING if unused else None)
+        is_part = path.endswith(".urdf") and "<robot" not in fault.span.source.text
+        minor = (is_part or path.endswith(".srdf")) and not _is_used(path, package)
+        yield _finding(path, fault, Severity.WARNING if minor else None)
 
 
 def _is_used(path: str, package: Package) -> bool:
