@@ -13,7 +13,11 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 _DOCKERFILE = re.compile(r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile)\Z")
-_WORKDIR = re.compile(r"^[ \t]*WORKDIR[ \t]+[\"']?([\w./-]{1,300})[\"']?[ \t]*$", re.M | re.I)
+_WORKDIR = re.compile(
+    r"^[ \t]*(?:FROM\b|WORKDIR[ \t]+[\"']?([\w./${}-]{1,300})[\"']?[ \t]*$)", re.M | re.I
+)
+_OF_EVERY_SYSTEM = ("", "home", "root", "opt", "tmp")
+"""Folders in which others have files of their own; a variable may stand for any of them."""
 
 
 def container_with(package: Package, path: str) -> str:
@@ -31,10 +35,13 @@ def container_with(package: Package, path: str) -> str:
 
 
 def _working_folders(package: Package) -> Iterator[tuple[str, str]]:
-    """Yield working folders, each with its Dockerfile; one that is relative extends the former."""
+    """Yield working folders, each with its Dockerfile; one that is relative extends the former.
+
+    Each `FROM` begins anew. What a variable is part of is not known, nor what extends that.
+    """
     for source in files_around(package, _DOCKERFILE):
         folder = "/"
         for match in _WORKDIR.finditer(source.text):
-            folder = posixpath.normpath(posixpath.join(folder, match[1]))
-            if folder.strip("/"):
+            folder = posixpath.normpath(posixpath.join(folder, match[1])) if match[1] else "/"
+            if "$" not in folder and folder.strip("/") not in _OF_EVERY_SYSTEM:
                 yield source.file, folder

@@ -94,11 +94,11 @@ def _unseen(package: PackageReport, names_robots: bool) -> str:
     unseen = [spot for spot in package.blind_spots if spot.may_hide_error]
     robots = list(dict.fromkeys(spot.reason for spot in unseen if spot.rule == ROBOT))
     others = [spot for spot in unseen if spot.rule != ROBOT]
+    if robots and not names_robots:
+        return "no robot was read"
     reasons = robots or list(dict.fromkeys(it.reason for it in by_reason(others)))
     shown = plain(shortened(and_list(reasons[:3]), _REASON_LIMIT))
     blind = len({spot.rule for spot in others})
-    if robots and not names_robots:
-        return "no robot was read"
     what = "no robot was read" if robots else f"{count(blind, 'rule')} for errors could not run"
     return f"{what}: {shown}"
 

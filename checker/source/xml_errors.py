@@ -25,7 +25,7 @@ _FIRST_TAG = re.compile(r"<[A-Za-z_]+")
 
 def is_lenient(source: SourceText) -> bool:
     """Return whether only tinyxml2 reads a file: those of Gazebo, MuJoCo, pluginlib and Nav2."""
-    if source.file.endswith(GAZEBO_FILES):
+    if source.file.endswith((*GAZEBO_FILES, ".srdf")):
         return True
     first = _FIRST_TAG.search(source.text)
     root = first.group() if first is not None else ""

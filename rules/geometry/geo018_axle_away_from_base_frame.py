@@ -52,7 +52,7 @@ def check(robot: Robot, *, metres: float = 0.05, share: float = 0.2) -> Findings
             yield finding(
                 frame,
                 f"the axle of {kind} is {abs(x):.3g} m {side} {frame.value!r}, the frame of its "
-                f"odometry, which is wrong in turns: name a frame between the wheels",
+                "odometry, which is wrong in turns: name a frame between the wheels",
             )
 
 

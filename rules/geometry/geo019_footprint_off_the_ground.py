@@ -24,9 +24,9 @@ def check(robot: Robot, *, metres: float = 0.02) -> Findings:
         metres: Greatest distance; more is reported.
     """
     link, pose = robot.links_by_name.get(_NAME), robot.pose_of(_NAME)
-    if link is None or pose is None or _NAME not in robot.tree.base:
+    if link is None or pose is None or _NAME not in robot.tree.base or robot.locomotion.tracks:
         return
-    boxes = [robot.box_of(wheel) for wheel in robot.wheels]
+    boxes = [robot.box_of(it, visuals_too=not it.collisions) for it in robot.wheels]
     known = [box for box in boxes if box is not None]
     if len(known) < max(_LEAST_WHEELS, len(boxes)):
         return

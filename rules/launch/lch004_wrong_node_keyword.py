@@ -26,7 +26,7 @@ _RELEASES = re.compile(r"(?<![a-z])(?:ardent|bouncy|crystal|dashing|eloquent|fox
 
 @rule("LCH004", "wrong-node-keyword", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
-    """Report nodes without executable, and keywords that were renamed."""
+    """Report nodes without executable, and keywords that were renamed or misspelt."""
     sign = package.distribution_sign
     distro = sign.distro if sign is not None else ""
     for graph in launch.entries:

@@ -37,6 +37,7 @@ _FATAL = (
     LaunchFaultKind.INCLUDE_LOOP,
 )
 _DECLARED = re.compile(r"""<arg\b[^<>]{0,300}?\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})""")
+_PASSES_ALL = "pass_all_args"
 _WORD = re.compile(r"[\w.-]+")
 _BUILD = ("CMakeLists.txt", "setup.py")
 _NOT_PLAIN = re.compile(r"\bGLOB\b|\bforeach\b|\badd_subdirectory\b|add_executable\W{1,8}\$")
@@ -50,7 +51,7 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
     if is_ros2_only(package):
         return
     for fault in launch.graph.faults:
-        if fault.kind in _FATAL and not (_may_be_given(fault) or _may_be_declared(fault)):
+        if fault.kind in _FATAL and not (_may_be_given(fault) or _may_be_declared(package, fault)):
             yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
     if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
         for entry in launch.entries:
@@ -69,10 +70,15 @@ def _may_be_given(fault: LaunchFault) -> bool:
     return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
 
 
-def _may_be_declared(fault: LaunchFault) -> bool:
-    """Return whether the file declares an arg that is used, on a condition that is not known."""
+def _may_be_declared(package: Package, fault: LaunchFault) -> bool:
+    """Return whether an arg that is used may be given, or declared on an unknown condition.
+
+    A file that is included with all args knows them without declaring them.
+    """
     if fault.kind is not LaunchFaultKind.UNDECLARED_ARG:
         return False
+    if package.workspace.launches_with(_PASSES_ALL):
+        return True
     declared = _DECLARED.findall(fault.span.source.text[: fault.span.start])
     return any(f"{name!r}" in fault.message for name in declared)
 

@@ -3,8 +3,8 @@
 With `use_sim_time`, the time of a node is that of the messages on /clock. A launch file that starts
 the driver of a sensor and no simulator has none: the time stays zero, transforms and scans with the
 time of the system are decades ahead, and mapping and navigation wait. So does one that starts
-ros2_control_node, which runs beside no simulator: trajectories do not advance. Usually the default
-of the argument was copied from a launch file for Gazebo.
+ros2_control_node with mock hardware: trajectories do not advance. Usually the default of the
+argument was copied from a launch file for Gazebo.
 
 It is reported where all that the launch file starts was read, and no launch file of the workspace
 names a simulator, a bridge of /clock or the replay of a recording.
@@ -17,9 +17,12 @@ the packages of the drivers, by their names in the ROS index.
 import re
 
 from checker.package.package import Package
+from checker.ros.ros2_control.distributions import is_mock
+from checker.ros.ros2_control.hardware import read_hardware
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ros2_control
 
 _PARAMETER = "use_sim_time"
 _DRIVERS = (
@@ -43,7 +46,7 @@ _MAY_PUBLISH = re.compile(r"clock|sim|bridge|gz|ign|bag|replay|play|unity", re.I
 @rule("LCH023", "simulated-time-on-real-robot", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring, package: Package) -> Findings:
     """Report the first node that waits for the time, beside the driver of a device or robot."""
-    drivers = [it for it in wiring.nodes if _is_real(it)]
+    drivers = [it for it in wiring.nodes if _is_real(it, wiring)]
     if not drivers or wiring.unread or wiring.simulation is not None:
         return
     waiting = [it for it in wiring.nodes if it.node.package.value not in _DRIVERS and _waits(it)]
@@ -61,9 +64,12 @@ def check(wiring: Wiring, package: Package) -> Findings:
     )
 
 
-def _is_real(node: WiredNode) -> bool:
-    """Return whether a node is the driver of a device, or runs the hardware of a robot."""
-    return node.node.package.value in _DRIVERS or node.program == _MANAGER
+def _is_real(node: WiredNode, wiring: Wiring) -> bool:
+    """Return whether a node is the driver of a device, or runs mock hardware."""
+    roots = [robot.document.root for _, robot in wiring.described]
+    plugins = [it.plugin.value for root in roots for it in read_hardware(root)]
+    mock = bool(plugins) and all(map(is_mock, plugins))
+    return node.node.package.value in _DRIVERS or (mock and node.program == _MANAGER)
 
 
 def _waits(node: WiredNode) -> bool:
@@ -92,6 +98,10 @@ def _slam(sim: str, driver: str = "sllidar_ros2", mark: str = "") -> dict[str, o
 
 
 _MOCK = """<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/arm.urdf')"/>
+  </node>
   <node pkg="controller_manager" exec="ros2_control_node">
     <param name="use_sim_time" value="true"/>  <!-- ^ LCH023 -->
   </node>
@@ -105,5 +115,9 @@ GOOD = [
 ]
 BAD = [
     _slam("true", mark="  <!-- ^ LCH023 -->"),
-    {**_slam("true"), "launch/slam.launch.xml": _MOCK},
+    {
+        **_slam("true"),
+        "launch/slam.launch.xml": _MOCK,
+        "urdf/arm.urdf": f'<robot name="arm"><link name="base_link"/>{ros2_control()}</robot>',
+    },
 ]

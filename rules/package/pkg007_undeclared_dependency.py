@@ -68,12 +68,17 @@ _ROS_BASE = (
     rf"{_ROS_CORE}|tf2(?:_eigen|_geometry_msgs|_kdl|_msgs|_py|_ros|_sensor_msgs|_tools)?|urdf"
     "|kdl_parser|robot_state_publisher"
 )
+_DESKTOP = (
+    rf"{_ROS_BASE}|joy|rviz2|rviz_default_plugins|teleop_twist_(?:joy|keyboard)"
+    "|depthimage_to_laserscan|pcl_conversions|angles"
+)
+_PERCEPTION = rf"{_ROS_BASE}|laser_filters|laser_geometry|cv_bridge|image_geometry"
 _PACKAGES_OF_PACKAGES = {
     "ros_core": _ROS_CORE,
     "ros_base": _ROS_BASE,
-    "desktop": rf"{_ROS_BASE}|joy|rviz2|rviz_default_plugins|teleop_twist_(?:joy|keyboard)"
-    "|depthimage_to_laserscan|pcl_conversions|angles",
-    "perception": rf"{_ROS_BASE}|laser_filters|laser_geometry|cv_bridge|image_geometry",
+    "desktop": _DESKTOP,
+    "perception": _PERCEPTION,
+    "desktop_full": rf"{_DESKTOP}|{_PERCEPTION}|ros_gz_.*",
     "rtabmap_ros": "rtabmap_(?:conversions|demos|examples|launch|msgs|odom|python|rviz_plugins"
     "|slam|sync|util|viz)",
     "turtlebot3": "turtlebot3_(?:bringup|cartographer|description|example|navigation2|node|teleop)",

@@ -3,12 +3,12 @@
 A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, `<` for `&lt;` inside a value, control characters and a second root
-element. In files that only Gazebo, pluginlib or Nav2 reads these are infos; the other parsers of
-ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not checked. So are
-faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
-and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty file that no launch
-file names is a warning, and so are such an SRDF, and a fragment of a URDF without `<robot>`, which
-other programs paste into a robot.
+element. In files that only Gazebo, pluginlib, Nav2 or MoveIt reads these are infos; the other
+parsers of ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not
+checked. So are faults of files in a folder of tests whose name says that a test expects them
+(`invalid_tree.urdf`), and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An
+empty file that no launch file names is a warning, and so are such an SRDF, and a fragment of a URDF
+without `<robot>`, which other programs paste into a robot.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
@@ -29,6 +29,8 @@ from checker.source.xml_errors import GAZEBO_FILES, is_lenient
 from checker.source.xml_positions import XmlFault
 
 _FOLDERS = {"template", "templates"}
+_BUILDER = "MoveItConfigsBuilder"
+"""What reads an SRDF without naming it."""
 _PLACEHOLDER = re.compile(r"\[[A-Z][A-Z0-9_]{1,80}\]")
 
 
@@ -72,7 +74,8 @@ def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
         is_part = path.endswith(".urdf") and "<robot" not in fault.span.source.text
-        minor = (is_part or path.endswith(".srdf")) and not _is_used(path, package)
+        is_srdf = path.endswith(".srdf") and not package.workspace.launches_with(_BUILDER)
+        minor = (is_part or is_srdf) and not _is_used(path, package)
         yield _finding(path, fault, Severity.WARNING if minor else None)
 
 

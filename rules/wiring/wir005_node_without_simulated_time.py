@@ -9,11 +9,14 @@ It is reported for nodes of localisation, mapping and navigation where all param
 were read, and the launch file starts Gazebo whose /clock comes to ROS; or where it starts another
 such node or a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away
 from the other's. So it is where the argument `use_sim_time` of a launch file, false by default, is
-given to one of them and not to another, if a README starts launch files with `use_sim_time:=true`.
+given to one of them and not to another, if a README starts the launch file with that argument true.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
 """
+
+import posixpath
+from itertools import chain
 
 from checker.launch.ros2.graph import NodeKind
 from checker.package.files_above import README, files_around
@@ -44,10 +47,10 @@ def check(wiring: Wiring, package: Package) -> Findings:
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
         reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
     given, expected = [node for node in timed if _is_given(node)], "true"
-    if given and not simulated and not reason and _is_started_with_it(package):
+    if given and not simulated and not reason and _is_started_with_it(package, wiring):
         reason = f"use_sim_time:=true reaches {given[0].label} and not this node"
         expected = "the value of the argument"
-        timed = [node for node in timed if node not in given]
+        timed = [it for it in timed if it not in given and not it.node.conditions]
     for node in timed if reason else ():
         setting = node.settings.get(_PARAMETER)
         is_affected = node.node.package.value != STATE_PUBLISHER
@@ -68,9 +71,12 @@ def _compares_time(node: WiredNode) -> bool:
     return node.node.package.value in (*_PACKAGES, STATE_PUBLISHER)
 
 
-def _is_started_with_it(package: Package) -> bool:
+def _is_started_with_it(package: Package, wiring: Wiring) -> bool:
     """Return whether a README of the package, or above it, gives the argument the value true."""
-    return any(_COMMAND in source.text.lower() for source in files_around(package, README))
+    name = posixpath.basename(wiring.graph.file)
+    texts = (source.text for source in files_around(package, README))
+    lines = chain.from_iterable(map(str.splitlines, texts))
+    return any(name in line and _COMMAND in line.lower() for line in lines)
 
 
 def _is_given(node: WiredNode) -> bool:

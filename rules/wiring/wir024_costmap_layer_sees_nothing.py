@@ -3,8 +3,8 @@
 An obstacle or voxel layer marks what the sources in `observation_sources` see. Without that
 parameter it subscribes to nothing, says so nowhere, and the robot drives into what its map does not
 have. A source in the list without a block of its name has the defaults: a LaserScan, of which
-nothing is marked above `max_obstacle_height`, which is 0. So is it in a block that does not state
-it. A voxel layer holds 16 voxels in each
+nothing is marked above `max_obstacle_height`, which is 0. It is also 0 in a block that does not
+state it. A voxel layer holds 16 voxels in each
 column; above them nothing is marked, whatever `z_voxels` says.
 
 Layers of Nav2 that `plugins` lists are judged, by all parameter files of the package; for ROS 1

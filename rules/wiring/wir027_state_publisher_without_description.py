@@ -3,8 +3,8 @@
 It ends when it starts: "robot_description parameter must not be empty". Nothing publishes the robot
 and its transforms, so RViz shows nothing, and what reads `robot_description` waits.
 
-The description may be a parameter, a file of parameters or an argument of the node; a node whose
-parameters are not all known is not reported.
+Of a node that does not start by default it is a warning. The description may be a parameter, a file
+of parameters or an argument of the node; a node whose parameters are not all known is not reported.
 
 Fix: give the node the parameter `robot_description`, usually the output of xacro.
 Source: robot_state_publisher, README: the parameter must be set when the node starts, or it fails
@@ -31,6 +31,7 @@ def check(launch: Ros2Launch) -> Findings:
                     node.executable,
                     "robot_state_publisher ends when it starts, since it gets no "
                     f"robot_description: expected {_LINE}",
+                    severity=None if node.starts else Severity.WARNING,
                 )
 
 

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
 OLD_KEYWORDS: Mapping[str, str] = MappingProxyType(
     {"node_name": "name", "node_executable": "executable", "node_namespace": "namespace"}
 )
+"""Keywords of `Node` until Foxy, each with its present one."""
 _KEYWORDS = (
     *("package", "executable", "name", "namespace", "exec_name", "parameters", "remappings"),
     *("ros_arguments", "arguments", "composable_node_descriptions", "condition"),
@@ -61,7 +62,6 @@ _KEYWORDS = (
     *("on_exit", "respawn", "respawn_delay", "respawn_max_retries"),
 )
 """Keywords of nodes and containers, with those of `ExecuteProcess`, which gets the others."""
-"""Keywords of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,
