@@ -37,7 +37,7 @@ def container_with(package: Package, path: str) -> str:
 def _working_folders(package: Package) -> Iterator[tuple[str, str]]:
     """Yield working folders, each with its Dockerfile; one that is relative extends the former.
 
-    Each `FROM` begins anew. What a variable is part of is not known, nor what extends that.
+    Each `FROM` begins at `/`. What a variable is part of is not known, nor what extends that.
     """
     for source in files_around(package, _DOCKERFILE):
         folder = "/"
