@@ -36,7 +36,6 @@ _FATAL = (
     LaunchFaultKind.MISSING_FILE,
     LaunchFaultKind.INCLUDE_LOOP,
 )
-_DECLARED = re.compile(r"""<arg\b[^<>]{0,300}?\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})""")
 _PASSES_ALL = "pass_all_args"
 _WORD = re.compile(r"[\w.-]+")
 _BUILD = ("CMakeLists.txt", "setup.py")
@@ -51,7 +50,7 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
     if is_ros2_only(package):
         return
     for fault in launch.graph.faults:
-        if fault.kind in _FATAL and not (_may_be_given(fault) or _may_be_declared(package, fault)):
+        if fault.kind in _FATAL and not _may_be_given(package, fault):
             yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
     if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
         for entry in launch.entries:
@@ -65,22 +64,14 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
         yield from _without_program(package, node)
 
 
-def _may_be_given(fault: LaunchFault) -> bool:
-    """Return whether an arg is missing in the file that a person starts, and gives it to."""
-    return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
+def _may_be_given(package: Package, fault: LaunchFault) -> bool:
+    """Return whether what starts or includes the file may give the arg that is missing.
 
-
-def _may_be_declared(package: Package, fault: LaunchFault) -> bool:
-    """Return whether an arg that is used may be given, or declared on an unknown condition.
-
-    A file that is included with all args knows them without declaring them.
+    A person starts a file that lacks one; a file that gets all args need not declare them.
     """
-    if fault.kind is not LaunchFaultKind.UNDECLARED_ARG:
-        return False
-    if package.workspace.launches_with(_PASSES_ALL):
-        return True
-    declared = _DECLARED.findall(fault.span.source.text[: fault.span.start])
-    return any(f"{name!r}" in fault.message for name in declared)
+    if fault.kind is LaunchFaultKind.UNDECLARED_ARG:
+        return bool(package.workspace.launches_with(_PASSES_ALL))
+    return fault.kind is LaunchFaultKind.MISSING_ARG and fault.span.text.startswith("<arg")
 
 
 def _of_one_name(nodes: Iterable[Node]) -> Iterator[Finding]:

@@ -132,25 +132,22 @@ class Reader:
         text = self.text(element, attribute, scope)
         return default if text is None else text.value
 
-    def is_enabled(self, element: Element, scope: Scope) -> bool:
-        """Return whether `if` and `unless` enable an element; unknown values disable it."""
+    def is_enabled(self, element: Element, scope: Scope) -> bool | None:
+        """Return whether `if` and `unless` enable an element; None where a value is unknown."""
         for attribute, enabling_truth in (("if", True), ("unless", False)):
             condition = self.text(element, attribute, scope)
             if condition is None:
                 continue
             truth = truth_of(condition.value)
+            if truth is None and not is_known(condition.value):
+                self.undecided.append(condition)
+                return None
             if truth is None:
-                self._neither(attribute, condition)
+                message = f"{attribute}={condition.value!r} is not true, false, 1 or 0"
+                self.fault(LaunchFaultKind.CONDITION, condition.span, message)
             if truth is not enabling_truth:
                 return False
         return True
-
-    def _neither(self, attribute: str, condition: Located[str]) -> None:
-        if not is_known(condition.value):
-            self.undecided.append(condition)
-            return
-        message = f"{attribute}={condition.value!r} is not true, false, 1 or 0"
-        self.fault(LaunchFaultKind.CONDITION, condition.span, message)
 
 
 def split_words(written: Located[str], scope: Scope) -> Iterator[Located[str]]:

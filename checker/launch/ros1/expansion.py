@@ -78,6 +78,7 @@ class _Expansion:
         self._unresolved: list[UnresolvedInclude] = []
         self._assumed: list[UnresolvedInclude] = []
         self._dormant_includes: list[UnresolvedInclude] = []
+        self._unsure: set[str] = set()  # args on conditions that are not known
         self._handlers: dict[str, Callable[[Element, Scope], None]] = {
             "arg": self._arg,
             "env": self._env,
@@ -116,8 +117,11 @@ class _Expansion:
             if not self._reader.charge(element, 1):
                 return False
             handler = self._handlers.get(element.tag)
-            if handler and self._reader.is_enabled(element, scope):
+            enabled = self._reader.is_enabled(element, scope) if handler else False
+            if handler and enabled:
                 handler(element, scope)
+            elif element.tag == "arg" and enabled is None:
+                self._may_declare(element, scope)
             elif element.tag in ("group", "include", "node") and not self._asleep:
                 self._read_dormant(element, scope)
         return True
@@ -135,13 +139,21 @@ class _Expansion:
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""
-        if scope.declares(name):
+        if scope.declares(name) and name not in self._unsure:
             message = f"the arg {name!r} is declared twice"
             self._reader.fault(LaunchFaultKind.REPEATED_ARG, element, message)
             return
         value = self._arg_value(element, name, scope)
         scope.args[name] = value
         scope.file.declared[name] = Located(value, element.span)
+
+    def _may_declare(self, element: Element, scope: Scope) -> None:
+        """Declare an arg on an unknown condition: usually another element declares it otherwise."""
+        name = element.get("name") or ""
+        if not scope.declares(name):
+            self._unsure.add(name)
+            scope.args[name] = scope.file.given.get(name, f"$(arg {name})")
+            scope.file.declared[name] = Located(scope.args[name], element.span)
 
     def _arg_value(self, element: Element, name: str, scope: Scope) -> str:
         file = scope.file
