@@ -211,6 +211,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
             _finite(
                 _facts(
                     robot,
+                    robot.document.source.file if len(robots) > 1 else None,
                     _at(weighed, number),
                     next((each for each in driven if each.robot is robot), None),
                 )
@@ -220,11 +221,9 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     ]
     if len(robots) > 1:
         undriven = next((trials.undriven for trials in subject.cached_parts(RobotTrials)), {})
-        for number, robot in enumerate(robots[:ROBOTS_LIMIT]):
-            known = facts[number]
-            facts[number] = {"robot": known["robot"], "file": robot.document.source.file, **known}
+        for number, known in enumerate(facts):
             if number in undriven:
-                facts[number]["not_driven"] = undriven[number]
+                known["not_driven"] = undriven[number]
     for known, robot in zip(facts, robots, strict=False):
         known.update(_arguments(subject, robot))
     return tuple(facts)
@@ -248,10 +247,11 @@ def _at(items: Sequence[_T], number: int) -> _T | None:
 
 
 def _facts(
-    robot: Robot, masses: MassProperties | None, driven: RobotTrial | None
+    robot: Robot, file: str | None, masses: MassProperties | None, driven: RobotTrial | None
 ) -> dict[str, Any]:
     known: dict[str, Any] = {
         "robot": robot.name.value[:200],
+        "file": file,
         "mass_kg": robot.mass,
         "links": len(robot.links),
         "joints": len(robot.joints),

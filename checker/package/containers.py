@@ -17,7 +17,7 @@ _WORKDIR = re.compile(
     r"^[ \t]*(?:FROM\b|WORKDIR[ \t]+[\"']?([\w./${}-]{1,300})[\"']?[ \t]*$)", re.M | re.I
 )
 _OF_EVERY_SYSTEM = ("", "home", "root", "opt", "tmp")
-"""Folders in which others have files of their own; a variable may stand for any of them."""
+"""Folders that every system has: what is in them on another machine is not known."""
 
 
 def container_with(package: Package, path: str) -> str:

@@ -7,7 +7,6 @@ from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.expansion import Expander
 from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros2.graph import Ros2Launch
-from checker.launch.ros2.package_launch import launches_naming
 from checker.model.locomotion.controlled import without_idle
 from checker.model.placed_robots import PlacedRobots, placed
 from checker.model.robot import Robot
@@ -53,8 +52,7 @@ def spawned_reader(package: Package, expander: Expander, control: ControlReader)
 @part
 def spawned_files(package: Package, launch: Ros2Launch | NotAvailable) -> SpawnedFiles:
     """Return which descriptions of the package launch files put into Gazebo."""
-    own = () if isinstance(launch, NotAvailable) else launch.entries
-    return SpawnedFiles(package, (*own, *(graph for _, graph in launches_naming(package))))
+    return SpawnedFiles(package, () if isinstance(launch, NotAvailable) else launch.entries)
 
 
 @part

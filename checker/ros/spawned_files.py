@@ -9,6 +9,7 @@ from checker.base.record import Record
 from checker.formats.xacro.files import local_path
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, is_known
+from checker.launch.ros2.package_launch import launches_naming
 from checker.model.robot import Robot
 from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
@@ -37,11 +38,20 @@ class SpawnedFiles(Record, eq=False, dict=True):
 
     Attributes:
         package: The package being checked.
-        graphs: What these launch files start.
+        own: What its own launch files start.
     """
 
     package: Package
-    graphs: tuple[LaunchGraph, ...]
+    own: tuple[LaunchGraph, ...]
+
+    @cached_property
+    def _graphs(self) -> Sequence[tuple[LaunchGraph, Sequence[LoadedDescription]]]:
+        """What these launch files start, and the descriptions that they load.
+
+        Most packages need none of it: those of others are read when the first rule asks.
+        """
+        graphs = (*self.own, *(graph for _, graph in launches_naming(self.package)))
+        return [(graph, [*loaded_descriptions(self.package, graph)]) for graph in graphs]
 
     def without(self, robot: Robot) -> str:
         """Return that Gazebo never gets a robot that is loaded, as a clause; empty if it may.
@@ -49,7 +59,7 @@ class SpawnedFiles(Record, eq=False, dict=True):
         Either launch files spawn others, or a controller manager outside of Gazebo gets it.
         """
         file = robot.document.source.file
-        loading = [graph for graph in self.graphs if file in self._loaded(graph)]
+        loading = [graph for graph, loaded in self._graphs if file in map(self._file, loaded)]
         spawns = self._spawns
         if not loading or spawns is None or any(it.file == file for it in spawns):
             return ""
@@ -68,14 +78,15 @@ class SpawnedFiles(Record, eq=False, dict=True):
     @cached_property
     def _spawns(self) -> tuple[_Spawn, ...] | None:
         """All that is spawned; None if that is not known."""
-        found = [spawn for graph in self.graphs for spawn in self._spawned(graph)]
+        found = [spawn for each in self._graphs for spawn in self._spawned(*each)]
         known = tuple(it for it in found if it is not None)
         return known if len(known) == len(found) else None
 
-    def _spawned(self, graph: LaunchGraph) -> Iterator[_Spawn | None]:
+    def _spawned(
+        self, graph: LaunchGraph, loaded: Sequence[LoadedDescription]
+    ) -> Iterator[_Spawn | None]:
         if graph.unread or any(spawned_otherwise(graph)):
             yield None
-        loaded = [*loaded_descriptions(self.package, graph)]
         for node in graph.nodes_and_spawns:
             program = (node.package.value, node.executable.value)
             if program in EVERY_SPAWN:
@@ -88,12 +99,10 @@ class SpawnedFiles(Record, eq=False, dict=True):
     def _spawn(
         self, graph: LaunchGraph, given: LoadedDescription, *, in_classic: bool
     ) -> _Spawn | None:
-        file = local_path(self.package, given.load.path)
-        return None if may_load_others(graph, given) else _Spawn(file or "", in_classic)
+        return None if may_load_others(graph, given) else _Spawn(self._file(given), in_classic)
 
-    def _loaded(self, graph: LaunchGraph) -> set[str | None]:
-        loaded = loaded_descriptions(self.package, graph)
-        return {local_path(self.package, it.load.path) for it in loaded}
+    def _file(self, loaded: LoadedDescription) -> str:
+        return local_path(self.package, loaded.load.path) or ""
 
 
 def _given(

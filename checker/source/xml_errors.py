@@ -24,7 +24,7 @@ _FIRST_TAG = re.compile(r"<[A-Za-z_]+")
 
 
 def is_lenient(source: SourceText) -> bool:
-    """Return whether only tinyxml2 reads a file: those of Gazebo, MuJoCo, pluginlib and Nav2."""
+    """Return whether tinyxml2 alone reads a file, for Gazebo, MuJoCo, pluginlib, Nav2 or MoveIt."""
     if source.file.endswith((*GAZEBO_FILES, ".srdf")):
         return True
     first = _FIRST_TAG.search(source.text)

@@ -46,7 +46,8 @@ _MAY_PUBLISH = re.compile(r"clock|sim|bridge|gz|ign|bag|replay|play|unity", re.I
 @rule("LCH023", "simulated-time-on-real-robot", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring, package: Package) -> Findings:
     """Report the first node that waits for the time, beside the driver of a device or robot."""
-    drivers = [it for it in wiring.nodes if _is_real(it, wiring)]
+    real = _MANAGER if _is_mock(wiring) else ""
+    drivers = [it for it in wiring.nodes if it.node.package.value in _DRIVERS or it.program == real]
     if not drivers or wiring.unread or wiring.simulation is not None:
         return
     waiting = [it for it in wiring.nodes if it.node.package.value not in _DRIVERS and _waits(it)]
@@ -64,12 +65,11 @@ def check(wiring: Wiring, package: Package) -> Findings:
     )
 
 
-def _is_real(node: WiredNode, wiring: Wiring) -> bool:
-    """Return whether a node is the driver of a device, or runs mock hardware."""
+def _is_mock(wiring: Wiring) -> bool:
+    """Return whether the robots of a launch have mock hardware alone."""
     roots = [robot.document.root for _, robot in wiring.described]
     plugins = [it.plugin.value for root in roots for it in read_hardware(root)]
-    mock = bool(plugins) and all(map(is_mock, plugins))
-    return node.node.package.value in _DRIVERS or (mock and node.program == _MANAGER)
+    return bool(plugins) and all(map(is_mock, plugins))
 
 
 def _waits(node: WiredNode) -> bool:

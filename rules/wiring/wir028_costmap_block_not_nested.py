@@ -13,32 +13,25 @@ keys are namespaces and names of nodes.
 """
 
 from checker.package.package import Package
-from checker.ros.wiring.costmaps import COSTMAPS
+from checker.ros.wiring.costmaps import costmap_blocks
+from checker.ros.wiring.parameters import blocks_in
 from checker.rule import Concern, Findings, Severity, finding, rule
-from checker.source.text import SourceText
-from checker.source.yaml import read_root
 
-_PARAMETERS = "ros__parameters"
-_SERVERS = ("controller_server", "planner_server")
+_SERVERS = frozenset({"controller_server", "planner_server"})
 
 
 @rule("WIR028", "costmap-block-not-nested", Severity.WARNING, Concern.INTERFACE)
 def check(package: Package) -> Findings:
     """Report blocks of costmaps that lack one of the two levels of names."""
-    for file in package.index.with_suffix(".yaml", ".yml"):
-        source = package.read(file.path)
-        if not isinstance(source, SourceText) or "costmap" not in source.text:
-            continue
-        root = read_root(source)
-        if root is None or not any(root.get(name) is not None for name in _SERVERS):
-            continue
-        for key, value in root.entries if root.kind == "mapping" else ():
-            if key.scalar in COSTMAPS and value.get(_PARAMETERS) is not None:
-                yield finding(
-                    key,
-                    f"no node reads this block: the costmap is /{key.scalar}/{key.scalar}, and "
-                    f"runs with its defaults; write `{key.scalar}:` twice, one below the other",
-                )
+    for costmap in costmap_blocks(package):
+        name, block = costmap.block.node, costmap.block
+        servers = (it.node for it in blocks_in(package, costmap.file, name))
+        if block.name.strip("/") == name and not _SERVERS.isdisjoint(servers):
+            yield finding(
+                block.span,
+                f"no node reads this block: the costmap is /{name}/{name}, and runs with its "
+                f"defaults; write `{name}:` twice, one below the other",
+            )
 
 
 def _file(costmap: str, server: str = "controller_server") -> dict[str, object]:
