@@ -70,8 +70,9 @@ def former_distribution(package: Package) -> str:
 
 def sign_of_paths(package: Package) -> DistributionSign | None:
     """Return the distribution whose folder the descriptions and scripts of a package name."""
-    files = (it for it in own_files(package, _WITH_PATHS) if not is_of_tests(it.file))
-    return _only([*_found((it for it in files if not _CI.search(it.file.lower())), _INSTALLED)])
+    every = own_files(package, _WITH_PATHS)
+    files = (it for it in every if not (is_of_tests(it.file) or _CI.search(it.file.lower())))
+    return _only([*_found(files, _INSTALLED)])
 
 
 def _only(signs: Sequence[DistributionSign]) -> DistributionSign | None:

@@ -228,11 +228,9 @@ def _lacks_manifest(folder: Path) -> bool:
         known = any(is_file(folder / each) for each in _BUILDS)
     except OSError:
         return False
-    return not known and not any(map(looks_like_package, inside)) and not _lies_in_package(folder)
-
-
-def _lies_in_package(folder: Path) -> bool:
-    return enclosing_package(folder.parent, _LEVELS) is not None
+    return not (
+        known or any(map(looks_like_package, inside)) or enclosing_package(folder.parent, _LEVELS)
+    )
 
 
 def _is_package(folder: Path) -> bool:

@@ -86,6 +86,28 @@ def rover(
 """
 
 
+def ball_wheel(name: str, x: float, y: float, mark: str = "") -> str:
+    """Return a wheel without mass whose collision is a ball, on the joint `NAME_axle`.
+
+    Args:
+        name: The name of its link.
+        x: Where it is ahead of base_link, metres.
+        y: Where it is to the left of base_link, metres.
+        mark: Comment behind its pose.
+    """
+    return f"""
+<link name="{name}">
+  <pose>{x} {y} 0 0 0 0</pose>{mark}
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_axle" type="revolute">
+  <parent>base_link</parent>
+  <child>{name}</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+
+
 def rover_with(parts: str, mark: str) -> dict[str, object]:
     """Return an example: the rover of `@robot` with further parts, marked at its `<model>`."""
     marked = {'sensor_config_1">': f'sensor_config_1">{mark}'}

@@ -13,6 +13,7 @@ from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ball_wheel
 
 
 @rule("GEO011", "body-below-wheels", Severity.ERROR, Concern.ROBOT)
@@ -63,7 +64,7 @@ def _finding(piece: Placed, clearance: float, expected: float, tolerance: float)
 def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True) -> str:
     ends = (("front", 0.3), ("rear", -0.3)) if rear else (("front", 0.0),)
     sides = (("left", 0.2), ("right", -0.2))
-    wheels = "".join(_wheel(f"{end}_{side}", x, y) for end, x in ends for side, y in sides)
+    wheels = "".join(ball_wheel(f"{end}_{side}", x, y) for end, x in ends for side, y in sides)
     joints = "".join(
         f"<{side}_joint>{end}_{side}_axle</{side}_joint>" for end, _ in ends for side, _ in sides
     )
@@ -86,20 +87,6 @@ def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True)
 <plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{joints}</plugin>
 </model>
 </sdf>
-"""
-
-
-def _wheel(name: str, x: float, y: float) -> str:
-    return f"""
-<link name="{name}">
-  <pose>{x} {y} 0 0 0 0</pose>
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_axle" type="revolute">
-  <parent>base_link</parent>
-  <child>{name}</child>
-  <axis><xyz>0 1 0</xyz></axis>
-</joint>
 """
 
 

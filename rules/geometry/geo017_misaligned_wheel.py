@@ -11,6 +11,7 @@ Source: geometry of the collisions that the drive's wheels roll on.
 from checker.model.locomotion.wheel_tracks import wheels_out_of_line
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ball_wheel
 
 
 @rule("GEO017", "misaligned-wheel", Severity.WARNING, Concern.ROBOT)
@@ -38,25 +39,16 @@ def _rover(front_left: float, front_right: float, mark: str = "") -> str:
         "rear_left": (-0.3, 0.2),
         "rear_right": (-0.3, -0.2),
     }
-    wheels = "".join(_wheel(name, *place, mark) for name, place in places.items())
+    wheels = "".join(
+        ball_wheel(name, *place, mark if name == "front_left" else "")
+        for name, place in places.items()
+    )
     joints = "".join(
         f"<{name.rpartition('_')[2]}_joint>{name}_axle</{name.rpartition('_')[2]}_joint>"
         for name in places
     )
     return f"""{wheels}
 <plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{joints}</plugin>
-"""
-
-
-def _wheel(name: str, x: float, y: float, mark: str) -> str:
-    return f"""
-<link name="{name}">
-  <pose>{x} {y} 0 0 0 0</pose>{mark if name == "front_left" else ""}
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_axle" type="revolute">
-  <parent>base_link</parent><child>{name}</child><axis><xyz>0 1 0</xyz></axis>
-</joint>
 """
 
 

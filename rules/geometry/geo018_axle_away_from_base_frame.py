@@ -19,6 +19,7 @@ from checker.model.components import Plugin
 from checker.model.locomotion.locomotion import WheelDrive
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rulebook.example_parts import ball_wheel
 from checker.source.text import Located
 
 _KINDS = ("DiffDrive", "DiffDriveController")
@@ -65,26 +66,12 @@ def _frames(drive: WheelDrive) -> Iterator[Located[str]]:
             yield from drive.plugin.texts(name)
 
 
-def _wheel(name: str, pose: str) -> str:
-    return f"""
-<link name="{name}">
-  <pose>{pose} 0 0 0</pose>
-  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link>
-<joint name="{name}_axle" type="revolute">
-  <parent>base_link</parent>
-  <child>{name}</child>
-  <axis><xyz>0 1 0</xyz></axis>
-</joint>
-"""
-
-
 def _rover(x: float, frame: str = "base_link", mark: str = "") -> str:
     return f"""
 <link name="axle"><pose>{x} 0 0 0 0 0</pose></link>
 <joint name="mount" type="fixed"><parent>base_link</parent><child>axle</child></joint>
-{_wheel("left", f"{x} 0.2 0")}
-{_wheel("right", f"{x} -0.2 0")}
+{ball_wheel("left", x, 0.2)}
+{ball_wheel("right", x, -0.2)}
 <plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
   <left_joint>left_axle</left_joint>
   <right_joint>right_axle</right_joint>

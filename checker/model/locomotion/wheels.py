@@ -37,19 +37,10 @@ def tread(robot: Robot, wheel: Wheel) -> Placed | None:
     return max(wheel_shapes(robot, wheel), key=lambda piece: piece.box.diagonal, default=None)
 
 
-def misalignment(robot: Robot, wheel: Wheel) -> float | None:
-    """Return the angle between the axis of a wheel's tread and that of its joint, 0…π/2 rad.
-
-    None if one of them has no axis: a sphere or box, a joint whose axis is not known.
-    """
-    rolls = tread(robot, wheel)
-    return angle_to_axle(wheel, rolls) if rolls is not None else None
-
-
 def angle_to_axle(wheel: Wheel, rolls: Placed) -> float | None:
     """Return the angle between the axis of a shape and that of a wheel's joint, 0…π/2 rad.
 
-    None if one of them has no axis.
+    None if one of them has no axis: a sphere or box, a joint whose axis is not known.
     """
     if wheel.axis is None or rolls.shape.geometry.shape not in _ROUND:
         return None
@@ -60,7 +51,9 @@ def angle_to_axle(wheel: Wheel, rolls: Placed) -> float | None:
 
 def is_misaligned(robot: Robot, wheel: Wheel) -> bool:
     """Return whether a wheel's tread stands across its joint: its reach then states nothing."""
-    return (misalignment(robot, wheel) or 0.0) > ASKEW
+    rolls = tread(robot, wheel)
+    angle = angle_to_axle(wheel, rolls) if rolls is not None else None
+    return angle is not None and angle > ASKEW
 
 
 _DIRECTIONS = 16
