@@ -128,6 +128,9 @@ def _chosen(path: Path, subjects: Sequence[Subject], name: str) -> tuple[Subject
     found = [it for it in found if not it[1].is_prop] or found
     named = [(robot.name.value, _file(path, subject, robot)) for subject, robot in found]
     wanted = [it for it, names in zip(found, named, strict=True) if not name or name in names]
+    if not name:
+        # What no launch file loads is not meant where one loads another.
+        wanted = [it for it in wanted if not it[1].unloaded] or wanted
     if len(wanted) == 1:
         return wanted[0]
     if not found:

@@ -172,6 +172,35 @@ TWO = """<robot name="{}" xmlns:xacro="http://www.ros.org/wiki/xacro">
 """
 
 
+LAUNCH = """<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share two)/urdf/new.urdf.xacro')"/>
+  </node>
+</launch>
+"""
+MANIFEST = """<package format="3">
+  <name>two</name><export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+
+def test_what_no_launch_file_loads_is_written_only_by_its_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = {f"urdf/{name}.urdf.xacro": TWO.format(name) for name in ("new", "old")}
+    files |= {"package.xml": MANIFEST, "launch/show.launch.xml": LAUNCH}
+    for name, text in files.items():
+        path = tmp_path / "two" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    command = ["export", str(tmp_path / "two"), "--format", "urdf"]
+    assert main(command) == 0
+    assert '<robot name="new"' in capsys.readouterr().out
+    assert main([*command, "--robot", "old"]) == 0
+    assert '<robot name="old"' in capsys.readouterr().out
+
+
 def test_one_of_several_robots_beside_a_world(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
