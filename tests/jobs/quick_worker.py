@@ -3,7 +3,8 @@
 Arguments: the fields of `WorkerOptions` as JSON, `store` as a folder, and the file of the log.
 Profiles: `static:2` and `trial:2` take two seconds, `kill:static` and `kill:trial` kill the worker,
 `refused`, `died` and `raises` come out so at once, `warns` has DBOS warn, and
-`full:static:2` finds a full disk two times. `static:1 trial:2` is both.
+`full:static:2` finds a full disk two times, and `hangs:trial:1` hangs once, until it is killed.
+`static:1 trial:2` is both.
 """
 
 from __future__ import annotations
@@ -64,8 +65,10 @@ def quick_check(
                 logging.getLogger("dbos").warning("as DBOS would")
             if what == "raises":
                 raise RuntimeError("as a fault of ours would")
-            if what == "full" and _is_full(log, detail, f"{stage} {order.name} "):
+            if what == "full" and _is_among_first(log, detail, f"{stage} {order.name} "):
                 return Disturbed(FULL)
+            if what == "hangs" and _is_among_first(log, detail, f"{stage} {order.name} "):
+                sleep(3600)
             if what in ("refused", "died"):
                 return Refused(REFUSAL) if what == "refused" else Died(DEATH)
             if what == stage and not _passed(float(detail), cancelled):
@@ -90,8 +93,8 @@ def _note(log: Path, line: str) -> None:
         file.write(line + "\n")
 
 
-def _is_full(log: Path, detail: str, line: str) -> bool:
-    """Whether the disk is full at this try, by what a profile says of a stage."""
+def _is_among_first(log: Path, detail: str, line: str) -> bool:
+    """Whether this try is among the first, as many as a profile says of a stage: `static:2`."""
     stage, _, tries = detail.partition(":")
     return line.startswith(stage) and log.read_text().count(line) <= int(tries)
 

@@ -170,7 +170,7 @@ class TestAKilledWorker:
     @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
     def test_takes_up_what_it_had_in_hand_when_it_is_back(self, site: Site, stage: Stage) -> None:
         worker = site.worker("slot-1")
-        id = site.submit(f"{stage}:1.5")
+        id = site.submit(f"hangs:{stage}:1")
         site.in_hand(id, stage)
         worker.kill()
         worker.wait()
@@ -202,7 +202,7 @@ class TestAKilledWorker:
 
     def test_that_never_comes_back_is_replaced(self, site: Site) -> None:
         worker = site.worker("lost", silence_seconds=3)
-        id = site.submit("trial:1")
+        id = site.submit("hangs:trial:1")
         site.in_hand(id, Stage.TRIAL)
         worker.kill()
         site.worker("found", silence_seconds=3)
