@@ -40,6 +40,11 @@ def has_word(text: str, name: str) -> bool:
     return name in text and name in _WORD.findall(text)
 
 
+def has_file(text: str, name: str) -> bool:
+    """Return whether a text contains the whole name of a file: `arm.urdf`, not `my_arm.urdf`."""
+    return name in text and bool(re.search(rf"(?<![\w.-]){re.escape(name)}(?![\w.-])", text))
+
+
 def mentioned_names(package: Package) -> frozenset[str]:
     """Return the names of meshes, pictures and models that are in any file, in lower case.
 

@@ -15,6 +15,7 @@ from msgspec import field
 from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.kind import IGNORED, enclosing_package, is_file, looks_like_package
+from checker.package.mentions import has_file
 from checker.package.overlay import Overlay
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -149,8 +150,12 @@ class Workspace(Record, eq=False, dict=True):
         }
 
     def launches_with(self, name: str) -> list[str]:
-        """Return the texts of the launch files that contain a name, as that of a file."""
+        """Return the texts of the launch files that contain a word or a part of one."""
         return [text for text in self.launch_texts.values() if name in text]
+
+    def launches_file(self, name: str) -> bool:
+        """Return whether a launch file contains the whole name of a file."""
+        return any(has_file(text, name) for text in self.launch_texts.values())
 
     @cached_property
     def launch_words(self) -> frozenset[str]:

@@ -183,11 +183,12 @@ class PackageDescriptions:
                 for it in descriptions
             ]
         texts = self._package.naming_launch_texts
+        folders = {posixpath.dirname(path) for path in loaded}
         return [
             it
             if it.file in loaded
-            or self._package.workspace.launches_with(posixpath.basename(it.file))
-            or may_be_loaded(texts, it.file)
+            or self._package.workspace.launches_file(posixpath.basename(it.file))
+            or may_be_loaded(texts, it.file, folders)
             else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
             for it in descriptions
         ]
@@ -214,11 +215,13 @@ class PackageDescriptions:
             for path, call in calls.items()
         ]
         outcomes = Expansions(self._package, wanted, self._expander).outcomes() if wanted else []
+        is_loaded = any(candidate.loaded for candidate in self._candidates)
         for path, outcome in zip(calls, outcomes, strict=True):
             # What a macro takes from the file that includes it is not known: that is no fault.
             if isinstance(outcome, XmlDocument) and _holds_robot(outcome, Candidate(path)):
                 read = read_description(outcome, path, for_rviz=False)
-                yield replace(read, call=calls[path])
+                unloaded = f"only in {path}, whose macro nothing calls" if is_loaded else ""
+                yield replace(read, call=calls[path], unloaded=unloaded)
 
     @property
     def _seen(self) -> frozenset[str]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from checker.package.mentions import has_file
 
 _NAME = re.compile(
     r"""(?:\$\([^()"'<>]{0,100}\)|\$(?!\()|[^\s"'/<>=$]){0,200}\.(?:urdf\.xacro|xacro|urdf)\b"""
@@ -22,18 +24,23 @@ _NAMED = re.compile(r"""\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})["']""")
 _VALUE = re.compile(r"""\b(?:default|value)\s{0,8}=\s{0,8}["']([\w.-]{0,100})["']""")
 
 
-def may_be_loaded(launch_texts: Mapping[str, str], path: str) -> bool:
+def may_be_loaded(
+    launch_texts: Mapping[str, str], path: str, folders: Collection[str] = ()
+) -> bool:
     """Return whether a launch file names a description, or a name that may be this one.
 
-    So does one with an argument that takes any file.
+    So does one with an argument that takes any file, beside a file that it loads by default.
 
     Args:
         launch_texts: The launch files that may load it.
         path: The path of the description.
+        folders: The folders of the descriptions that are loaded.
     """
-    name = posixpath.basename(path)
+    folder, name = posixpath.split(path)
     return any(
-        name in text or _FILE_ARGUMENT.search(text) or _may_name(text, name)
+        has_file(text, name)
+        or (folder in folders and _FILE_ARGUMENT.search(text))
+        or _may_name(text, name)
         for text in launch_texts.values()
     )
 

@@ -8,7 +8,7 @@ A URDF joint without `<axis>` turns about its x axis. Of a wheel that has no col
 one visual cylinder is compared, with a warning: the wheel is drawn across its axle.
 
 Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`, in URDF with an
-`<origin rpy="1.5707963267948966 0 0"/>`; or give the joint the `<axis>` that it lacks.
+`<origin rpy="1.5707963267948966 0 0"/>`; or correct the `<axis>` of the joint.
 Source: Model Migration Guide, step 3: orientations of the wheel collisions; the axis of a cylinder
 is z in SDF and URDF; URDF specification, joint: "axis" is (1,0,0) by default.
 """
@@ -18,16 +18,21 @@ import math
 from checker.finding import Fix
 from checker.formats.corrections import along_z, reposed, rewrite
 from checker.formats.xacro.expanded import written_element
+from checker.model.components import Joint
 from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.locomotion import Wheel
 from checker.model.locomotion.wheels import angle_to_axle, tread
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
+from checker.source.text import Located
 from checker.source.xml_insertion import append_to
 
 _ACROSS = 0.9
 """Share of a shape's axis across the robot from which the joint's axis is the wrong one."""
+
+_STRAIGHT = 0.9998
+"""Largest part of a direction, of length 1, within about a degree of x, y or z."""
 
 
 @rule("GEO003", "misaligned-wheel-collision", Severity.ERROR, Concern.ROBOT)
@@ -51,8 +56,8 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
         angle = angle_to_axle(wheel, rolls) if rolls is not None else None
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
             continue
-        if robot.conventions.has_default_axis and not wheel.joint.axes[0].xyz[0].stated:
-            yield _without_axis(robot, wheel, rolls, severity)
+        if (along := _axle(robot, wheel, rolls)) is not None:
+            yield _wrong_axis(robot, wheel, rolls, along, severity)
             continue
         yield finding(
             rolls.shape.pose,
@@ -78,13 +83,23 @@ def _drawn(robot: Robot, wheel: Wheel) -> Placed | None:
     return next(placed, None)
 
 
-def _aligned(robot: Robot, wheel: Wheel, rolls: Placed) -> Fix | None:
-    """Return the fix that turns the joint's axis if the shape lies across the robot, else it."""
-    along = rolls.pose.rotate((0.0, 0.0, 1.0))
-    joint = robot.pose_of_joint(wheel.joint)
+def _axle(robot: Robot, wheel: Wheel, rolls: Placed) -> Vector | None:
+    """Return the axis that the joint needs, in its own frame; None if the shape is to be turned.
+
+    The shape shows the axis where it alone lies across the robot, or where the joint states none.
+    """
+    along, joint = rolls.pose.rotate((0.0, 0.0, 1.0)), robot.pose_of_joint(wheel.joint)
     axis = wheel.joint.axes[0]
-    if abs(along[1]) > _ACROSS and joint is not None and not axis.expressed_in:
-        return rewrite(zip(axis.xyz, _line(joint.inverse.rotate(along)), strict=True))
+    if robot.conventions.has_default_axis and not axis.xyz[0].stated:
+        return _line(joint.inverse.rotate(along) if joint is not None else along)
+    lies_across = wheel.axis is not None and abs(along[1]) > _ACROSS > abs(wheel.axis[1])
+    if lies_across and joint is not None and not axis.expressed_in:
+        return _line(joint.inverse.rotate(along))
+    return None
+
+
+def _aligned(robot: Robot, wheel: Wheel, rolls: Placed) -> Fix | None:
+    """Return the fix that turns the shape."""
     frame, shape = robot.pose_of(wheel.link.scoped_name), rolls.shape
     if frame is None or wheel.axis is None or shape.pose.relative_to:
         return None
@@ -95,28 +110,36 @@ def _aligned(robot: Robot, wheel: Wheel, rolls: Placed) -> Fix | None:
 
 def _line(along: Vector) -> Vector:
     """Return the usual direction of a line: the positive one, without what rounding left."""
-    sign = math.copysign(1.0, max(along, key=abs))
-    x, y, z = (round(sign * number, 4) + 0.0 for number in along)
+    main = max(along, key=abs)
+    digits = 0 if abs(main) > _STRAIGHT else 4
+    x, y, z = (round(math.copysign(1.0, main) * number, digits) + 0.0 for number in along)
     return x, y, z
 
 
-def _without_axis(robot: Robot, wheel: Wheel, rolls: Placed, severity: Severity) -> Finding:
-    """Report a joint of URDF that states no axis, and the one that its wheel needs."""
-    joint = robot.pose_of_joint(wheel.joint)
-    along = rolls.pose.rotate((0.0, 0.0, 1.0))
-    own = joint.inverse.rotate(along) if joint is not None else along
-    needed = " ".join(f"{number:g}" for number in _line(own))
+def _wrong_axis(
+    robot: Robot, wheel: Wheel, rolls: Placed, along: Vector, severity: Severity
+) -> Finding:
+    """Report a joint whose axis is not that of the shape, and the axis that its wheel needs."""
+    joint, shape, axis = wheel.joint, rolls.shape, wheel.joint.axes[0]
+    needed = " ".join(f"{number:g}" for number in along)
+    element = f'<axis xyz="{needed}"/>' if robot.conventions.is_urdf else f"<xyz>{needed}</xyz>"
+    if robot.conventions.has_default_axis and not axis.xyz[0].stated:
+        place: Joint | Located[float] = joint
+        turns = "has no <axis>, so it turns about x, URDF's default"
+        fix: Fix | None = Fix(
+            Safety.UNSAFE, (append_to(written_element(joint.element), [element]),)
+        )
+    else:
+        place = axis.xyz[0]
+        fix = rewrite(zip(axis.xyz, along, strict=True))
+        turns = f"turns about {' '.join(f'{number.value:g}' for number in axis.xyz)}"
     return finding(
-        wheel.joint,
-        f"joint {wheel.joint.name.value!r} has no <axis>, so it turns about x, URDF's default, "
-        f"across the {rolls.shape.geometry.shape} of wheel {wheel.link.name.value!r}: expected "
-        f'<axis xyz="{needed}"/>',
+        place,
+        f"joint {joint.name.value!r} {turns}, across the {shape.geometry.shape} of wheel "
+        f"{wheel.link.name.value!r}: expected {element}",
         severity=severity,
-        related=[(rolls.shape.pose, f"the {rolls.shape.geometry.shape}")],
-        fix=Fix(
-            Safety.UNSAFE,
-            (append_to(written_element(wheel.joint.element), [f'<axis xyz="{needed}"/>']),),
-        ),
+        related=[(shape.pose, f"the {shape.geometry.shape}"), (joint, "the joint")],
+        fix=fix,
     )
 
 
@@ -199,5 +222,6 @@ BAD = [
     _urdf("<origin/>  <!-- ^ GEO003 -->"),
     _urdf(_LYING, axis="", mark="  <!-- ^ GEO003 -->"),
     _urdf('<origin rpy="1.5 0 0"/>  <!-- ^ GEO003 -->', _CLASSIC),
-    _urdf(f"{_LYING}  <!-- ^ GEO003 -->", axis='<axis xyz="1 0 0"/>', part="visual"),
+    _urdf(_LYING, axis='<axis xyz="1 0 0"/>  <!-- ^ GEO003 -->', part="visual"),
+    _urdf(_LYING, _CLASSIC, axis='<axis xyz="0 0 1"/>  <!-- ^ GEO003 -->'),
 ]

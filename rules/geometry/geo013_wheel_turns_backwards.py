@@ -118,7 +118,7 @@ def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> 
 
 def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
     """Return the direction of left: +y, or the direction of most axes if wheels turn otherwise."""
-    axes = [wheel.axis for wheel in drive.wheels if wheel.axis is not None]
+    axes = [wheel.forward_axis for wheel in drive.wheels if wheel.forward_axis is not None]
     if not axes or any(abs(_dot(axis, _LEFT)) >= least_cosine for axis in axes):
         return _LEFT
     first = axes[0]
@@ -129,8 +129,8 @@ def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
 def _reversed_axes(
     robot: Robot, drive: WheelDrive, left: Vector, least_cosine: float
 ) -> Iterator[Finding]:
-    known = [wheel for wheel in drive.wheels if wheel.axis is not None]
-    wrong = [w for w in known if w.axis and _dot(w.axis, left) <= -least_cosine]
+    known = [wheel for wheel in drive.wheels if wheel.forward_axis is not None]
+    wrong = [w for w in known if w.forward_axis and _dot(w.forward_axis, left) <= -least_cosine]
     every = len(wrong) == len(known) > 1
     joints: dict[Joint, Wheel] = {wheel.joint: wheel for wheel in wrong}
     for joint in joints:
@@ -165,7 +165,7 @@ def _rolls_forward(drive: WheelDrive, least_cosine: float) -> bool:
     Of a robot that faces elsewhere the axes may be wrong, and where `<legacyMode>` swaps the sides,
     that tag may be what is missing.
     """
-    axes = [wheel.axis for wheel in drive.wheels]
+    axes = [wheel.forward_axis for wheel in drive.wheels]
     return not drive.swaps and all(axis and _dot(axis, _LEFT) >= least_cosine for axis in axes)
 
 

@@ -41,6 +41,7 @@ def check(
     metal: float = 5000.0,
     contrast: float = 5.0,
     share: float = 0.02,
+    grave_share: float = 0.1,
     volume_share: float = 0.25,
 ) -> Findings:
     """Report links that are too light or too heavy for the volume of their shapes.
@@ -51,12 +52,14 @@ def check(
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
             visuals if that is more; more is a warning, or an info if these are meshes.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
-            because no metal is so dense, except the foot of a robot that only stands.
+            because no metal is so dense, except for the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
         contrast: Factor by which such a link is denser than the rest of the robot.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its volume exceeds `volume_share`.
+        grave_share: Share of the robot's mass; a link of impossible density with no more is a
+            warning: its mass is right for the robot, and its shape stands for a larger one.
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
             is judged whatever its mass.
     """
@@ -85,7 +88,8 @@ def check(
         heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
         density = inertia.mass / most if most > 0.0 else 0.0
         if density > heaviest:
-            grave = density > impossible and not _stands(masses, inertia.link)
+            grave = density > impossible and masses.share(name) > grave_share
+            grave = grave and not _stands(masses, inertia.link)
             severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
             grams = (
                 _from_grams(masses, inertia) if grave and lightest < density / 1e3 < metal else None

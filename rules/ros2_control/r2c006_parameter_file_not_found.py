@@ -51,7 +51,9 @@ def _file(file: ParametersFile, package: Package, papers: Paperwork) -> Findings
     elif file.path is None and file.package:
         yield from _elsewhere(file, package, papers)
     elif file.path is not None and not file.exists:
-        yield finding(file.text, f"{_label(file)} does not exist (looked for {file.path})")
+        is_folder = file.text.value.endswith("/")
+        hint = "remove the slash at its end" if is_folder else f"looked for {file.path}"
+        yield finding(file.text, f"{_label(file)} does not exist ({hint})")
     elif file.path is not None and file.package:
         holder, path = resolve_listed(package, file.path)
         # Under another path than in the source it was found because it is installed there.
@@ -183,6 +185,7 @@ BAD = [
         "config/other/a.yaml": "a: 1\n",
     },
     _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
+    _arm(f"<parameters>{_HERE}/</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>/home/ann/ws/install/share/arm/control.yaml</parameters>{_MARK}"),
     # A warning: the container has it.

@@ -56,7 +56,9 @@ def check(launched: LaunchedControl, package: Package, context: Context) -> Find
     if not launched.managers and not in_gazebo:
         yield from _no_manager(launched)
         return
-    listed = launched.listed_controllers
+    files = [it for each in in_gazebo for manager in each.managers for it in manager.files]
+    # R2C006 reports a file that is not there.
+    listed = launched.listed_controllers if all(it.exists for it in files if it.path) else None
     for spawner in launched.spawners if listed is not None else ():
         typed = launched.typed_controllers(spawner)
         if typed is None or listed is None or spawner.states_type or not spawner.complete:

@@ -85,7 +85,7 @@ def _is_used(path: str, package: Package) -> bool:
     model = package.model_path
     if name == "package.xml" or (isinstance(model, Found) and model.path == path):
         return not package.only
-    return bool(package.workspace.launches_with(name))
+    return package.workspace.launches_file(name)
 
 
 def _finding(path: str, fault: XmlFault, severity: Severity | None = None) -> Finding:

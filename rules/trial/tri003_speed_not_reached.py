@@ -65,7 +65,11 @@ def check(
         f"difference of {off:.0%}, expected at most {warning_beyond:.0%}{cause or dragged}",
         severity=_severity(driven, off > error_beyond, dragged=bool(dragged)),
         key="speed_ratio",
-        related=[(fastest, "the drive's maximum speed")] if fastest else [],
+        related=[
+            *([(fastest, "the drive's maximum speed")] if fastest else []),
+            *((joint, "turns about an upright axis") for joint in driven.upright_wheels),
+        ],
+        covered_by=("GEO003",) if driven.upright_wheels else (),
     )
 
 

@@ -20,8 +20,8 @@ def check(
 ) -> Findings:
     """Report a turn rate far below the predicted or the commanded one.
 
-    A robot that is not written for Gazebo gets warnings only, and one with steered wheels that
-    cannot roll is left to TRI003.
+    A robot that is not written for Gazebo gets warnings only. One whose wheels cannot roll, since
+    they are steered and rigid or spin about upright axes, is left to TRI003.
 
     Options:
         warning_below: Share of the turn rate that is predicted from the loads on wheels or tracks;
@@ -31,7 +31,9 @@ def check(
     """
     trial = driven.trial
     rate, ratio = trial.value("yaw_rate"), trial.value("yaw_ratio")
-    if rate is None or ratio is None or driven.turns_backwards or driven.rigid_steering:
+    if driven.turns_backwards or driven.rigid_steering or driven.upright_wheels:
+        return
+    if rate is None or ratio is None:
         return
     command = f"commanded to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
     if ratio < error_below_command:

@@ -4,6 +4,7 @@ gazebo_ros_control registers a joint with the controllers through its transmissi
 transmission without a joint, an actuator or an interface, and the controller does not find its
 joint. Without a plugin that reads transmissions, the transmission of a fixed joint has no effect
 anyway, and the finding is an info. So it is where no launch file gives the robot to a simulator.
+The interface of an actuator is read only if the joint has none: another one there is a warning.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
@@ -109,7 +110,8 @@ def _joint(
                 yield finding(
                     interface,
                     f"actuator {actuator.name.value!r} has {_plain(interface)}, but joint "
-                    f"{name!r} has {', '.join(sorted(wanted))}: expected the same",
+                    f"{name!r} has {', '.join(sorted(wanted))}, which is used: expected the same",
+                    severity=Severity.WARNING,
                     related=[(end.interfaces[0], "the joint's interface")],
                     fix=rename(interface, end.interfaces[0].value) if len(wanted) == 1 else None,
                 )

@@ -135,12 +135,19 @@ def test_a_leftover_without_its_meshes_has_one_warning(tmp_path: Path) -> None:
         ("name + '.urdf.xacro'", True),
         ("name + '_v1.urdf.xacro'", False),
         ("arm_v1.urdf.xacro", False),
+        ("my_arm_v2.urdf.xacro", False),
         ("<arg name='model' default='$(find arm)/urdf/arm_v1.urdf'/>", True),
         ("DeclareLaunchArgument(name='urdf_file', default_value=path)", True),
     ],
 )
 def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
-    assert may_be_loaded({"launch/a.launch": text}, "urdf/arm_v2.urdf.xacro") is loaded
+    assert may_be_loaded({"launch/a.launch": text}, "urdf/arm_v2.urdf.xacro", {"urdf"}) is loaded
+
+
+def test_an_argument_takes_files_of_the_folder_of_its_default() -> None:
+    texts = {"launch/a.launch": "<arg name='model' default='$(find arm)/urdf/arm.urdf'/>"}
+    assert may_be_loaded(texts, "urdf/arm_v2.urdf", {"urdf"})
+    assert not may_be_loaded(texts, "original/arm_v2.urdf", {"urdf"})
 
 
 _CONVERTED = '<sdf version="1.9"><model name="rover"><link/></model></sdf>'

@@ -92,6 +92,15 @@ CASES = {
         | {"wheel_radius": 0.1, "wheel_separation": 0.5},
         "differential drive",
     ),
+    "diff_drive with a side that is turned round": (
+        wheel("rear_left", *CORNERS["rear_left"])
+        + wheel("rear_right", *CORNERS["rear_right"], yaw=math.pi)
+        + BALL,
+        "diff_drive_controller/DiffDriveController",
+        {"left_wheel_names": "[rear_left]", "right_wheel_names": "[rear_right]"}
+        | {"wheel_radius": 0.1, "wheel_separation": 0.5, "right_wheel_radius_multiplier": -1.0},
+        "differential drive",
+    ),
     "mecanum": (
         FOUR,
         "mecanum_drive_controller/MecanumDriveController",

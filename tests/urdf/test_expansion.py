@@ -259,10 +259,12 @@ DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"
         (CALLED.replace("@", "true") + ELBOW, ["base", "arm"]),
         ('<link name="lid"><xacro:driver/></link>' + ELBOW, []),
         (CALLED.replace("@", "true") + ELBOW + DANGLING, []),
+        (CALLED.replace("@", "true") + ELBOW + '<gazebo reference="lens"/>', ["base", "arm"]),
     ],
     ids=[
         *("macro is not called", "called", "link is there", "property is there", "may be links"),
         *("called beside a robot", "called in a link", "called for a link of a joint"),
+        "called for a link of an extension",
     ],
 )
 def test_a_package_that_is_not_available_may_be_needless(

@@ -15,8 +15,8 @@ from checker.source.xml import Element, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
 
 _BLANKS = " \t\r\n"
-_PACKAGES = (f"file://{ROOT}/", f"file:///{ROOT}/")
-"""Starts of the URI of a path: `file://$(find p)/`, also with a third slash."""
+_PACKAGES = (f"file:///{ROOT}/", f"file://{ROOT}/", f"file:{ROOT}/")
+"""Starts of the URI of a path: `file://$(find p)/`, also with a third slash or without both."""
 _BARE = re.compile(rf'(<(?:mesh|texture)\b[^<>]*?\bfilename="){ROOT}/')
 """A mesh or picture that is the path itself, `$(find p)/x`."""
 

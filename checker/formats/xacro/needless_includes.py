@@ -2,7 +2,8 @@
 
 An included file of macros alone is not needed when none of them is called. Nothing else states
 what is in the file: a call of a macro that no other file defines. One at the top of the robot adds
-whole links, such as a camera: the rest, if joints of its own move, is judged without them.
+whole links, such as a camera: the rest, if joints of its own move, is judged without them and
+without what `<gazebo reference>` adds to them.
 """
 
 from __future__ import annotations
@@ -52,6 +53,17 @@ def is_robot_without(root: Any, skipped: Collection[Any]) -> bool:
     """Return whether a robot with movable joints is left without skipped calls, none in a link."""
     types = (joint.getAttribute("type") for joint in root.getElementsByTagName("joint"))
     return all(call.parentNode is root for call in skipped) and bool({*types} - {"", "fixed"})
+
+
+def without_extensions(root: Any, skipped: Collection[Any]) -> None:
+    """Remove skipped calls, and the extensions of links that only they can add."""
+    for call in skipped:
+        root.removeChild(call)
+    names = {it.getAttribute("name") for it in root.childNodes if it.nodeType == it.ELEMENT_NODE}
+    for extension in root.getElementsByTagName("gazebo") if skipped else ():
+        reference = extension.getAttribute("reference")
+        if extension.parentNode is root and reference and reference not in names:
+            root.removeChild(extension)
 
 
 def is_closed(root: Any) -> bool:

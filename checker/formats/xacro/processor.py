@@ -38,6 +38,7 @@ from checker.formats.xacro.needless_includes import (
     is_closed,
     is_robot_without,
     skip,
+    without_extensions,
 )
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read
@@ -177,8 +178,7 @@ class _Expansion:
         skipped = root.getElementsByTagName(SKIPPED) if self._skipped else []
         if skipped and not is_robot_without(root, skipped):
             return _unavailable(self.left[0])
-        for one in skipped:
-            root.removeChild(one)
+        without_extensions(root, skipped)
         text = root.toxml()
         if len(text) > SIZE_LIMIT:
             return self.fault("limit", f"it expands to more than {SIZE_LIMIT / 1e6:g} MB")

@@ -88,7 +88,7 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
     around = _size_without_meshes(robot) if measured else 0.0
     for extent, use, size in _meshes(robot):
         if 0.0 < beyond * around < size and size > limits.huge:
-            unit = next((u for u, f in UNITS.items() if size / f < near * around), "millimetres")
+            unit = _unit(size, extent.simple, near) or "millimetres"
             yield MisscaledMesh(use, size, around, "robot without its meshes", unit)
         elif (unit := _unit(size, extent.simple, near)) and size > beyond / 3 * around:
             yield MisscaledMesh(use, size, extent.simple, "rest of its link", unit)

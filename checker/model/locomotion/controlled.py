@@ -167,6 +167,7 @@ def _alike(multiplier: str) -> bool:
 def _differential(named: _Named) -> WheelDrive:
     left = tuple(named.wheels(Side.LEFT, "left_wheel_names", "left_wheel"))
     right = tuple(named.wheels(Side.RIGHT, "right_wheel_names", "right_wheel"))
+    left, right = _turned(named, "left", left), _turned(named, "right", right)
     slips = max(len(left), len(right)) > 1
     tag, separation = "wheel_separation", named.number("wheel_separation")
     radius = named.number("wheel_radius")
@@ -187,6 +188,14 @@ def _differential(named: _Named) -> WheelDrive:
         separation_tag=tag,
         slips=slips,
     )
+
+
+def _turned(named: _Named, side: str, wheels: tuple[Wheel, ...]) -> tuple[Wheel, ...]:
+    """Return the wheels of a side, turned against their axes where their radius is negative."""
+    times = named.controller.number(f"{side}_wheel_radius_multiplier")
+    if times is None or times.value >= 0.0:
+        return wheels
+    return tuple(replace(wheel, is_reversed=True) for wheel in wheels)
 
 
 def _distance(left: Wheel, right: Wheel, unstated: Located[float]) -> Located[float]:

@@ -75,6 +75,8 @@ class Wheel(Record, eq=False):
             axis is known.
         width: Extent of its collisions along the axis, metres; likewise.
         steering: The joint that steers it; None for a wheel that does not steer.
+        is_reversed: Whether the drive turns it against its axis, as diff_drive_controller does with
+            a negative multiplier of its radius.
     """
 
     name: Located[str]
@@ -87,6 +89,15 @@ class Wheel(Record, eq=False):
     radius: float | None
     width: float | None
     steering: Joint | None = None
+    is_reversed: bool = False
+
+    @property
+    def forward_axis(self) -> Vector | None:
+        """Direction about which it turns when the robot is to drive forward; None if unknown."""
+        if self.axis is None or not self.is_reversed:
+            return self.axis
+        x, y, z = self.axis
+        return -x, -y, -z
 
 
 class WheelDrive(Record, eq=False):

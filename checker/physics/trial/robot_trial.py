@@ -70,6 +70,12 @@ class RobotTrial(Record, eq=False, dict=True):
         return ""
 
     @property
+    def upright_wheels(self) -> list[Joint]:
+        """Joints of driven wheels that spin on their sides, about a vertical axis."""
+        wheels = self.robot.locomotion.wheels
+        return [wheel.joint for wheel in wheels if wheel.axis and abs(wheel.axis[2]) > _UPRIGHT]
+
+    @property
     def invalid_reason(self) -> str:
         """Reason why the trial is not valid for this robot, as the end of a sentence; else empty.
 
@@ -98,8 +104,10 @@ def _against(ratio: float | None) -> bool:
     return ratio is not None and ratio < -_CREEP
 
 
-_CREEP = 0.05
-"""Share of the command below which a direction is not certain."""
+_UPRIGHT = 0.7
+"""Vertical part of an axis of length 1."""
+_CREEP = 0.1
+"""Share of the command below which a direction is not certain: wheels that do not roll slide."""
 
 
 class SettledTrial(RobotTrial):

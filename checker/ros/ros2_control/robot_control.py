@@ -213,7 +213,8 @@ class ControlReader:
         path = _FIND.sub(rf"{ROOT}/\1", uri_of_installed(stated) or stated)
         path = re.sub(r"\Apackage://(?!/)", f"{ROOT}/", path).removeprefix("file://")
         local = local_path(self.package, path)
-        exists = local is not None and self.package.exists(local)
+        # A file with a slash behind its name is not found: only a folder may have one.
+        exists = local is not None and self.package.exists(local) and not path.endswith("/")
         return ParametersFile(text, package_in(path), local, exists)
 
     def _plugin_files(

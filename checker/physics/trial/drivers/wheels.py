@@ -121,7 +121,7 @@ def _speed(drive: WheelDrive, wheel: Wheel, legs: Sequence[Leg]) -> Knots:
     linear = linear_command(legs, Limits.from_plugin(drive.linear))
     angular = angular_command(legs, Limits.from_plugin(drive.angular))
     arm = drive.wheel_separation.value / 2 * (-1 if wheel.side is Side.LEFT else 1)
-    radius = drive.wheel_radius.value
+    radius = drive.wheel_radius.value * (-1 if wheel.is_reversed else 1)
     return mix_lines((linear, angular), lambda v, w: (v + w * arm) / radius if radius else 0.0)
 
 

@@ -33,7 +33,7 @@ def unusable_because(robot: Robot, layout: Layout, servos: Sequence[str]) -> str
     What does not stand on the ground needs no shape, where servos move its joints.
     """
     if robot.missing_parts:
-        return f"parts of the robot are not available: {robot.missing_parts}"
+        return robot.missing_parts
     if not robot.links:
         return "the robot has no links"
     if robot.is_static:
