@@ -29,6 +29,9 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule, un
 
 _GRAMS = 1000.0
 """In a kilogram."""
+_GRAVE = 0.1
+"""Share of the robot's mass; a link of impossible density with no more is a warning: its mass may be
+right for the robot, and its shape stand for a larger one."""
 
 
 @rule("INE006", "implausible-density", Severity.WARNING, Concern.ROBOT)
@@ -41,7 +44,6 @@ def check(
     metal: float = 5000.0,
     contrast: float = 5.0,
     share: float = 0.02,
-    grave_share: float = 0.1,
     volume_share: float = 0.25,
 ) -> Findings:
     """Report links that are too light or too heavy for the volume of their shapes.
@@ -58,8 +60,6 @@ def check(
         contrast: Factor by which such a link is denser than the rest of the robot.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its volume exceeds `volume_share`.
-        grave_share: Share of the robot's mass; a link of impossible density with no more is a
-            warning: its mass is right for the robot, and its shape stands for a larger one.
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
             is judged whatever its mass.
     """
@@ -88,7 +88,7 @@ def check(
         heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
         density = inertia.mass / most if most > 0.0 else 0.0
         if density > heaviest:
-            grave = density > impossible and masses.share(name) > grave_share
+            grave = density > impossible and masses.share(name) > _GRAVE
             grave = grave and not _stands(masses, inertia.link)
             severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
             grams = (
