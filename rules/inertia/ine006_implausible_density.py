@@ -30,8 +30,8 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule, un
 _GRAMS = 1000.0
 """In a kilogram."""
 _GRAVE = 0.1
-"""Share of the robot's mass; a link of impossible density with no more is a warning: its mass may be
-right for the robot, and its shape stand for a larger one."""
+"""Share of the mass of the robot; a link of impossible density with no more is a warning: it may be
+right for the robot, while the shape stands for a larger one."""
 
 
 @rule("INE006", "implausible-density", Severity.WARNING, Concern.ROBOT)
