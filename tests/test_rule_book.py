@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Mapping
 
 import pytest
 
 from checker.cli import main
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.profiles import profile
 
 
 def test_the_ids_of_each_group_are_numbered_from_001_without_a_gap() -> None:
@@ -22,3 +24,14 @@ def test_they_are_listed_group_by_group(capsys: pytest.CaptureFixture[str]) -> N
     assert main(["rules"]) == 0
     listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
     assert listed == sorted(rule.id for rule in all_rules())
+
+
+def test_rules_with_examples_of_ros_2_run_on_packages_of_ros_2() -> None:
+    """A profile that lists single rules of a group forgets the next one."""
+    profiles = [profile("ros2"), profile("ros2-classic")]
+    about = [
+        rule
+        for rule in all_rules()
+        if any("@ros2" in it for it in (*rule.good, *rule.bad) if isinstance(it, Mapping))
+    ]
+    assert not [rule.id for rule in about if not any(each.includes(rule) for each in profiles)]

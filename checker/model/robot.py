@@ -139,8 +139,9 @@ class Robot(Part, dict=True):
 
     @property
     def is_static(self) -> bool:
-        """True if the model states that it is static."""
-        return states_static(self.element)
+        """True if the model, or a `<gazebo>` of the whole URDF, states that it is static."""
+        whole = (it for it in self.element.all("gazebo") if not it.get("reference"))
+        return states_static(self.element) or any(map(states_static, whole))
 
     @property
     def other_gravity(self) -> str:

@@ -76,6 +76,7 @@ class SetupFile(Record, eq=False):
         span: `data_files`, or the call of `setup`.
         executables: Entries of `console_scripts` that can be read.
         plain: Whether modules lie where their names say, and no option is set in the file.
+        packages: The Python packages that are installed; None if they are not listed by name.
     """
 
     data_files: tuple[DataFiles, ...]
@@ -83,6 +84,7 @@ class SetupFile(Record, eq=False):
     span: Span
     executables: tuple[Executable, ...] = ()
     plain: bool = True
+    packages: frozenset[str] | None = None
 
 
 class _Unknown(Exception):
@@ -104,9 +106,12 @@ def read_setup(source: SourceText) -> SetupFile | None:
     given = {word.arg: word.value for word in call.keywords}
     scripts = tuple(reader.executables(given["entry_points"])) if "entry_points" in given else ()
     plain = {"package_dir", "options", None}.isdisjoint(given)
-    if "data_files" not in given:
-        return SetupFile((), None not in given, span_of_node(reader.source, call), scripts, plain)
-    return replace(reader.setup_file(given["data_files"]), executables=scripts, plain=plain)
+    packages = reader.listed(given["packages"]) if "packages" in given else None
+    if "data_files" in given:
+        setup = reader.setup_file(given["data_files"])
+    else:
+        setup = SetupFile((), None not in given, span_of_node(reader.source, call))
+    return replace(setup, executables=scripts, plain=plain, packages=packages)
 
 
 def _calls(tree: ast.Module) -> Iterator[ast.Call]:
@@ -217,6 +222,15 @@ class _Reader:
                         yield Executable(
                             match[1], match[2], match[3] or "", span_of_node(self.source, entry)
                         )
+
+    def listed(self, node: ast.expr) -> frozenset[str] | None:
+        """Return the names of a list; None if an item is no plain text."""
+        try:
+            items = [*self._items(node, 0)]
+        except _Unknown:
+            return None
+        names = frozenset(item.value for item in items if isinstance(item, Located))
+        return names if len(names) == len(items) else None
 
     def _items(self, node: ast.expr, depth: int) -> Iterator[Located[str] | Pattern]:
         if depth > _DEEPEST:

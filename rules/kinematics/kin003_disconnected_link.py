@@ -15,7 +15,10 @@ _NOTE = "the rest of the robot starts here"
 
 @rule("KIN003", "disconnected-link", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
-    """Report links, and groups of links, that no joint connects to the robot."""
+    """Report links, and groups of links, that no joint connects to the robot.
+
+    Of a thing without joints, sensors and plugins, such as obstacles in one model, it is an info.
+    """
     # KIN002 reports loops and joints that connect a link to itself; SDF010, nested models.
     loose = robot.loose_parts
     for group in loose.groups:
@@ -27,6 +30,7 @@ def check(robot: Robot) -> Findings:
         yield finding(
             robot.tree.links[group.top],
             f"no joint connects link {group.top!r}{others} to the robot",
+            severity=Severity.INFO if robot.is_prop and not robot.joints else None,
             key="loose",
             related=[(robot.tree.links[loose.main], _NOTE)],
         )

@@ -62,8 +62,13 @@ _ARM = """<worldbody>
   </body>
 </worldbody>{}"""
 
+_MESH = """<asset><mesh name="hull.obj" file="hull.obj"/></asset>
+<worldbody><geom type="mesh" mesh="hull.obj"/></worldbody>
+"""
+_HULL = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 GOOD = [
     {"@mjcf": _ARM.format("", "")},
+    {"@mjcf": _MESH, "hull.obj": _HULL},
     {"@mjcf": '<include file="parts.xml"/>', "parts.xml": f"<part>{_ARM.format('', '')}</part>"},
 ]
 BAD = [

@@ -1,9 +1,10 @@
 """An executable of setup.py that `ros2 run` cannot start.
 
-Its module or function does not exist, so Python ends with an ImportError; or setup.cfg does not
-install it into `lib/<package>`, the only folder that `ros2 run` and launch files search. Neither
-fault shows before the robot is started. Where no launch file names the executable, it is a
-warning.
+Its module or function does not exist, or `packages` leaves its Python package out, so Python ends
+with an ImportError; or setup.cfg does not install it into `lib/<package>`, the only folder that
+`ros2 run` and launch files search. None of these faults shows before the robot is started, and a
+package that is left out is found after `colcon build --symlink-install`. Where no launch file names
+the executable, it is a warning.
 
 Fix: correct the `console_scripts` entry, written `name = package.module:function`; in setup.cfg
 write `install_scripts=$base/lib/<package>` below `[install]` and `script_dir=$base/lib/<package>`
@@ -59,11 +60,22 @@ def _fault(package: Package, executable: Executable) -> str:
     )
     if not file:
         return "" if package.exists(path) else f"{path}.py does not exist"
+    if left := _left_out(package, executable.module):
+        return f"packages of setup.py leaves out {left!r}: add it, or write find_packages()"
     function = executable.function.partition(".")[0]
     names = _names(package.read(file)) if function else None
     if names is None or function in names:
         return ""
     return f"{file} has no {function!r}"
+
+
+def _left_out(package: Package, module: str) -> str:
+    """Return the Python package of a module if `packages` lists others and leaves it out."""
+    setup, holder = package.setup, module.rpartition(".")[0]
+    listed = setup.packages if setup is not None else None
+    if listed is None or not holder or {module, holder} & listed:
+        return ""
+    return holder
 
 
 def _names(source: object) -> set[str] | None:
@@ -144,8 +156,22 @@ _PACKAGE = {
 }
 _MARK = '",  # ^ PKG020'
 
+_DEEP = {
+    **_PACKAGE,
+    "acme_arm/nodes/__init__.py": "",
+    "acme_arm/nodes/talker.py": "def main():\n    pass\n",
+}
+
+
+def _listing(packages: str, mark: str = "") -> str:
+    deep = _SETUP.replace('acme_arm.talker:main",', f'acme_arm.nodes.talker:main",{mark}')
+    return deep.replace("entry_points", f"packages={packages}, entry_points")
+
+
 GOOD = [
     _PACKAGE,
+    {**_DEEP, "setup.py": _listing('["acme_arm", "acme_arm.nodes"]')},
+    {**_DEEP, "setup.py": _listing("find_packages()")},
     {**_PACKAGE, "acme_arm/talker.py": "from acme_arm.nodes import *\n"},
     {**_PACKAGE, "acme_arm/talker.py": "import other as main\n"},
     # A module of another distribution may be there.
@@ -153,6 +179,7 @@ GOOD = [
     {**_PACKAGE, "setup.py": _SETUP.replace("setup(", 'setup(package_dir={"": "src"}, ', 1)},
 ]
 BAD = [
+    {**_DEEP, "setup.py": _listing('["acme_arm"]', "  # ^ PKG020")},
     {**_PACKAGE, "setup.py": _SETUP.replace('talker:main",', f"speaker:main{_MARK}")},
     {**_PACKAGE, "setup.py": _SETUP.replace('main",', f"run{_MARK}")},
     # The package was renamed.

@@ -1,10 +1,12 @@
 """RViz or Gazebo cannot find a mesh of a URDF file.
 
-Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
-only on the author's machine; elsewhere the part is invisible. `package:///` names no package: only
-Pinocchio reads it as `package://`. `$(find <package>)/<path>` is right on every machine, but RViz
-loads it only behind `file://`. The simulation of a robot in SDF does not need the file, so this
-is a warning. A path with a drive letter of Windows to a file that the package has is an error.
+Both look for `package://<package>/<path>`. An absolute path works only on the author's machine, and
+a path relative to the file only for a program that loads the file itself, as `gz sim` can, not for
+one that gets its text, as RViz does; elsewhere the part is invisible. `package:///` names no
+package: only Pinocchio reads it as `package://`. `$(find <package>)/<path>` is right on every
+machine, but RViz loads it only behind `file://`. The simulation of a robot in SDF does not need the
+file, so this is a warning. A path with a drive letter of Windows to a file that the package has is
+an error.
 
 Fix: write `package://<package>/<path>`, or `file://` before `$(find <package>)`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic
@@ -20,7 +22,16 @@ from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.expanded import ExpandedText
 from checker.package.package import Package
 from checker.package.uris import own_path_on_machine, uri_of_installed
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+)
 from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
@@ -54,7 +65,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
             continue
         wrong = _of_other_scheme(uri)
         if wrong is not None or named is None:
-            yield wrong or _without_package(uri)
+            yield wrong or _without_package(package, uri)
         elif description.for_rviz:
             name, path = named.groups()
             folder = _folder(package, name)
@@ -93,19 +104,27 @@ def _of_other_scheme(uri: Located[str]) -> Finding | None:
     )
 
 
-def _without_package(uri: Located[str]) -> Finding:
+def _without_package(package: Package, uri: Located[str]) -> Finding:
     if uri.value.startswith(_MODEL):
         return finding(
             uri,
             f"mesh {uri.value!r} is found by Gazebo alone, on its model path: RViz needs package://",
             key="model",
         )
-    meant = uri_of_installed(uri.value)
+    if uri.value.startswith("/") or ":" in uri.value:
+        where, meant = "is found only on the machine of its author", uri_of_installed(uri.value)
+    else:
+        path = posixpath.normpath(
+            posixpath.join(posixpath.dirname(uri.span.source.file), uri.value)
+        )
+        is_there = package.exists("package.xml") and package.exists(path)
+        where = "is relative, so RViz does not find it"
+        meant = f"package://{package.declared_name}/{path}" if is_there else ""
     return finding(
         uri,
-        f"mesh {uri.value!r} does not start with package://, so it is "
-        "found only on the machine of its author" + (f": write {meant}" if meant else ""),
+        f"mesh {uri.value!r} {where}: write {meant or 'package://<package>/<path>'}",
         key="no package",
+        fix=replace_text(uri, meant, Safety.UNSAFE) if meant else None,
     )
 
 

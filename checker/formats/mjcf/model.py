@@ -51,9 +51,9 @@ class NamedFile(Record, eq=False):
 
     @property
     def attribute(self) -> str:
-        """Name of the attribute that states it."""
-        values = self.element.attributes.items()
-        return next(name for name, value in values if value == self.uri.value)
+        """Name of the attribute that states it; the name of an asset may be the same text."""
+        stated = [it for it, value in self.element.attributes.items() if value == self.uri.value]
+        return next((it for it in stated if it in _FILE_ATTRIBUTES), stated[0])
 
 
 class MjcfModel(Record, eq=False, dict=True):

@@ -1,0 +1,77 @@
+"""A package of ROS 1 among packages of ROS 2.
+
+`colcon build` stops at it: CMake does not find catkin, which ROS 2 does not have, and what comes
+after it is not built. Packages that the SolidWorks exporter writes are of ROS 1.
+
+Only a package beside one of ROS 2, or in the same folder `src`, is reported; one that supports both
+by conditions is right.
+
+Fix: port package.xml, CMakeLists.txt and the launch files to ROS 2 (`ament_cmake`); or put an empty
+file COLCON_IGNORE into the folder of the package.
+Source: colcon-ros, which builds packages of type `ros.catkin` with CMake; ROS 2 documentation,
+"Migrating from ROS 1 to ROS 2"; catkin has no release for ROS 2.
+"""
+
+import os
+from pathlib import Path
+
+from checker.launch.ros2.package_launch import built_by_ament, is_ros2_only
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE")
+
+
+@rule("PKG027", "catkin-package-among-ros-2", Severity.WARNING, Concern.PAPERWORK)
+def check(package: Package, papers: Paperwork) -> Findings:
+    """Report a package that only catkin builds, in a workspace with one that only ament builds."""
+    if papers.manifest is None or built_by_ament(package) or any(map(package.exists, _IGNORED)):
+        return
+    tools = (
+        each.package
+        for each in papers.manifest.dependencies
+        if (each.kind, each.package.value) == ("buildtool_depend", "catkin")
+        and not each.is_conditional
+    )
+    for tool in tools:
+        others = [it for it in package.other_packages if _builds_with(package.root, it.root)]
+        ported = next((it for it in others if is_ros2_only(it)), None)
+        if ported is not None:
+            yield finding(
+                tool,
+                f"colcon build stops here: ROS 2 has no catkin, and {ported.declared_name} beside "
+                "it is of ROS 2: port the package to ament_cmake, or put an empty file "
+                "COLCON_IGNORE into its folder",
+            )
+        return
+
+
+def _builds_with(one: Path, other: Path) -> bool:
+    """Return whether one call of colcon builds the packages of two folders."""
+    above = Path(os.path.commonpath((one, other)))
+    return one.parent == other.parent or above.name == "src"
+
+
+def _manifest(tool: str, mark: str = "") -> str:
+    return f"""<package format="3">
+  <name>acme_arm_description</name>
+  <buildtool_depend>{tool}</buildtool_depend>{mark}
+</package>
+"""
+
+
+_DRIVER = {"../acme_arm_driver/package.xml": _manifest("ament_cmake")}
+_BOTH = """<package format="3">
+  <name>acme_arm_description</name>
+  <buildtool_depend condition="$ROS_VERSION == 1">catkin</buildtool_depend>
+  <buildtool_depend condition="$ROS_VERSION == 2">ament_cmake</buildtool_depend>
+</package>
+"""
+GOOD = [
+    {"@urdf": True, "package.xml": _manifest("catkin")},
+    {"@urdf": True, "package.xml": _manifest("ament_cmake"), **_DRIVER},
+    {"@urdf": True, "package.xml": _BOTH, **_DRIVER},
+    {"@urdf": True, "package.xml": _manifest("catkin"), "COLCON_IGNORE": "", **_DRIVER},
+]
+BAD = [{"@urdf": True, "package.xml": _manifest("catkin", "  <!-- ^ PKG027 -->"), **_DRIVER}]
