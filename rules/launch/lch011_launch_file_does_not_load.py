@@ -1,8 +1,9 @@
 """A launch file that does not load, or not with its own defaults.
 
 It is not valid Python, XML or YAML, defines no `generate_launch_description`, uses a name that is
-neither defined nor imported, or that its function assigns only further down, calls a tuple like a
-function, since a comma is missing, includes itself, or has a default that is not among its choices.
+neither defined nor imported, or that its function assigns only further down, imports a class from
+another module of launch than its own, calls a tuple like a function, since a comma is missing,
+includes itself, or has a default that is not among its choices.
 
 Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` shows the same error.
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
@@ -64,6 +65,16 @@ GOOD = [
     _python("    try:\n        print(n)\n    except NameError:\n        n = 1"),
 ]
 BAD = [
+    {
+        "@ros2": True,
+        "launch/more.launch.py": """from launch import LaunchDescription
+from launch.substitutions import FindPackageShare  # ^ LCH011
+
+
+def generate_launch_description():
+    return LaunchDescription([])
+""",
+    },
     _python("    if text:\n        nodes.append(text)  # ^ LCH011\n    nodes = [text]"),
     _python("    nodes += [text]  # ^ LCH011"),
     {"@ros2": f"{_ARGUMENT.replace('@', 'c')}  # ^ LCH011"},

@@ -71,6 +71,7 @@ def test_places_are_those_of_the_literals(read: Read) -> None:
         ("x = [f'{a}_{b}' for a in ('l', 'r') for b in range(2) if b]", ["l_1", "r_1"]),
         ("x = []\nfor n in ['a', 'b']:\n    x += [n.upper()]", ["A", "B"]),
         ("x = ['0'] * 2 + [*map(str, (1, 2))]", ["0", "0", "1", "2"]),
+        ("x = ['-topic', {'robot_description': object()}]", ["-topic", "robot_description"]),
         ("d = dict(a='1', **{'b': '2'})\nx = [k + v for k, v in d.items()]", ["a1", "b2"]),
         ("def f(*a, k='z', **n):\n    return [*a, k, *n]\nx = f('p', q=1)", ["p", "z", "q"]),
         ("x = [(lambda v: v + '!')('a')]", ["a!"]),

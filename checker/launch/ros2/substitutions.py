@@ -55,8 +55,8 @@ def perform(  # noqa: PLR0911 - one per kind of value
             return PlacedText(str(value), span)
         case FilePath():
             return PlacedText(value.text, span)
-        case list() | tuple():
-            return _joined(value, context, span)
+        case list() | tuple() | dict():  # of which launch takes the keys
+            return _joined([*value], context, span)
         case Made(name=name):
             work = _WORKS.get(name)
             if work is not None:
@@ -68,7 +68,7 @@ def perform(  # noqa: PLR0911 - one per kind of value
     return Unknown("is not text", span)
 
 
-def _joined(values: list[Value] | tuple[Value, ...], context: Context, span: Span) -> Text:
+def _joined(values: list[Value], context: Context, span: Span) -> Text:
     parts = []
     for value in values:
         part = perform(value, context, span)

@@ -9,6 +9,7 @@ from checker.launch.ros2.actions.gathered import Gathered
 from checker.launch.ros2.graph import LaunchFault, LaunchFaultKind
 from checker.launch.ros2.python.expressions import evaluate
 from checker.launch.ros2.python.interpreter import Interpreter, World
+from checker.launch.ros2.python.misplaced_imports import misplaced_imports
 from checker.launch.ros2.python.scope import LocalFunction, Partial, Scope
 from checker.launch.ros2.python.undefined import undefined_names
 from checker.launch.ros2.values import Allowance, Made, Unknown, Value, chosen_value
@@ -64,6 +65,11 @@ def read_python(source: SourceText, allowance: Allowance, world: World, found: G
                 "move the assignment above"
             )
         span = run.span(name.use)
+        found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, span, message))
+    for wrong in misplaced_imports(tree):
+        its = wrong.node.name
+        message = f"{wrong.module} has no {its}: write from {wrong.home} import {its}"
+        span = run.span(wrong.node)
         found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, span, message))
     scope = run.module_scope(tree)
     function = scope.values.get(ENTRY)
