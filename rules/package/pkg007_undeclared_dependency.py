@@ -7,7 +7,9 @@ packages of nodes, components, included launch files, parameter files, `xacro` c
 and `package://` in robot descriptions, and for messages and a few modules of ROS, such as
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
 packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
-of controllers and Gazebo's hardware, unless another package of the workspace declares them.
+of controllers and Gazebo's hardware, unless another package of the workspace declares them. One of
+the workspace that the build requires is an error: colcon, which takes the order from package.xml,
+builds both at once, and a build from scratch stops.
 Dependencies of a declared metapackage such as ros_gz count as declared. What a declared package of
 the workspace needs where it runs is installed with it, and is an info. The same happens if
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
@@ -189,7 +191,9 @@ def _at_hand(
         message = f"{message}, and needs {manifest.name.value} itself"
         return finding(use.place, message, severity=Severity.INFO, key=name)
     fix, severity = _declaration_fix(package, manifest, use), None
-    if name in bringing and not (use.builds or SUBMISSION_NAME.search(name)):
+    if use.builds and built_by_ament(package) and name not in bringing:
+        message, severity = f"{message}: colcon builds both at once, and stops", Severity.ERROR
+    elif name in bringing and not (use.builds or SUBMISSION_NAME.search(name)):
         message, severity = f"{message}; {bringing[name]} brings it", Severity.INFO
     return finding(use.place, message, severity=severity, key=name, fix=fix)
 

@@ -4,7 +4,7 @@
 after it is not built. Packages that the SolidWorks exporter writes are of ROS 1.
 
 Only a package beside one of ROS 2, or in the same folder `src`, is reported; one that supports both
-by conditions is right.
+by conditions is right. It is an info where the other one was not given and the folder is not `src`.
 
 Fix: port package.xml, CMakeLists.txt and the launch files to ROS 2 (`ament_cmake`); or put an empty
 file COLCON_IGNORE into the folder of the package.
@@ -38,11 +38,14 @@ def check(package: Package, papers: Paperwork) -> Findings:
         others = [it for it in package.other_packages if _builds_with(package.root, it.root)]
         ported = next((it for it in others if is_ros2_only(it)), None)
         if ported is not None:
+            given = package.workspace.given
+            is_given = given is not None and ported.root.is_relative_to(given)
             yield finding(
                 tool,
                 f"colcon build stops here: ROS 2 has no catkin, and {ported.declared_name} beside "
                 "it is of ROS 2: port the package to ament_cmake, or put an empty file "
                 "COLCON_IGNORE into its folder",
+                severity=None if is_given or package.root.parent.name == "src" else Severity.INFO,
             )
         return
 
