@@ -92,7 +92,10 @@ def _elsewhere(dependencies: list[Dependency], context: Context) -> Iterator[Fin
         first, *others = dependencies
         names = ", ".join(map(_package_phrase, dependencies))
         noun = "packages" if others else "package"
-        replaced = context.distro_is_known and any(map(_replacement, dependencies))
+        replaced = any(
+            _replacement(it) and (context.distro_is_known or not _is_of_ros_2(it.package.value))
+            for it in dependencies
+        )
         yield finding(
             first.package,
             f"ROS 2 {context.distro.capitalize()} and rosdep have no {noun} {names}: "
@@ -109,6 +112,10 @@ def _package_phrase(dependency: Dependency) -> str:
         return f"{name} (replaced by {instead})"
     having = [distro.capitalize() for distro in distributions_with(name)]
     return f"{name} ({having[-1]} has it)" if having else name
+
+
+def _is_of_ros_2(name: str) -> bool:
+    return any(distro != "noetic" for distro in distributions_with(name))
 
 
 def _replacement(dependency: Dependency) -> str:
@@ -141,6 +148,7 @@ BAD = [
     _package(f"<exec_depend>forward_position_controller</exec_depend>{_MARK}"),
     _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
+    _package(f"<exec_depend>rviz</exec_depend>{_MARK}"),
     _package(f"<exec_depend>ros2_control_node</exec_depend>{_MARK}"),
     _package(f"<buildtool_depend>ament_python</buildtool_depend>{_MARK}"),
     _package(f"<depend>OpenCV</depend>{_MARK}"),
