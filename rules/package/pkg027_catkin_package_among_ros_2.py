@@ -3,8 +3,8 @@
 `colcon build` stops at it: CMake does not find catkin, which ROS 2 does not have, and what comes
 after it is not built. Packages that the SolidWorks exporter writes are of ROS 1.
 
-Only a package beside one of ROS 2, or in the same folder `src`, is reported; one that supports both
-by conditions is right. It is an info where the other one was not given and the folder is not `src`.
+Only a package in the same folder `src` as one of ROS 2, or beside one that is checked too, is
+reported; one that supports both by conditions is right.
 
 Fix: port package.xml, CMakeLists.txt and the launch files to ROS 2 (`ament_cmake`); or put an empty
 file COLCON_IGNORE into the folder of the package.
@@ -34,26 +34,25 @@ def check(package: Package, papers: Paperwork) -> Findings:
         if (each.kind, each.package.value) == ("buildtool_depend", "catkin")
         and not each.is_conditional
     )
-    for tool in tools:
-        others = [it for it in package.other_packages if _builds_with(package.root, it.root)]
-        ported = next((it for it in others if is_ros2_only(it)), None)
-        if ported is not None:
-            given = package.workspace.given
-            is_given = given is not None and ported.root.is_relative_to(given)
-            yield finding(
-                tool,
-                f"colcon build stops here: ROS 2 has no catkin, and {ported.declared_name} beside "
-                "it is of ROS 2: port the package to ament_cmake, or put an empty file "
-                "COLCON_IGNORE into its folder",
-                severity=None if is_given or package.root.parent.name == "src" else Severity.INFO,
-            )
+    others = (it for it in package.other_packages if is_ros2_only(it))
+    beside = next((it for it in others if _builds_with(package, it.root)), None)
+    if beside is None:
         return
+    for tool in tools:
+        yield finding(
+            tool,
+            f"colcon build stops here: ROS 2 has no catkin, and {beside.declared_name} beside it "
+            "is of ROS 2: port the package to ament_cmake, or put an empty file COLCON_IGNORE "
+            "into its folder",
+        )
 
 
-def _builds_with(one: Path, other: Path) -> bool:
-    """Return whether one call of colcon builds the packages of two folders."""
-    above = Path(os.path.commonpath((one, other)))
-    return one.parent == other.parent or above.name == "src"
+def _builds_with(package: Package, other: Path) -> bool:
+    """Return whether one call of colcon builds a package and that in another folder."""
+    given = package.workspace.given
+    checked = given is not None and other.is_relative_to(given)
+    above = Path(os.path.commonpath((package.root, other)))
+    return above.name == "src" or (checked and other.parent == package.root.parent)
 
 
 def _manifest(tool: str, mark: str = "") -> str:
@@ -64,7 +63,10 @@ def _manifest(tool: str, mark: str = "") -> str:
 """
 
 
-_DRIVER = {"../acme_arm_driver/package.xml": _manifest("ament_cmake")}
+_DRIVER = {
+    "@name": "src/acme_arm_description",
+    "../acme_arm_driver/package.xml": _manifest("ament_cmake"),
+}
 _BOTH = """<package format="3">
   <name>acme_arm_description</name>
   <buildtool_depend condition="$ROS_VERSION == 1">catkin</buildtool_depend>
