@@ -25,6 +25,7 @@ _SUFFIXES = (".urdf", ".xacro")
 _OF_MOVEIT = (".srdf", ".srdf.xacro")
 FOLDER_BESIDE_SDF = "urdf/"
 CANDIDATES_LIMIT = 50
+_MOVES = re.compile(r"""\btype\s{0,8}=\s{0,8}["'](?:continuous|prismatic|revolute)["']""")
 _LEVELS = 6
 """Folders between a file and the package or model that it is in."""
 
@@ -121,7 +122,27 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
         chosen |= {path: Candidate(path) for path in own or ([] if chosen else others)}
     if not chosen and package.kind is PackageKind.URDF_DESCRIPTION:
         chosen = {path: Candidate(path) for path in _made_of(package)}
-    return [*chosen.values()][:CANDIDATES_LIMIT]
+    return [*chosen.values()]
+
+
+def most_likely(
+    package: Package, found: list[Candidate]
+) -> tuple[list[Candidate], list[Candidate]]:
+    """Return the files to read, at most `CANDIDATES_LIMIT`, and the others.
+
+    Of more files those that are loaded come first, then those with joints that move: a folder of
+    objects may lie beside a robot.
+    """
+    if len(found) <= CANDIDATES_LIMIT:
+        return found, []
+    ranked = sorted(
+        found, key=lambda it: (not it.loaded, not _MOVES.search(_text(package, it.path)))
+    )
+    kept = {it.path for it in ranked[:CANDIDATES_LIMIT]}
+    return (
+        [it for it in found if it.path in kept],
+        [it for it in found if it.path not in kept],
+    )
 
 
 def _files(package: Package) -> list[str]:

@@ -22,10 +22,12 @@ from checker.launch.ros2.graph import Ros2Launch
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.robots.candidates import (
+    CANDIDATES_LIMIT,
     Candidate,
     candidates,
     is_included,
     may_hold_description,
+    most_likely,
     unreadable_models,
     unused_parts,
 )
@@ -81,10 +83,12 @@ class PackageDescriptions:
         self._for_rviz = package.kind not in _URDF_KINDS
         self._started = ros2.entries if ros2 is not None else ()
         self._candidates: Sequence[Candidate] = ()
+        self._beyond: Sequence[Candidate] = ()
         if only:
             self._candidates = [Candidate(only, loaded=True)]
         elif may_hold_description(package):
-            self._candidates = candidates(package, started_loads(package, ros2))
+            found = candidates(package, started_loads(package, ros2))
+            self._candidates, self._beyond = most_likely(package, found)
         self._wanted = [
             self._wish(candidate)
             for candidate in self._candidates
@@ -145,8 +149,9 @@ class PackageDescriptions:
             called = [*self._called(holding)]
             descriptions += called
             made = (description.file for description in called)
-            seen = self._seen.union(made)
+            seen = self._seen.union(made, (it.path for it in self._beyond))
             reasons += unreadable_models(self._package, seen)
+            reasons += self._unread_for_number()
             left = unused_parts(self._package, seen)
             unused += (f"{path} is not read: no file of a robot includes it" for path in left)
             if not descriptions:
@@ -163,6 +168,14 @@ class PackageDescriptions:
             assumed,
             tuple(it for it in others if isinstance(it, UrdfDescription)),
         )
+
+    def _unread_for_number(self) -> Iterator[str]:
+        if self._beyond:
+            more = f" and {len(self._beyond) - 1} more files" if self._beyond[1:] else ""
+            yield (
+                f"{self._beyond[0].path}{more} may be robots and are not read: of a package "
+                f"{CANDIDATES_LIMIT} are"
+            )
 
     def _read(self, document: XmlDocument, path: str) -> UrdfDescription:
         read = read_description(document, path, for_rviz=self._for_rviz)

@@ -12,6 +12,7 @@ from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.formats.xacro.fault import XacroFaultKind
 from checker.model.robot import Robot
+from checker.robots.candidates import CANDIDATES_LIMIT
 from checker.robots.urdf_files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
@@ -275,3 +276,11 @@ def test_a_package_that_is_not_available_may_be_needless(
     (reason,) = files_of(subject).unread
     assert "elsewhere" in reason
     assert "not available" in reason
+
+
+def test_robots_are_read_before_objects_where_there_are_many(describe: Describe) -> None:
+    objects = {f"{NAME}/urdf/box{n}.urdf": robot(BASE) for n in range(CANDIDATES_LIMIT)}
+    subject = describe({**objects, f"{NAME}/urdf/robot.urdf": robot(BASE + ELBOW)})
+    assert "arm" in links(subject)
+    (reason,) = (it for it in files_of(subject).unread if "not read" in it)
+    assert "box" in reason
