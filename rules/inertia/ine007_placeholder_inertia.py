@@ -2,7 +2,7 @@
 
 Exporters write the unit tensor by default: a hand-sized part with 1 kg·m² turns as if it weighed a
 ton. If links of different mass or size share one tensor, it is copied and right for at most one of
-them.
+them; if most of them are alike, for these, and only the others are reported.
 
 Fix: compute the moments of each link, with CAD or with the formula of the most similar solid.
 Source: Model Migration Guide; review of exported models.
@@ -44,7 +44,15 @@ def check(
         elif any(tensor) and masses.share(name) > share:
             by_tensor.setdefault(tensor, []).append(inertia)
     for tensor, group in by_tensor.items():
-        if len(group) >= links and not _alike(masses, group, alike):
+        if len(group) < links or _alike(masses, group, alike):
+            continue
+        near = ([it for it in group if _alike(masses, (it, one), alike)] for one in group)
+        owners = max(near, key=len)
+        if 2 * len(owners) > len(group):
+            # The tensor is that of most of the links, and the others have a copy of it.
+            copies = [it for it in group if it not in owners]
+            yield from _copied_tensor(masses.robot, copies, owners[0], tensor)
+        else:
             yield from _repeated_tensors(masses.robot, group, tensor)
 
 
@@ -100,6 +108,22 @@ def _repeated_tensors(
             )
 
 
+def _copied_tensor(
+    robot: Robot, copies: Sequence[LinkInertia], owner: LinkInertia, tensor: Sequence[float]
+) -> Iterator[Finding]:
+    moments = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
+    for inertia in copies:
+        yield finding(
+            inertia.moments_span,
+            f"link {inertia.link.name.value!r} has the inertia tensor of "
+            f"{owner.link.name.value!r}, which has another mass or size (ixx, iyy, izz = "
+            f"{moments} kg·m²)",
+            key=f"copied {owner.link.name.value}",
+            covered_by=_MORE_PRECISE,
+            fix=moments_fix(robot, inertia.link),
+        )
+
+
 def _links(*parts: tuple[str, float, float], moments: str, marked: bool = False) -> str:
     mark = "  <!-- ^ INE007 -->" if marked else ""
     return "".join(
@@ -139,6 +163,8 @@ GOOD = [
 ]
 BAD = [
     _links(("body", 2.0, 0.1), moments="1", marked=True),
-    _links(("body", 9.0, 0.3), *_WHEELS, moments="0.008", marked=True),
-    _links(("body", 2.0, 0.3), *_WHEELS, moments="0.008", marked=True),
+    # The tensor is that of the wheels.
+    _links(("body", 9.0, 0.3), moments="0.008", marked=True) + _links(*_WHEELS, moments="0.008"),
+    _links(("body", 2.0, 0.3), moments="0.008", marked=True) + _links(*_WHEELS, moments="0.008"),
+    _links(("body", 9.0, 0.3), ("arm", 2.0, 0.1), ("hand", 0.5, 0.1), moments="0.008", marked=True),
 ]
