@@ -57,7 +57,7 @@ def check(
         return
     reached = round(ratio * leg.linear, 3) + 0.0
     limited = _limited(driven) if ratio < 1.0 else None
-    cause, place, fastest = limited or (_cause(driven, ratio, warning_beyond), None, None)
+    cause, place, fastest = limited or (*_cause(driven, ratio, warning_beyond), None)
     dragged = "" if cause or ratio > 1.0 else _dragged(driven)
     yield finding(
         place or driven.drive,
@@ -69,7 +69,7 @@ def check(
             *([(fastest, "the drive's maximum speed")] if fastest else []),
             *((joint, "turns about an upright axis") for joint in driven.upright_wheels),
         ],
-        covered_by=("GEO003",) if driven.upright_wheels else (),
+        covered_by=("GEO003", "GEO004"),
     )
 
 
@@ -111,18 +111,24 @@ def _limited(
     return None
 
 
-def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
-    """Return the cause if the plugin's wheel radius or a wheel that cannot roll explains it."""
+def _cause(
+    driven: SettledTrial, ratio: float, tolerance: float
+) -> tuple[str, Located[float] | None]:
+    """Return the cause if the plugin's wheel radius or a wheel that cannot roll explains it.
+
+    Returns:
+        The end of a sentence, and the radius.
+    """
     if dragged := driven.rigid_steering:
-        return f"; {dragged!r} is steered, but no joint lets it roll"
+        return f"; {dragged!r} is steered, but no joint lets it roll", None
     for drive in driven.robot.locomotion.wheel_drives:
         stated = drive.wheel_radius.value
         for wheel in drive.wheels:
             if wheel.radius and stated > 0.0 and abs(wheel.radius / stated - ratio) <= tolerance:
                 radius = f"the wheels have a radius of {wheel.radius:.3g} m"
                 tag = f"half of {drive.diameter_tag}" if drive.diameter_tag else drive.radius_tag
-                return f"; {tag} is {stated:g} m, but {radius}"
-    return ""
+                return f"; {tag} is {stated:g} m, but {radius}", drive.wheel_radius
+    return "", None
 
 
 _DRAG = 0.05
@@ -150,8 +156,8 @@ BAD = [
     {
         "@robot": "rover",
         "@change": {
-            'DiffDrive">': 'DiffDrive">  <!-- ^ TRI003 -->',
-            "<wheel_radius>0.1<": "<wheel_radius>0.15<",
+            "<wheel_radius>0.1</wheel_radius>": "<wheel_radius>0.15</wheel_radius>"
+            "  <!-- ^ TRI003 -->",
         },
     },
     _rover("<velocity>2</velocity>"),
