@@ -26,9 +26,10 @@ from checker.package.package import Package
 from checker.package.uris import is_on_one_machine, own_path_on_machine
 from checker.ros.wiring.parameters import blocks_in
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
-from checker.source.text import Located
+from checker.source.text import Located, Span
 
 _FILE = re.compile(r"[^/\\]\.[A-Za-z]\w{1,9}\Z")
+_FOLDER = re.compile(r"""["'](/(?:home|Users)/[^"'\n]{1,300})["']""")
 _READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
 _ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
@@ -48,10 +49,27 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
     named = [*_in_ros_2(launch)] if launch is not None else []
     if not is_ros2_only(package):
         named += _in_ros_1(entries)
-    for label, text in {text.span.place(): (label, text) for label, text in named}.values():
-        is_own = text.value in text.span.text and not text.span.source.file.startswith("../")
-        if is_own and is_on_one_machine(text.value) and _FILE.search(text.value):
-            yield _in_launch_file(package, label, text)
+    wrong = (
+        (label, text)
+        for label, text in named
+        if is_on_one_machine(text.value) and _FILE.search(text.value)
+        if not text.span.source.file.startswith("../")
+    )
+    parts = ((label, text, _written_part(text)) for label, text in wrong)
+    own = {part.span.place(): (label, text, part) for label, text, part in parts if part}
+    for label, text, part in own.values():
+        yield _in_launch_file(package, label, text, part.span)
+
+
+def _written_part(text: Located[str]) -> Located[str] | None:
+    """Return the text itself, or the folder of the machine that a launch file joins it from."""
+    if text.value in text.span.text:
+        return text
+    source = text.span.source
+    for found in _FOLDER.finditer(source.text):
+        if text.value.startswith(f"{found[1].rstrip('/')}/"):
+            return Located(found[1], Span(source, *found.span(1)))
+    return None
 
 
 def _in_ros_2(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
@@ -101,7 +119,7 @@ def _is_read(word: Located[str]) -> bool:
     return _READ.search(word.value) is not None
 
 
-def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding:
+def _in_launch_file(package: Package, label: str, text: Located[str], place: Span) -> Finding:
     own, name = own_path_on_machine(package, text.value), package.declared_name
     if not package.exists("package.xml"):  # nothing finds a loose folder by its name
         own = ""
@@ -109,7 +127,7 @@ def _in_launch_file(package: Package, label: str, text: Located[str]) -> Finding
         here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
     else:
         here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
-    return _finding(package, label, text, f"write {here}" if own else "")
+    return _finding(package, label, Located(text.value, place), f"write {here}" if own else "")
 
 
 def _in_parameters(package: Package, label: str, name: str, text: Located[str]) -> Finding:
@@ -166,7 +184,19 @@ GOOD = [
     _example("/home/ann/maps"),
     _example("/map/image.raw", name="topic"),
 ]
+_JOINED = """import os
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    share = "/home/ann/ws/install/arm/share/arm"  # ^ WIR014
+    model = os.path.join(share, "mjcf", "arm.xml")
+    node = Node(package="arm_sim", executable="sim", parameters=[{"model": model}])
+    return LaunchDescription([node])
+"""
 BAD = [
+    {"@ros2": True, "launch/sim.launch.py": _JOINED},
     {
         "@ros2": "        ExecuteProcess(cmd=['gzserver', '/home/ann/ws/src/arm/hall.world']),"
         "  # ^ WIR014"
