@@ -9,11 +9,18 @@ shape is turned.
 Source: the moments of solids; URDF and SDFormat state moments about the axes of `<inertial>`.
 """
 
+from collections.abc import Iterator
+
+from checker.model.components import Link
+from checker.model.locomotion.wheels import angle_to_axle, tread
+from checker.model.robot import Robot
 from checker.physics.mass.even_inertia import even_moments, moments_fix
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _DIAGONAL, _PRODUCTS = (0, 3, 5), (1, 2, 4)
+_ASKEW = 0.1
+"""Radians between the axis of a wheel's shape and its axle."""
 _FLAT = 0.01
 """Share of the largest moment up to which a product of inertia counts as zero."""
 
@@ -31,9 +38,12 @@ def check(
     """
     if masses.robot.is_static:
         return
+    turned = set(_across_their_axles(masses.robot))
     for name, inertia in masses.weighed.items():
         inertial, expected = inertia.link.inertial, even_moments(masses.robot, inertia.link)
         if inertial is None or expected is None or masses.share(name) <= share:
+            continue
+        if inertia.link in turned:
             continue
         stated = [moment.value for moment in inertial.moments]
         if not all(inertial.moments[number].stated for number in _DIAGONAL):
@@ -53,6 +63,14 @@ def check(
                 key="order",
                 fix=moments_fix(masses.robot, inertia.link),
             )
+
+
+def _across_their_axles(robot: Robot) -> Iterator[Link]:
+    """Yield the wheels whose shape is turned wrong, not their moments: GEO003 reports them."""
+    for wheel in (*robot.locomotion.wheels, *robot.locomotion.undriven):
+        rolls = tread(robot, wheel)
+        if rolls is not None and (angle_to_axle(wheel, rolls) or 0.0) > _ASKEW:
+            yield wheel.link
 
 
 def _is_skew(moments: list[float] | tuple[float, ...]) -> bool:
