@@ -11,11 +11,13 @@ Source: Model Migration Guide; review of exported models.
 from collections.abc import Iterator, Sequence
 
 from checker.model.robot import Robot
-from checker.physics.mass.even_inertia import moments_fix
+from checker.physics.mass.even_inertia import even_moments, moments_fix
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+_ABOUT = 3.0
+"""Factor by which the moments of a link differ from those of its mass spread evenly."""
 _MORE_PRECISE = ("INE004", "INE013")
 """They state how far the same moments are off."""
 
@@ -48,7 +50,7 @@ def check(
             continue
         near = ([it for it in group if _alike(masses, (it, one), alike)] for one in group)
         owners = max(near, key=len)
-        if 2 * len(owners) > len(group):
+        if 2 * len(owners) > len(group) and _is_own(masses.robot, owners[0], tensor):
             # The tensor is that of most of the links, and the others have a copy of it.
             copies = [it for it in group if it not in owners]
             yield from _copied_tensor(masses.robot, copies, owners[0], tensor)
@@ -106,6 +108,15 @@ def _repeated_tensors(
                 covered_by=_MORE_PRECISE,
                 fix=moments_fix(robot, inertia.link),
             )
+
+
+def _is_own(robot: Robot, inertia: LinkInertia, tensor: Sequence[float]) -> bool:
+    """Return whether a tensor is about that of the shapes of a link, and no placeholder."""
+    expected = even_moments(robot, inertia.link)
+    return expected is not None and all(
+        tensor[number] <= _ABOUT * expected[number] and expected[number] <= _ABOUT * tensor[number]
+        for number in (0, 3, 5)
+    )
 
 
 def _copied_tensor(
