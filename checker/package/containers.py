@@ -34,6 +34,18 @@ def container_with(package: Package, path: str) -> str:
     return ""
 
 
+def is_made_in_container(package: Package, path: str) -> bool:
+    """Return whether a command of a Dockerfile writes a file, as `xacro … > urdf/arm.urdf` does.
+
+    Args:
+        package: Its Dockerfiles, and those around it, count.
+        path: The path as the package lists it; `../other/…` is a sibling's.
+    """
+    inside = path.removeprefix("../") if path.startswith("../") else f"{package.root.name}/{path}"
+    written = re.compile(rf">[ \t]*\S{{0,300}}/{re.escape(inside)}(?![\w.-])")
+    return any(written.search(it.text) for it in files_around(package, _DOCKERFILE))
+
+
 def _working_folders(package: Package) -> Iterator[tuple[str, str]]:
     """Yield working folders, each with its Dockerfile; one that is relative extends the former.
 

@@ -153,6 +153,11 @@ GOOD = [
     },
     {"@urdf": True, _SPAWN: _example(f"-urdf -file {_FIND}/urdf/arm.urdf -model left_arm -x -0.5")},
     {"@urdf": _SILENT, _SPAWN: _example(f"{_USUAL} -robot_namespace arm")},
+    {
+        "@urdf": True,
+        _SPAWN: _example(_USUAL, "none.urdf").replace("  <!-- ^ CTL008 -->", ""),
+        "Dockerfile": "RUN xacro arm.xacro > /ws/src/acme_arm_description/urdf/none.urdf\n",
+    },
 ]
 BAD = [
     {"@urdf": True, _SPAWN: _example("|-urdf -param robot_description", "arm.urdf")},

@@ -13,6 +13,7 @@ from checker.launch.ros1.substitution import is_known
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
+from checker.package.containers import is_made_in_container
 from checker.package.package import Package
 from checker.ros.control.controllers import (
     ControlLaunch,
@@ -168,5 +169,6 @@ def missing_descriptions(package: Package, graph: LaunchGraph) -> Iterable[Param
     for text, span in named:
         for match in _DESCRIPTION.finditer(text[:_LONGEST]):
             path = files.path_of(match.group())
-            if path is not None and not package.exists(path):
-                yield ParameterFault(span, f"{path} is read as a description, but does not exist")
+            if path is None or package.exists(path) or is_made_in_container(package, path):
+                continue
+            yield ParameterFault(span, f"{path} is read as a description, but does not exist")
