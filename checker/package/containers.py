@@ -16,6 +16,8 @@ _DOCKERFILE = re.compile(r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile)\Z")
 _WORKDIR = re.compile(
     r"^[ \t]*(?:FROM\b|WORKDIR[ \t]+[\"']?([\w./${}-]{1,300})[\"']?[ \t]*$)", re.M | re.I
 )
+_WRITTEN = re.compile(r">[ \t]*([^\s\"';&|]{1,300})")
+"""A file into which a command writes what it prints."""
 _OF_EVERY_SYSTEM = ("", "home", "root", "opt", "tmp")
 """Folders that every system has: what is in them on another machine is not known."""
 
@@ -42,8 +44,9 @@ def is_made_in_container(package: Package, path: str) -> bool:
         path: The path as the package lists it; `../other/…` is a sibling's.
     """
     inside = path.removeprefix("../") if path.startswith("../") else f"{package.root.name}/{path}"
-    written = re.compile(rf">[ \t]*\S{{0,300}}/{re.escape(inside)}(?![\w.-])")
-    return any(written.search(it.text) for it in files_around(package, _DOCKERFILE))
+    texts = (source.text for source in files_around(package, _DOCKERFILE))
+    written = (path for text in texts if inside in text for path in _WRITTEN.findall(text))
+    return any(path.endswith(f"/{inside}") for path in written)
 
 
 def _working_folders(package: Package) -> Iterator[tuple[str, str]]:

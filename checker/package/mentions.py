@@ -32,6 +32,7 @@ _ENDING = re.compile(
     re.IGNORECASE,
 )
 _WORD = re.compile(r"[\w-]+")
+_FILE_NAME = re.compile(r"[\w.-]+")
 _DELIMITER = re.compile(rb"[\x00-\x1f/\\\"'<>=()\[\]{},;:|&?#*]")
 
 
@@ -42,7 +43,7 @@ def has_word(text: str, name: str) -> bool:
 
 def has_file(text: str, name: str) -> bool:
     """Return whether a text contains the whole name of a file: `arm.urdf`, not `my_arm.urdf`."""
-    return name in text and bool(re.search(rf"(?<![\w.-]){re.escape(name)}(?![\w.-])", text))
+    return name in text and name in _FILE_NAME.findall(text)
 
 
 def mentioned_names(package: Package) -> frozenset[str]:
