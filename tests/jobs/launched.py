@@ -69,9 +69,13 @@ def is_alive(process: int) -> bool:
         return False
 
 
+PATIENCE = 300.0
+"""Seconds, which no healthy start comes near on a machine that others use too."""
+
+
 def wait_for(number: int, ancestor: int | None = None) -> list[int]:
     """Wait until there are so many tasks below a process, and return them."""
-    deadline = monotonic() + 20
+    deadline = monotonic() + PATIENCE
     while len(tasks(ancestor)) != number and monotonic() < deadline:
         sleep(0.02)
     found = tasks(ancestor)
