@@ -121,7 +121,10 @@ def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
 
 
 def test_a_xacro_file_of_too_many_elements_is_not_checked(tmp_path: Path) -> None:
-    """Forty macros, each of which calls the one before twice: a bound of ours, no error of it."""
+    """Forty macros, each of which calls the one before twice: a bound of ours, no error of it.
+
+    On a slow machine the bound of processor time comes first.
+    """
     macros = "".join(
         f'<xacro:macro name="m{n}"><xacro:m{n - 1}/><xacro:m{n - 1}/></xacro:macro>'
         for n in range(1, 41)
@@ -134,4 +137,6 @@ def test_a_xacro_file_of_too_many_elements_is_not_checked(tmp_path: Path) -> Non
     assert report.verdict is VerdictKind.INCOMPLETE
     assert not report.findings
     (reason,) = {unseen.reason for unseen in report.not_checked if unseen.rule == "URD001"}
-    assert reason == "r.urdf.xacro is not expanded: it expands to more than 50000 elements"
+    start, _, bound = reason.partition(": ")
+    assert start == "r.urdf.xacro is not expanded"
+    assert bound.endswith(("more than 50000 elements", "s of processor time"))
