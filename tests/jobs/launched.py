@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 
+from tests.jobs.site import PATIENCE
+
 MODULE = b"checker.base.sandbox.launcher_process"
 
 
@@ -67,10 +69,6 @@ def is_alive(process: int) -> bool:
         return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
-
-
-PATIENCE = 300.0
-"""Seconds, which no healthy start comes near on a machine that others use too."""
 
 
 def wait_for(number: int, ancestor: int | None = None) -> list[int]:
