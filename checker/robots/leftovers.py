@@ -1,4 +1,4 @@
-"""Descriptions that nothing names and whose meshes are gone, beside one that a program names."""
+"""Descriptions that nothing names, beside one that a program or a page names."""
 
 from __future__ import annotations
 
@@ -6,38 +6,37 @@ import posixpath
 from collections.abc import Iterator, Mapping
 from itertools import chain, islice
 
+from checker.package.mentions import has_file
 from checker.package.package import Package
-from checker.package.uris import path_behind
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
-_PROGRAMS = (".py", ".cpp", ".cc", ".h", ".hpp", ".yaml", ".yml", ".json", ".toml", ".sh", ".bat")
+_NAMING = (
+    *(".py", ".cpp", ".cc", ".h", ".hpp", ".yaml", ".yml", ".json", ".toml", ".sh", ".bat"),
+    *(".md", ".rst", ".ipynb", ".m", ".xacro", ".txt", ".usda"),
+)
 _PAGES = (".ts", ".tsx", ".js", ".jsx", ".html", ".vue")
 _TEXTS_LIMIT = 400
 """Files of the workspace that are searched for names of descriptions."""
 
 
 def leftovers(package: Package, documents: Mapping[str, XmlDocument]) -> frozenset[str]:
-    """Return paths of descriptions that nothing names and all of whose meshes are missing.
+    """Return paths of descriptions that nothing names, where a text names another of them.
 
     Args:
         package: The package being checked.
         documents: Its descriptions by their paths, none of which a launch file loads.
     """
-    gone = [path for path, document in documents.items() if _lacks_meshes(package, document, path)]
-    if not gone or len(documents) == 1:
+    if len(documents) == 1:
         return frozenset()
     workspace = package.workspace
     packages = {it.root: it for it in (package, *workspace.packages.values())}.values()
-    texts = "\n".join(
-        chain(
-            islice(chain.from_iterable(_texts(it, _PROGRAMS) for it in packages), _TEXTS_LIMIT),
-            workspace.launch_texts.values(),
-        )
-    )
-    if not any(posixpath.basename(path) in texts for path in documents):
-        return frozenset()
-    return frozenset(path for path in gone if _stem(path) not in texts)
+    texts = [
+        *islice(chain.from_iterable(_texts(it, _NAMING) for it in packages), _TEXTS_LIMIT),
+        *workspace.launch_texts.values(),
+    ]
+    left = frozenset(path for path in documents if not any(_names(it, path) for it in texts))
+    return left if len(left) < len(documents) else frozenset()
 
 
 def is_of_page(package: Package, path: str) -> bool:
@@ -54,11 +53,9 @@ def _texts(package: Package, suffixes: tuple[str, ...]) -> Iterator[str]:
             yield source.text
 
 
-def _lacks_meshes(package: Package, document: XmlDocument, path: str) -> bool:
-    uris = {mesh.get("filename") or "" for mesh in document.root.descendants("mesh")}
-    found = [path_behind(package, posixpath.dirname(path), uri) for uri in uris]
-    return bool(found) and all(isinstance(it, str) and not package.exists(it) for it in found)
-
-
-def _stem(path: str) -> str:
-    return posixpath.basename(path).partition(".")[0]
+def _names(text: str, path: str) -> bool:
+    """Return whether a text names a file, or has its stem as a value."""
+    name = posixpath.basename(path)
+    stem = name.partition(".")[0]
+    values = (f'"{stem}"', f"'{stem}'", f":={stem}", f": {stem}\n")
+    return has_file(text, name) or any(it in text for it in values)

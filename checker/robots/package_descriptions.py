@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
@@ -196,12 +195,10 @@ class PackageDescriptions:
                 for it in descriptions
             ]
         texts = self._package.naming_launch_texts
-        folders = {posixpath.dirname(path) for path in loaded}
         return [
             it
             if it.file in loaded
-            or self._package.workspace.launches_file(posixpath.basename(it.file))
-            or may_be_loaded(texts, it.file, folders)
+            or may_be_loaded(self._package.workspace.launch_texts, texts, it.file, loaded)
             else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
             for it in descriptions
         ]

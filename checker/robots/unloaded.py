@@ -25,24 +25,39 @@ _VALUE = re.compile(r"""\b(?:default|value)\s{0,8}=\s{0,8}["']([\w.-]{0,100})["'
 
 
 def may_be_loaded(
-    launch_texts: Mapping[str, str], path: str, folders: Collection[str] = ()
+    launch_texts: Mapping[str, str],
+    naming: Mapping[str, str],
+    path: str,
+    loaded: Collection[str] = (),
 ) -> bool:
     """Return whether a launch file names a description, or a name that may be this one.
 
     So does one with an argument that takes any file, beside a file that it loads by default.
 
     Args:
-        launch_texts: The launch files that may load it.
+        launch_texts: All launch files.
+        naming: Those of the package, or that name it.
         path: The path of the description.
-        folders: The folders of the descriptions that are loaded.
+        loaded: The paths of the descriptions that are loaded.
     """
     folder, name = posixpath.split(path)
+    folders = {posixpath.dirname(it) for it in loaded}
+    named = [text for text in launch_texts.values() if has_file(text, name)]
+    if any(not _means_others(text, name, loaded) for text in named):
+        return True
     return any(
-        has_file(text, name)
-        or (folder in folders and _FILE_ARGUMENT.search(text))
-        or _may_name(text, name)
-        for text in launch_texts.values()
+        (folder in folders and _FILE_ARGUMENT.search(text))
+        or (text not in named and _may_name(text, name))
+        for text in naming.values()
     )
+
+
+def _means_others(text: str, name: str, loaded: Collection[str]) -> bool:
+    """Return whether all that a text says of a name is the path of a loaded file of that name."""
+    plain = text.replace('"', "'")
+    paths = (it.split("/") for it in loaded if it.endswith(f"/{name}"))
+    written = (f"{it[-2]}{between}{name}" for it in paths for between in ("/", "', '"))
+    return plain.count(name) == sum(map(plain.count, written))
 
 
 def _may_name(text: str, name: str) -> bool:

@@ -105,7 +105,7 @@ def test_what_another_value_makes_has_warnings(tmp_path: Path) -> None:
 _MESH = '<visual><geometry><mesh filename="package://{name}/{file}"/></geometry></visual>'
 
 
-def test_a_leftover_without_its_meshes_has_one_warning(tmp_path: Path) -> None:
+def test_what_nothing_names_has_a_warning(tmp_path: Path) -> None:
     folder = tmp_path / NAME
     (folder / "web/public").mkdir(parents=True)
     (folder / "package.xml").write_text(PACKAGE_XML)
@@ -141,13 +141,28 @@ def test_a_leftover_without_its_meshes_has_one_warning(tmp_path: Path) -> None:
     ],
 )
 def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
-    assert may_be_loaded({"launch/a.launch": text}, "urdf/arm_v2.urdf.xacro", {"urdf"}) is loaded
+    texts = {"launch/a.launch": text}
+    assert may_be_loaded(texts, texts, "urdf/arm_v2.urdf.xacro", {"urdf/arm.urdf"}) is loaded
+
+
+@pytest.mark.parametrize(
+    ("text", "loaded"),
+    [
+        ('join(share, "urdf_v1", "arm.urdf")', False),
+        ("$(find arm)/urdf_v1/arm.urdf", False),
+        ("join(share, 'urdf_v1', 'arm.urdf') or join(share, kind, 'arm.urdf')", True),
+        ("join(share, kind, 'arm.urdf')", True),
+    ],
+)
+def test_a_file_of_the_name_of_a_loaded_one(text: str, loaded: bool) -> None:
+    texts = {"launch/a.launch": text}
+    assert may_be_loaded(texts, texts, "urdf_v2/arm.urdf", {"urdf_v1/arm.urdf"}) is loaded
 
 
 def test_an_argument_takes_files_of_the_folder_of_its_default() -> None:
     texts = {"launch/a.launch": "<arg name='model' default='$(find arm)/urdf/arm.urdf'/>"}
-    assert may_be_loaded(texts, "urdf/arm_v2.urdf", {"urdf"})
-    assert not may_be_loaded(texts, "original/arm_v2.urdf", {"urdf"})
+    assert may_be_loaded(texts, texts, "urdf/arm_v2.urdf", {"urdf/arm.urdf"})
+    assert not may_be_loaded(texts, texts, "original/arm_v2.urdf", {"urdf/arm.urdf"})
 
 
 _CONVERTED = '<sdf version="1.9"><model name="rover"><link/></model></sdf>'
