@@ -2,27 +2,33 @@
 
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
-flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
+flat ground below the lowest collision. A caster or foot that is drawn there and has no collision
+is named instead of the centre of mass. Shapes within 10 mm of the ground support the robot, meshes
 with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot
 of URDF that stands on legs is not judged, nor is one whose name says that it balances: a controller
 decides how it stands. For a description that no simulator gets, such as one for transforms alone,
 it is an info.
 
-Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
-wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
+Fix: give each caster and foot a `<collision>`; check the centre of mass of the heaviest link (the
+pose of its `<inertial>`) and the places of wheels or feet. Also check for a part far outside, or a
+chassis lower than the wheels.
 Source: statics: tip angle = atan(distance to the edge / height of the centre of mass).
 """
 
 import math
 from collections.abc import Iterator, Mapping
 
-from checker.model.components import Link
+from checker.model.components import Link, Pose
+from checker.model.geometry.placed_shapes import place_shapes
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import Tie
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import spanning_tree_of
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
+_NEAR_GROUND = 0.01
+"""Metres."""
 _HINGES = 3
 """Hinges of a leg, such as two at the hip and one at the knee; a rocker-bogie has two."""
 _UPRIGHT = 0.5
@@ -70,17 +76,49 @@ def check(
     grave = degrees < (error_below_degrees if context.is_subt else 0.0)
     if degrees >= least:
         return
-    at = ", ".join(f"{part:.3f}" for part in centre[:2])
-    height = f"{centre[2] - ground:.3g} m above the ground"
     standing = "tips over on flat ground" if degrees < 0 else f"tips over at {degrees:.1f}°"
-    heaviest = _heaviest(masses)
     severity = Severity.ERROR if grave else Severity.WARNING
+    place, cause = _bodiless(robot, ground) or _top_heavy(masses, centre, ground, least)
     yield finding(
-        heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
-        f"the robot {standing}, expected {least:g}° or more: its centre of mass "
-        f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
+        place,
+        f"the robot {standing}{cause}",
         severity=Severity.INFO if robot.shown_only else severity,
     )
+
+
+def _top_heavy(
+    masses: MassProperties, centre: Vector, ground: float, least: float
+) -> tuple[Link | Pose, str]:
+    """Return the inertial of the heaviest link, and where the centre of mass is, as the cause."""
+    heaviest = max(masses.links.values(), key=lambda inertia: inertia.mass).link
+    at = ", ".join(f"{part:.3f}" for part in centre[:2])
+    height = f"{centre[2] - ground:.3g} m above the ground"
+    return (
+        heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
+        f", expected {least:g}° or more: its centre of mass is at x, y = {at} m, {height}; "
+        f"the heaviest link is {heaviest.name.value!r}",
+    )
+
+
+def _bodiless(robot: Robot, ground: float) -> tuple[Link, str] | None:
+    """Return what is drawn on the ground and supports nothing, such as a caster, as the cause."""
+    drawn = _drawn_on_ground(robot, ground)
+    names = " and ".join(repr(link.name.value) for link in drawn)
+    supports = "supports" if len(drawn) == 1 else "support"
+    return (drawn[0], f": without <collision>, {names} {supports} nothing") if drawn else None
+
+
+def _drawn_on_ground(robot: Robot, ground: float) -> list[Link]:
+    """Return links without collision whose visuals reach the ground, such as a caster."""
+    return [
+        link
+        for link in robot.links
+        if not link.collisions
+        and any(
+            abs(placed.box.low[2] - ground) < _NEAR_GROUND
+            for placed in place_shapes(robot, link, link.visuals)
+        )
+    ]
 
 
 def _stands_on_legs(masses: MassProperties) -> bool:
@@ -103,10 +141,6 @@ def _bends(robot: Robot, tie: Tie) -> bool:
     axes = tie.joint.axes if tie.joint.type.value == "revolute" else ()
     axis = robot.axis_in_model(tie.joint, axes[0]) if axes else None
     return axis is not None and abs(axis[2]) < _UPRIGHT
-
-
-def _heaviest(masses: MassProperties) -> Link:
-    return max(masses.links.values(), key=lambda inertia: inertia.mass).link
 
 
 def _rover(x: float, z: float = 0.0, mark: str = "", front: float = 0.1) -> str:
@@ -134,6 +168,13 @@ def _rover(x: float, z: float = 0.0, mark: str = "", front: float = 0.1) -> str:
 
 
 _MARK = "  <!-- ^ INE009 -->"
+_CASTER = f"""
+</link>
+<joint name="caster_joint" type="fixed"><parent>base_link</parent><child>caster</child></joint>
+<link name="caster">{_MARK}
+  <pose>0.2 0 -0.15 0 0 0</pose>
+  <visual name="v"><geometry><sphere><radius>0.05</radius></sphere></geometry></visual>
+"""
 GOOD = [
     _rover(0),
     _rover(0.05),
@@ -144,4 +185,5 @@ BAD = [
     _rover(0.17, mark=_MARK),
     _rover(0, 0.3, mark=_MARK),
     _rover(0, mark=_MARK, front=0.05),
+    _rover(0, front=0.05) + _CASTER,
 ]

@@ -5,6 +5,9 @@ A block of a parameter file is for the node of that full name: `controller_manag
 neither do its controllers; the spawner then reports that a type is not defined. Without
 `ros__parameters` below the name, the parameters are not read.
 
+It is an error where the block of the manager itself is not read: it does not know its controllers
+and its rate. The block of a controller alone is a warning.
+
 A file with a block of the same node for the manager's namespace is for several robots: its blocks
 for other namespaces are not reported.
 
@@ -12,6 +15,8 @@ Fix: put the blocks below the key of the namespace, or below two asterisks for a
 the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
 """
+
+import posixpath
 
 from checker.model.ros_parameters import unread_blocks
 from checker.ros.ros2_control.robot_control import RobotControl
@@ -32,11 +37,14 @@ def check(control: RobotControl) -> Findings:
     namespace = manager.namespace
     names = {manager.node, *(controller.name for controller in control.controllers)}
     for file in control.files if control.is_named else ():
-        for block in unread_blocks(file.blocks, namespace.value, names):
+        unread = [*unread_blocks(file.blocks, namespace.value, names)]
+        of_manager = any(posixpath.basename(block.name) == manager.node for block in unread)
+        for block in unread:
             yield finding(
                 block.span,
                 f"the parameters are for {block.name}, but the controller manager runs in "
                 f"{namespace.value}",
+                severity=Severity.ERROR if of_manager else Severity.WARNING,
                 key=namespace.value,
                 related=[(namespace, "the namespace")],
             )
