@@ -57,6 +57,11 @@ class Severity(enum.StrEnum):
         """0 for the most severe, so that sorting puts errors first."""
         return list(Severity).index(self)
 
+    @property
+    def weaker(self) -> Severity:
+        """The next less severe one; information stays what it is."""
+        return Severity.WARNING if self is Severity.ERROR else Severity.INFO
+
 
 class Concern(enum.StrEnum):
     """Concern of a finding.

@@ -76,7 +76,7 @@ def run_rules(
         judge: The selection of rules, and the severities of findings.
         matcher: The matcher of findings that do not count.
         unloaded: Files that nothing loads: what is found in them is information.
-        unstarted: That nothing starts the whole, as a clause: what is found is no error.
+        unstarted: That nothing starts the whole, as a clause: what is found is less severe.
         allowance: What each rule may use; the usual when None.
     """
     allowance = allowance or Allowance()
@@ -155,12 +155,12 @@ def _repeats(shares: Sequence[SplitFindings]) -> dict[Cover, list[Repeat]]:
 
 
 def _weighed(finding: Finding, severity: Severity, unloaded: Collection[str]) -> Finding:
-    """Return a finding; as information about what nothing loads, of tests or old files no error."""
+    """Return a finding; less severe of tests and old files, information on what nothing loads."""
     file = finding.places[0].file
     if file in unloaded:
         return replace(finding, severity=Severity.INFO)
-    if (is_of_tests(file) or is_retired(file)) and (finding.severity or severity) is Severity.ERROR:
-        return replace(finding, severity=Severity.WARNING)
+    if is_of_tests(file) or is_retired(file):
+        return replace(finding, severity=(finding.severity or severity).weaker)
     return finding
 
 

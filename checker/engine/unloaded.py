@@ -37,7 +37,7 @@ def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
 def less_of_unloaded(
     said: Sequence[tuple[str, Sequence[Said]]], severity: Severity
 ) -> Iterator[Said]:
-    """Yield what a rule states: of loaded robots first, and of others no errors.
+    """Yield what a rule states: of loaded robots first, and of others as less severe.
 
     What is in a file that a loaded robot shares is stated once, of that one.
 
@@ -61,6 +61,7 @@ def _spot(item: Finding) -> tuple[Place, str]:
 
 
 def _lessened(item: Finding, clause: str, severity: Severity) -> Finding:
-    if (item.severity or severity) is not Severity.ERROR:
+    own = item.severity or severity
+    if own is Severity.INFO:
         return item
-    return replace(item, severity=Severity.WARNING, message=f"{item.message} ({clause})")
+    return replace(item, severity=own.weaker, message=f"{item.message} ({clause})")

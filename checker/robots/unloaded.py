@@ -43,7 +43,7 @@ def may_be_loaded(
     folder, name = posixpath.split(path)
     folders = {posixpath.dirname(it) for it in loaded}
     named = [text for text in launch_texts.values() if has_file(text, name)]
-    if any(not _means_others(text, name, loaded) for text in named):
+    if any(not _means_others(_without_comments(text), name, loaded) for text in named):
         return True
     return any(
         (folder in folders and _FILE_ARGUMENT.search(text))
@@ -53,11 +53,20 @@ def may_be_loaded(
 
 
 def _means_others(text: str, name: str, loaded: Collection[str]) -> bool:
-    """Return whether all that a text says of a name is the path of a loaded file of that name."""
+    """Return whether a text names no file so, but as the path of a loaded file of that name."""
+    if not has_file(text, name):
+        return True
     plain = text.replace('"', "'")
     paths = (it.split("/") for it in loaded if it.endswith(f"/{name}"))
     written = (f"{it[-2]}{between}{name}" for it in paths for between in ("/", "', '"))
     return plain.count(name) == sum(map(plain.count, written))
+
+
+def _without_comments(text: str) -> str:
+    """Return the text of a launch file without the comments of XML and of whole lines of Python."""
+    kept, *rest = text.split("<!--")
+    code = kept + "".join(each.partition("-->")[2] for each in rest)
+    return "\n".join(line for line in code.split("\n") if not line.lstrip().startswith("#"))
 
 
 def _may_name(text: str, name: str) -> bool:

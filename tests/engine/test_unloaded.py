@@ -152,6 +152,8 @@ def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
         ("$(find arm)/urdf_v1/arm.urdf", False),
         ("join(share, 'urdf_v1', 'arm.urdf') or join(share, kind, 'arm.urdf')", True),
         ("join(share, kind, 'arm.urdf')", True),
+        ("# join(share, kind, 'arm.urdf')", False),
+        ("<!-- $(arg kind)/arm.urdf --> $(find arm)/urdf_v1/arm.urdf", False),
     ],
 )
 def test_a_file_of_the_name_of_a_loaded_one(text: str, loaded: bool) -> None:
