@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
+from typing import TYPE_CHECKING, NamedTuple
 
 from checker.source.text import SourceText, blank_markup
 
@@ -44,26 +45,45 @@ _MANIFEST = {
     ROS_GZ: re.compile(_DEPENDENCY.format(r"ros_gz\w*")),
 }
 _NODE = {CLASSIC: re.compile(r"\b(?:from|import) gazebo_msgs\b")}
-_SIGNS = (
-    (re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), LAUNCH),
-    (re.compile(r"\.(?:urdf|xacro|sdf|world|gazebo)\Z"), DESCRIPTION),
-    (re.compile(r"\Apackage\.xml\Z"), _MANIFEST),
-    (re.compile(r"\.py\Z"), _NODE),
-)
+
+
+class _Kind(NamedTuple):
+    """Files by their paths in lower case, and what in them names a simulator."""
+
+    names: re.Pattern[str]
+    patterns: Mapping[str, re.Pattern[str]]
+
+
+_STARTING = _Kind(re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), LAUNCH)
+_MODELS = _Kind(re.compile(r"\.(?:urdf|xacro|sdf|world|gazebo)\Z"), DESCRIPTION)
+_DEPENDENCIES = _Kind(re.compile(r"\Apackage\.xml\Z"), _MANIFEST)
+_PYTHON = _Kind(re.compile(r"\.py\Z"), _NODE)
 
 
 def simulator_signs(package: Package) -> dict[str, str]:
-    """Return which simulators the package names, each with the first place that does."""
+    """Return which simulators the package names, each with the first place that does.
+
+    Where launch files start one, the dependencies in package.xml do not count.
+    """
+    started = _first(_signs(package, _STARTING))
+    kinds = (_MODELS, _PYTHON) if started else (_MODELS, _DEPENDENCIES, _PYTHON)
+    return _first(chain(started.items(), *(_signs(package, kind) for kind in kinds)))
+
+
+def _first(named: Iterable[tuple[str, str]]) -> dict[str, str]:
     found: dict[str, str] = {}
-    for names, patterns in _SIGNS:
-        paths = (file.path for file in package.index.files if names.search(file.path.lower()))
-        for target, words in signs_in_files(package, paths, patterns):
-            found.setdefault(target, words)
+    for target, words in named:
+        found.setdefault(target, words)
     return found
 
 
+def _signs(package: Package, kind: _Kind) -> Iterator[tuple[str, str]]:
+    paths = (file.path for file in package.index.files if kind.names.search(file.path.lower()))
+    return signs_in_files(package, paths, kind.patterns)
+
+
 def signs_in_files(
-    package: Package, paths: Iterable[str], patterns: dict[str, re.Pattern[str]]
+    package: Package, paths: Iterable[str], patterns: Mapping[str, re.Pattern[str]]
 ) -> Iterator[tuple[str, str]]:
     """Yield for each file and pattern that it holds the simulator, and the first place in words."""
     for path in paths:

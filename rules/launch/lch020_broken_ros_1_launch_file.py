@@ -3,10 +3,11 @@
 roslaunch reads all files before it starts anything, so nothing starts where a file uses an arg
 that it does not declare before, where an included file does not exist, gets an arg that it does not
 declare, or lacks one that it requires, where two nodes get one name with the defaults of all args,
-also through an include, and where the file of a description does not exist (a warning if its path
-depends on an arg, which may be given). A node whose package has no program of its `type` does not
-start, and roslaunch goes on without it. Programs without the ending `.py` are only reported if the
-package has one of nearly the same name: CMake may build them. Packages of ROS 2 are not checked.
+also through an include, and where the file of a description or of parameters does not exist (a
+warning if its path depends on an arg, which may be given). A node whose package has no program of
+its `type` does not start, and roslaunch goes on without it. Programs without the ending `.py` are
+only reported if the package has one of nearly the same name: CMake may build them. Packages of
+ROS 2 are not checked.
 
 Fix: correct the path, the name of the arg or the `type`; pass an arg with
 `<arg name="…" value="…"/>` inside the include.
@@ -17,6 +18,7 @@ roslib, `find_node`.
 import posixpath
 import re
 from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from checker.base.words import Suggestions
 from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, Node
@@ -25,7 +27,7 @@ from checker.launch.ros1.substitution import is_known
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.ros.control.system import missing_descriptions
+from checker.ros.control.system import missing_descriptions, missing_parameter_files
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import SourceText
 
@@ -54,7 +56,10 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
             yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
     if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
         for entry in launch.entries:
-            for missing in missing_descriptions(package, entry.graph):
+            for missing in chain(
+                missing_descriptions(package, entry.graph),
+                missing_parameter_files(package, entry.graph),
+            ):
                 given = "$(arg " in missing.span.text
                 severity = Severity.WARNING if given else None
                 yield finding(missing, missing.message, key=missing.message, severity=severity)
@@ -187,6 +192,11 @@ BAD = [
             f"""<arg name="model" default="tall"/>
 <param name="robot_description" command="xacro '{_LOAD}'"/>{_MARK}"""
         ),
+        **_BRINGUP,
+        "launch/spawn.launch": None,
+    },
+    {
+        **_launch(f'<rosparam file="$(find acme_arm_bringup)/config/pid.yaml"/>{_MARK}'),
         **_BRINGUP,
         "launch/spawn.launch": None,
     },

@@ -25,6 +25,10 @@ GZ_SIM = "        ExecuteProcess(cmd=['gz sim', '-r']),"
 IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
 EXPORTED = '<launch><node name="s" pkg="gazebo_ros" type="spawn_model"/></launch>'
 URDF = "urdf/arm.urdf.xacro"
+DEPENDS = (
+    "<package><name>acme_arm</name><buildtool_depend>ament_cmake</buildtool_depend>"
+    "<exec_depend>gz_ros2_control</exec_depend></package>"
+)
 MESH = '<mesh filename="file:///opt/ros/{}/share/eye/eye.dae"/>'
 
 
@@ -47,6 +51,8 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": True, URDF: CLASSIC_PLUGIN}, ("ros2-classic", "humble")),
         ({"@ros2": True, URDF: f"<!-- {CLASSIC_PLUGIN} --><robot/>"}, ("ros2", "")),
         ({"@ros2": SPAWN, URDF: GZ_PLUGIN}, ("ros2", "")),
+        ({"@ros2": SPAWN, "package.xml": DEPENDS}, ("ros2-classic", "humble")),
+        ({"@ros2": True, "package.xml": DEPENDS, URDF: CLASSIC_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": ROS_GZ, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": GZ_SIM, URDF: IGNITION_PLUGIN}, ("ros2", "")),

@@ -40,6 +40,8 @@ _READING = ("command", "textfile")
 _DESCRIPTION = re.compile(
     r"\$\(find\s{1,8}[\w.-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b"
 )
+_ABOVE = "../../"
+"""What is above the folder of the packages is not available."""
 _LONGEST = 5_000
 """Characters of a command that are read."""
 
@@ -172,3 +174,13 @@ def missing_descriptions(package: Package, graph: LaunchGraph) -> Iterable[Param
             if path is None or package.exists(path) or is_made_in_container(package, path):
                 continue
             yield ParameterFault(span, f"{path} is read as a description, but does not exist")
+
+
+def missing_parameter_files(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
+    """Yield the files of parameters that a launch file loads and an available package lacks."""
+    files = LaunchFiles(package)
+    for param in graph.params:
+        path = files.path_of(param.value) if param.kind == "load" else None
+        if path is not None and not path.startswith(_ABOVE) and not package.exists(path):
+            message = f"{path} is loaded as parameters, but does not exist"
+            yield ParameterFault(param.span, message)
