@@ -26,6 +26,10 @@ _INSTALLED = re.compile(
     r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
 )
 """A path in the folder into which colcon or catkin installs packages, or in that of ROS."""
+_PLACEHOLDER = re.compile(
+    r"(?:file://)?/((?:full/|absolute/)?path[/_]to[/_].*|your[/_].*)", re.DOTALL
+)
+"""A path of a template that nobody replaced: `/path/to/your/arm.urdf`."""
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
@@ -83,13 +87,15 @@ def _on_path(package: Package, folder: str, path: str) -> str:
 def own_path_on_machine(package: Package, uri: str) -> str:
     """Return the path in the package that ends a path on its author's machine; empty without one.
 
-    That is a path on a drive of Windows, `D:/work/arm/a.stl`, or in a home: `/home/me/arm/a.stl`.
+    That is a path on a drive of Windows, `D:/work/arm/a.stl`, in a home, `/home/me/arm/a.stl`, or
+    a placeholder, `/path/to/arm/a.stl`.
     A path in the folder of an installation names its package, which may be another one.
     """
     installed = _INSTALLED.fullmatch(uri)
     if installed and installed[1] not in (package.name, package.declared_name):
         return ""
-    on_machine = _ON_DRIVE.fullmatch(uri) or _AT_HOME.fullmatch(uri)
+    forms = (_ON_DRIVE, _AT_HOME, _PLACEHOLDER)
+    on_machine = next(filter(None, (form.fullmatch(uri) for form in forms)), None)
     path = on_machine[1].replace("\\", "/") if on_machine else ""
     while path and not package.exists(path):
         path = path.partition("/")[2]
@@ -100,6 +106,11 @@ def is_on_one_machine(path: str) -> bool:
     """Return whether a path or URI is in a home, on a drive of Windows, or in a built workspace."""
     text = path.strip()
     return any(it.fullmatch(text) for it in (_ON_DRIVE, _AT_HOME, _IN_WORKSPACE))
+
+
+def is_placeholder(path: str) -> bool:
+    """Return whether a path or URI is that of a template which has to be replaced."""
+    return _PLACEHOLDER.fullmatch(path.strip()) is not None
 
 
 def uri_of_installed(uri: str) -> str:

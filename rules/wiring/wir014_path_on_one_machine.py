@@ -5,8 +5,9 @@ behaviour tree. A path in a home, such as `/home/me/maps/hall.yaml`, on a drive 
 the folders of a workspace is reported in a parameter file, if it is that of a file. The name of a
 parameter such as `output_file` says that the node writes it. Where a launch file names the
 parameter, it may replace the value: this is an info. Below the `WORKDIR` of a Dockerfile, the path
-works in its container alone. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters
-and the files that a command line gives a node to read are judged, and those in commands of ROS 2.
+works in its container alone. The placeholder of a template, `/path/to/your/arm.urdf`, is on no
+machine. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters and the files that a
+command line gives a node to read are judged, and those in commands of ROS 2.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`. In ROS 1
@@ -23,7 +24,7 @@ from checker.launch.ros2.named_paths import is_written
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.containers import container_with
 from checker.package.package import Package
-from checker.package.uris import is_on_one_machine, own_path_on_machine
+from checker.package.uris import is_on_one_machine, is_placeholder, own_path_on_machine
 from checker.ros.wiring.parameters import blocks_in
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, Span
@@ -44,7 +45,7 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
         for block in blocks_in(package, file.path, "ros__parameters"):
             for name, parameter in block.parameters.items():
                 for text in () if is_written(name) else parameter.texts:
-                    if is_on_one_machine(text.value) and _FILE.search(text.value):
+                    if _is_wrong(text):
                         yield _in_parameters(package, f"{name} of {block.node}", name, text)
     named = [*_in_ros_2(launch)] if launch is not None else []
     if not is_ros2_only(package):
@@ -52,13 +53,18 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
     wrong = (
         (label, text)
         for label, text in named
-        if is_on_one_machine(text.value) and _FILE.search(text.value)
-        if not text.span.source.file.startswith("../")
+        if _is_wrong(text) and not text.span.source.file.startswith("../")
     )
     parts = ((label, text, _written_part(text)) for label, text in wrong)
     own = {part.span.place(): (label, text, part) for label, text, part in parts if part}
     for label, text, part in own.values():
         yield _in_launch_file(package, label, text, part.span)
+
+
+def _is_wrong(text: Located[str]) -> bool:
+    """Return whether a text is the path of a file that is on one machine, or on none."""
+    path = text.value
+    return bool(_FILE.search(path)) and (is_on_one_machine(path) or is_placeholder(path))
 
 
 def _written_part(text: Located[str]) -> Located[str] | None:
@@ -148,7 +154,11 @@ def _finding(
     severity: Severity | None = None,
 ) -> Finding:
     container = container_with(package, text.value)
-    where = "on its author's machine, and is found on no other"
+    where = (
+        "a placeholder that no machine has"
+        if is_placeholder(text.value)
+        else "on its author's machine, and is found on no other"
+    )
     return finding(
         text,
         f"{label} is {text.value}, "
@@ -205,6 +215,7 @@ BAD = [
     _launched(f'<param name="map" value="{_HALL}"/>{_OF_ROS_1}', **{"maps/hall.yaml": "image: a"}),
     _launched(f'<node name="view" pkg="rviz" type="rviz" args="-d /root/a.rviz"/>{_OF_ROS_1}'),
     {"@ros2": f"        DeclareLaunchArgument('map', default_value='{_HALL}'),{_MARK}"},
+    {"@ros2": f"        DeclareLaunchArgument('map', default_value='/path/to/a.yaml'),{_MARK}"},
     {"@ros2": f"        Node(package='p', executable='e', parameters=['{_HALL}']),{_MARK}"},
     _example("/home/ann/maps/hall.yaml", _MARK),
     {**_example("/ws/src/rover/hall.yaml", _MARK), "Dockerfile": "FROM ros:jazzy\nWORKDIR /ws\n"},
