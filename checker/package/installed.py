@@ -142,13 +142,18 @@ def _tells_all(package: Package) -> bool:
 
 
 def may_be_made(package: Package, path: str) -> bool:
-    """Return whether the build may make a file: it names it, or makes files of unknown names."""
+    """Return whether the build may make a file: it names it, or makes files of unknown names.
+
+    `urdf` in setup.py is the folder of the package, and does not name `rviz/urdf.rviz`.
+    """
     stem = posixpath.basename(path).partition(".")[0]
+    is_folder = package.exists(stem)
     for file in ("CMakeLists.txt", "setup.py"):
         source = package.read(file)
         if not isinstance(source, SourceText):
             continue
-        if GENERATES.search(source.text) or stem in _WORD.findall(source.text):
+        is_named = not is_folder and stem in _WORD.findall(source.text)
+        if is_named or GENERATES.search(source.text):
             return True
     return False
 

@@ -215,7 +215,13 @@ from setuptools import setup
 setup(name="acme_arm_bringup", data_files=[
     ("share/acme_arm_bringup/" + path.partition("/")[0], [path]) for path in glob("assets/**/*")])
 """
+_NAMED_AS_A_FOLDER = """
+        DeclareLaunchArgument('view', default_value=os.path.join(  # ^ LCH001
+            FindPackageShare('acme_arm_bringup').find('acme_arm_bringup'), 'rviz/urdf.rviz')),
+        Node(package='rviz2', executable='rviz2',
+             arguments=['-d', LaunchConfiguration('view')]),"""
 BAD = [
+    {"@ros2": _NAMED_AS_A_FOLDER, "urdf/arm.urdf": '<robot name="arm"/>'},
     {
         "@ros2": True,
         "launch/move_group.launch.py": _MOVEIT.replace("_configs()", "_configs()  # ^ LCH001"),
