@@ -175,8 +175,21 @@ UNCOLOURED = """
   <material><script><name>Gazebo/Red</name></script></material>
 </visual>
 """
+CLASSIC_DRIVE = """
+<plugin filename="libgazebo_ros_diff_drive.so" name="drive">
+  <command_topic>{topic}</command_topic>
+  <ros><remapping>cmd_vel:=wheels/cmd</remapping></ros>
+</plugin>
+"""
+FRICTION = """
+<collision name="c">
+  <surface><friction><ode><mu>0.9</mu></ode><ode>{second}</ode></friction></surface>
+</collision>
+"""
 LOST = '<gazebo reference="caster">{}</gazebo>'
 CASES: list[tuple[str, Example, str]] = [
+    ("SDF013", FRICTION.format(second=""), "info"),
+    ("SDF013", FRICTION.format(second="<mu>1</mu>"), "warning"),
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
     ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
     ("R2C003", CHOSEN, "warning"),
@@ -271,6 +284,18 @@ def test_classic_neither_renames_nor_refuses(
         settings = Settings(profile=profile, profile_chosen=True, select=(rule,))
         (report,) = check_package(package, settings).packages
         assert [found.severity.value for found in report.findings] == [severity]
+
+
+@pytest.mark.parametrize(
+    ("topic", "severity"), [("cmd_vel", "warning"), ("wheels/cmd", "info"), ("cmd", "info")]
+)
+def test_a_topic_that_classic_uses_anyway_is_no_loss(
+    topic: str, severity: str, tmp_path: Path
+) -> None:
+    package = write_example(CLASSIC_DRIVE.format(topic=topic), tmp_path)
+    settings = Settings(profile="gazebo-classic", profile_chosen=True, select=("PLG005",))
+    (report,) = check_package(package, settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
 
 
 @pytest.mark.parametrize(("distro", "severity"), [("", "info"), ("jazzy", "warning")])

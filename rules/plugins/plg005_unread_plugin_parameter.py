@@ -6,15 +6,17 @@ differential drive at its default topic, because the drive reads `<odom_topic>`.
 Fix: write the parameter as the plugin reads it, or remove it.
 Source: parameters that the source code of each system reads (`gazebo_plugins.json`);
 `static_pose_publisher` for `static_publisher` in SubT packages. Harmless parameters that come from
-templates are infos.
+templates are infos, and so is the name of a topic in Gazebo Classic that the plugin uses anyway.
 """
 
 from collections.abc import Collection, Iterator
 
 from checker.base.resources import table
 from checker.base.words import Suggestions, and_list
+from checker.model.components import Plugin
 from checker.model.plugin_library import PluginLibrary, library_stem, plugin_libraries
 from checker.model.robot import Robot
+from checker.ros.wiring.classic import classic_endpoints
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 
@@ -31,13 +33,20 @@ _HARMLESS = (
 )
 
 _MEANT = {
+    "max_linear_acceleration": "max_acceleration",
+    "max_linear_jerk": "max_jerk",
+    "max_linear_velocity": "max_velocity",
+    "min_linear_acceleration": "min_acceleration",
+    "min_linear_jerk": "min_jerk",
+    "min_linear_velocity": "min_velocity",
     "odometry_rate": "publish_rate",
     "odometry_topic": "odom_topic",
     "remap": "remapping",
     "static_pose_publisher": "static_publisher",
     "static_pose_update_frequency": "static_update_frequency",
 }
-"""Names in real packages that differ too much from the right one to be found by spelling."""
+"""Names in real packages that differ too much from the right one to be found by spelling, or are
+nearer to another one."""
 
 
 @rule("PLG005", "unread-plugin-parameter", Severity.WARNING, Concern.INTERFACE)
@@ -60,13 +69,28 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         of_ros_1 = _of_ros_1(stem) if context.is_classic else frozenset()
         # PLG012 reports those of ROS 1.
         unread = [it for it in _unread(plugin.element, library) if it.tag not in of_ros_1]
+        used = _used_topics(robot, plugin) if unread and context.is_classic else ()
         for of_no_harm in (False, True):
-            elements = [it for it in unread if (it.tag in harmless) is of_no_harm]
+            elements = [
+                it for it in unread if (it.tag in harmless or _names(it, used)) is of_no_harm
+            ]
             names = dict.fromkeys(it.tag for it in elements)
             hinted = [_hinted(name, library.parameters, suggestions) for name in names]
             message = f"{plugin.label} does not read {and_list(hinted)}"
             severity = Severity.INFO if of_no_harm else None
             yield from (finding(element, message, severity=severity) for element in elements)
+
+
+def _used_topics(robot: Robot, plugin: Plugin) -> Collection[str]:
+    """Return the topics that a plugin of Classic uses, by default or by its `<remapping>`."""
+    return [each.topic for each in classic_endpoints(robot) if each.owner is plugin]
+
+
+def _names(element: Element, topics: Collection[str]) -> bool:
+    """Return whether an element names one of these topics, in full or by the end of its name."""
+    name = element.text.value.strip()
+    is_topic = "topic" in element.tag.lower() and name != ""
+    return is_topic and any(it == name or it.endswith(f"/{name}") for it in topics)
 
 
 def _hinted(name: str, known: Collection[str], suggestions: Suggestions) -> str:
@@ -139,4 +163,11 @@ BAD = [
 </plugin>
 """,
     _classic("<wheel_radius>0.1</wheel_radius>  <!-- ^ PLG005 -->"),
+    # Info: the plugin uses this topic anyway.
+    _classic("<command_topic>cmd_vel</command_topic>  <!-- ^ PLG005 -->"),
+    # The remapping counts.
+    _classic(
+        "<ros><remapping>cmd_vel:=wheel/cmd</remapping></ros>"
+        "<command_topic>cmd_vel</command_topic>  <!-- ^ PLG005 -->"
+    ),
 ]

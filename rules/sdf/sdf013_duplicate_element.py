@@ -1,6 +1,7 @@
 """An element occurs twice, but only one is allowed.
 
-Parsers use one of the two, usually the first, and print no message: the other has no effect.
+Parsers use one of the two, usually the first, and print no message: the other has no effect. A
+second one that is empty or the same as the first is an info.
 
 Fix: remove the wrong one.
 Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
@@ -31,12 +32,14 @@ def check(sdf: SdfDocument) -> Findings:
             if earlier is child or not _is_single(element, kind, child.tag):
                 continue
             content = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
-            same = _content(child) == content
+            second = _content(child)
+            empty, same = second == [(child.tag, (), "")], second == content
+            how = "the same as the first" if same else "different from the first"
+            how = "which is empty" if empty else how
             yield finding(
                 child,
-                f"<{element.tag}> contains a second <{child.tag}>, "
-                + ("the same as the first" if same else "different from the first"),
-                severity=Severity.INFO if same else None,
+                f"<{element.tag}> contains a second <{child.tag}>, {how}",
+                severity=Severity.INFO if empty or same else None,
                 related=[(earlier, "the first")],
             )
 
@@ -84,5 +87,16 @@ BAD = [
   <mass>1</mass>
   <mass> 1 </mass>  <!-- ^ SDF013 -->
 </inertial>
+""",
+    # Info: an empty element has no effect.
+    """
+<collision name="c">
+  <surface>
+    <friction>
+      <ode><mu>0.9</mu></ode>
+      <ode/>  <!-- ^ SDF013 -->
+    </friction>
+  </surface>
+</collision>
 """,
 ]
