@@ -14,7 +14,8 @@ Dependencies of a declared metapackage such as ros_gz count as declared. What a 
 the workspace needs where it runs is installed with it, and is an info. The same happens if
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
 is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
-not declared, if it is near to one of them. If a package is not available, and this package has
+not declared, if it is near to one of them. What a description names that no launch file loads,
+beside one that is loaded, does not count. If a package is not available, and this package has
 every file that it uses of it, the name is taken as the former name of this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
@@ -45,6 +46,7 @@ from checker.package.references import PROVIDED
 from checker.package.released import ReleasedNames, distributions_with, is_of_system
 from checker.package.submissions import is_slip_for, robot_of
 from checker.package.teams import teams
+from checker.robots.urdf_files import UrdfFiles
 from checker.ros.ros2_control.distributions import distribution_of
 from checker.ros.ros2_control.plugin_packages import plugin_uses
 from checker.rule import (
@@ -101,7 +103,11 @@ _PACKAGES_OF_PACKAGES = {
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING, Concern.PAPERWORK)
 def check(
-    package: Package, paperwork: Paperwork, context: Context, launch: Ros2Launch | None
+    package: Package,
+    paperwork: Paperwork,
+    context: Context,
+    launch: Ros2Launch | None,
+    files: UrdfFiles | None,
 ) -> Findings:
     """Compare used packages with package.xml.
 
@@ -115,11 +121,13 @@ def check(
     others: dict[str, Use] = {}
     bringing = _brought_by_workspace(package, manifest)
     ament = built_by_ament(package)
+    unloaded = {it.file for it in files.descriptions if it.unloaded} if files is not None else ()
     uses = [
         use
         for use in every_use(package, launch)
         if not (use.builds and manifest.depends_on(use.package_name))
         if not (ament and _is_of_folder(package, use.package_name))
+        if use.place.file not in unloaded
     ]
     uses += _plugins(package, context) if ament else ()
     former = former_names(package, uses)
@@ -387,6 +395,12 @@ _HAND = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:include filename="$(find acme_hand)/hand.xacro"/>@
 </robot>
 """
+_OLD = """<robot name="arm">
+  <link name="base_link">
+    <visual><geometry><mesh filename="package://acme_hand/hand.stl"/></geometry></visual>
+  </link>
+</robot>
+"""
 _OPTIONAL = """try:
     from cv_bridge import CvBridge
 except ImportError:
@@ -447,6 +461,12 @@ GOOD = [
         "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
     },
     {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
+    {
+        "@ros2": True,
+        "package.xml": _arm("robot_state_publisher", "xacro"),
+        "../acme_hand/package.xml": "<package><name>acme_hand</name></package>",
+        "urdf/old.urdf": _OLD,
+    },
     _depends_on_plugin(),
     {
         **_depends_on_plugin(),
