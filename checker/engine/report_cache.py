@@ -1,7 +1,7 @@
 """Remembers reports: a package that did not change is not checked again.
 
-The inputs of a report are hashed: the program, the settings, the package's content, and which
-files are in the sibling packages (by size and time of change).
+The inputs of a report are hashed: the program, the settings, the package's content, README and
+.gitignore above it, and which files are in the sibling packages (by size and time of change).
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import stat
 from collections.abc import Iterator
 from contextlib import suppress
@@ -23,6 +24,7 @@ from checker.base.cache import Cache, code_hash, key_of
 from checker.base.distributions import additions
 from checker.base.extras import PHYSICS
 from checker.base.resources import OWN_CODE, version_of
+from checker.package.files_above import files_above
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
 from checker.package.references import PROVIDED
@@ -52,6 +54,7 @@ _LIBRARIES = (
     *("pycollada", "pyelftools", "pyyaml", "scipy", "subt-check", "tree-sitter"),
     *("tree-sitter-ruby", "xacro", "yourdfpy"),
 )
+_AROUND = re.compile(r"/(?:readme(?:\.\w{1,8})?|\.gitignore)\Z")
 ENTRIES_LIMIT = 100_000
 """Files next to a package; with more of them, reading all takes longer than checking."""
 ENTRIES_AROUND_A_FILE = 5_000
@@ -64,6 +67,8 @@ def memory_key(package: Package, settings: Settings) -> str:
     options = json.dumps(msgspec.to_builtins(resolved, enc_hook=str))
     parts: list[bytes | str] = [*program_parts(), options]
     parts += [str(package.root), str(package.workspace.given)]
+    parts += map(str, package.workspace.built.get(package.root, ()))
+    parts += [text.text for texts in files_above(package, _AROUND) for text in texts]
     parts += _content(package)
     limit = ENTRIES_AROUND_A_FILE if package.only else ENTRIES_LIMIT
     beside = list(islice(_beside(package), limit))

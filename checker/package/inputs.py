@@ -178,7 +178,11 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     enclosing = enclosing_package(folder)
     advice = f"give the package folder {enclosing}" if enclosing else WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
-    if found.ignored:
+    if found.built:
+        what = found.built[0].relative_to(folder)
+        missing = f"contains no package except what colcon built in {what.as_posix()}"
+        advice = f"give the sources, or {path / what}"
+    elif found.ignored:
         missing, advice = _ignored_packages(path, folder, found.ignored)
     elif models := models_of(folder):
         missing, advice = f"contains no package; {models}", CHECKED_FORMATS
@@ -205,11 +209,16 @@ def _opened(
         reason = f"contains more than {MAX_FOLDERS} folders; the rest is not searched"
         skipped = (*skipped, Skipped("", reason))
     beside = (*found.units, *_siblings(folder, within))
+    # Once for all packages, however many there are.
+    built = {unit.folder: found.built for unit in found.units if found.built and not unit.only}
+    built = dict(islice(built.items(), 1))
     spaces: dict[Path, Workspace] = {}
     packages = []
     for unit in found.units:
         if unit.home not in spaces:
-            spaces[unit.home] = Workspace(homes_of(beside, unit.folder), within, given=folder)
+            spaces[unit.home] = Workspace(
+                homes_of(beside, unit.folder), within, given=folder, built=built
+            )
         space = spaces[unit.home]
         whole = space.at(unit.folder) if not unit.only else None
         packages.append(whole or Package(unit.folder, space, only=unit.only))
@@ -227,7 +236,7 @@ def _siblings(folder: Path, within: Path | None) -> tuple[Unit, ...]:
 def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
     """Yield the subfolders of a folder of packages that contain none, and models beside these."""
     seen = {unit.folder for unit in found.units if not unit.only}
-    seen.update(mark.parent for mark in found.ignored)
+    seen.update((*found.built, *(mark.parent for mark in found.ignored)))
     for place in sorted(folder.iterdir()):
         if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
             continue
@@ -237,8 +246,10 @@ def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
             yield Skipped(place.name, "cannot be read: permission denied")
         elif not any(unit.folder.is_relative_to(place) for unit in found.units):
             marks = [mark.name for mark in found.ignored if mark.is_relative_to(place)]
+            is_built = place in found.built
             why = f"is excluded by {marks[0]}" if marks else "contains no package"
-            models = "" if marks else models_of(place)
+            why = "is what colcon built" if is_built else why
+            models = "" if marks or is_built else models_of(place)
             seen.add(place)
             yield Skipped(place.name, f"{why}; {models}" if models else why)
     if models := models_of(folder, seen):
@@ -276,7 +287,7 @@ def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
     if not homes:
         return package
     space = package.workspace
-    wider = Workspace((*known, *homes), space.within, given=space.given)
+    wider = Workspace((*known, *homes), space.within, given=space.given, built=space.built)
     return Package(package.root, wider, package.only)
 
 

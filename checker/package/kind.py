@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from enum import StrEnum
 from itertools import islice
 from os.path import abspath
@@ -33,11 +33,28 @@ IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE", ".catkin"
 """Files that keep the build tools out of a folder, or mark what they built there."""
 BUILT = frozenset({"build", "install", "log"})
 """Folders that colcon makes; one of them with a file of `IGNORED` is not part of a package."""
+_INSTALLED = ("colcon-core/packages", "ament_index/resource_index")
+"""Folders below `share/` in which colcon and ament register what they installed."""
 
 
 def looks_like_package(folder: Path) -> bool:
     """Return whether a folder contains one of the files that only a package has."""
     return any(is_file(folder / marker) for marker in MARKERS)
+
+
+def is_made_by_colcon(folder: Path, names: Collection[str]) -> bool:
+    """Return whether a folder is what colcon built of a package, installed or logged.
+
+    Args:
+        folder: The folder.
+        names: The names of the files and folders in it.
+    """
+    if folder.name == "log":
+        return os.path.lexists(folder / "latest_build")
+    if "colcon_build.rc" in names:
+        return True
+    may_be = "share" in names and "package.xml" not in names
+    return may_be and any((folder / "share" / mark).is_dir() for mark in _INSTALLED)
 
 
 def is_file(path: Path) -> bool:

@@ -11,12 +11,14 @@ from checker.base.record import Record
 from checker.package.formats import is_checked_by_itself, model_suffixes
 from checker.package.inheritance import SPAWNER
 from checker.package.kind import (
+    BUILT,
     IGNORED,
     MODEL_CONFIG,
     MODEL_MARKERS,
     holds_loose_files,
     is_environment,
     is_file,
+    is_made_by_colcon,
     looks_like_package,
 )
 
@@ -54,12 +56,14 @@ class Units(Record):
         units: The units by path, packages before what is in them.
         complete: Whether all folders were read.
         ignored: Files that keep the build tools, and this search, out of their folders.
+        built: Folders `build`, `install` and `log` that colcon made, or those that it made in them.
         nested: ROS packages in others, each with the package around it: no build tool finds them.
     """
 
     units: tuple[Unit, ...]
     complete: bool = True
     ignored: tuple[Path, ...] = ()
+    built: tuple[Path, ...] = ()
     nested: tuple[tuple[Path, Path], ...] = ()
 
 
@@ -69,15 +73,17 @@ def units_below(folder: Path) -> Units:
     What is in a model folder or a submission is a part of it; models with a model.config in a model
     folder without a model of its own are separate units. A ROS package may contain models and
     worlds; these are separate units. A ROS package in another one is none: neither colcon nor
-    catkin looks for packages below a package (colcon/colcon-cargo#63). Links are not followed.
+    catkin looks for packages below a package (colcon/colcon-cargo#63). What colcon built is left
+    out. Links are not followed.
 
     Args:
         folder: Links resolved; itself a unit if it is a package or model. It is also read
             where the build tools would ignore it: an explicit path overrides that.
     """
-    search = _Search()
+    search = _Search(folder)
     found = tuple(search.at(folder, inside=False, depth=0))
-    return Units(found, search.complete, tuple(search.ignored), tuple(search.nested))
+    built = tuple(dict.fromkeys(search.built))
+    return Units(found, search.complete, tuple(search.ignored), built, tuple(search.nested))
 
 
 def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
@@ -96,10 +102,12 @@ def _common(one: Path, other: Path) -> Path:
 
 
 class _Search:
-    def __init__(self) -> None:
+    def __init__(self, top: Path) -> None:
+        self.top = top
         self.folders = 0
         self.complete = True
         self.ignored: list[Path] = []
+        self.built: list[Path] = []
         self.nested: list[tuple[Path, Path]] = []
 
     def at(
@@ -160,12 +168,17 @@ class _Search:
 
     def _is_left_out(self, folder: Path, files: list[str], folders: list[str]) -> bool:
         """Return whether the build tools keep out of a folder, or made what is in it."""
-        if is_environment((*files, *folders)):
+        names = (*files, *folders)
+        if is_environment(names):
             return True
+        is_built = is_made_by_colcon(folder, names)
+        if is_built and self.top.name in BUILT:
+            return False  # the user names what colcon made
+        if is_built or (folder.name in BUILT and "COLCON_IGNORE" in files):
+            self.built.append(folder.parent if folder.parent.name in BUILT else folder)
         if marks := IGNORED.intersection(files):
             self.ignored.append(folder / min(marks))
-            return True
-        return False
+        return bool(is_built or marks)
 
     def _is_nested(self, folder: Path, files: list[str], around: Path | None) -> bool:
         """Return whether a folder is a ROS package in another, and no model."""

@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from checker.package.index import EntryKind, FileEntry, FileIndex, IndexFault, LinkState
-from checker.package.kind import BUILT, IGNORED, is_environment
+from checker.package.kind import BUILT, IGNORED, is_environment, is_made_by_colcon
 
 MAX_ENTRIES = 20_000
 MAX_DEPTH = 50
@@ -92,7 +92,8 @@ class _Walk:
         except OSError as error:
             self._fault(prefix[:-1], f"cannot be listed: {error.strerror}")
             return []
-        if prefix and is_environment(item.name for item in found):
+        names = [item.name for item in found]
+        if prefix and (is_environment(names) or is_made_by_colcon(Path(location), names)):
             return []
         marks = [item for item in found if item.name in IGNORED]
         return marks if marks and Path(prefix).name in BUILT else found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -51,18 +52,20 @@ class Workspace(Record, eq=False, dict=True):
         overlay: Texts that replace the content of files.
         given: The folder that the user gave, above the packages; else None. Of the folders up to
             it, only the README, container, CI and build files at their top are read.
+        built: Folders in it that colcon made, by the folder of the package that reports them.
     """
 
     directories: tuple[Path, ...]
     within: Path | None = None
     overlay: Overlay = field(default_factory=Overlay)
     given: Path | None = None
+    built: Mapping[Path, tuple[Path, ...]] = field(default_factory=dict)
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Send a workspace to another process without its packages."""
-        return Workspace, (self.directories, self.within, self.overlay, self.given)
+        return Workspace, (self.directories, self.within, self.overlay, self.given, self.built)
 
     def again(self, root: Path, only: str) -> Package:
         """Return a package that came from another process, by its folder and its only file."""
@@ -71,7 +74,7 @@ class Workspace(Record, eq=False, dict=True):
     def with_overlay(self, overlay: Overlay) -> Workspace:
         """Return the workspace as if files held other texts; what stays is not read again."""
         changed = self.overlay.changed_paths(overlay)
-        other = Workspace(self.directories, self.within, overlay, self.given)
+        other = Workspace(self.directories, self.within, overlay, self.given, self.built)
         for root, package in self._packages.items():
             other._packages[root] = package.kept(other, changed)
         return other

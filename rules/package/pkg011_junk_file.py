@@ -56,7 +56,8 @@ def check(package: Package) -> Findings:
         known = _folder(package, path, name) if entry.is_folder else _file(name)
         if known is not None:
             reported += (f"{path}/",) if entry.is_folder else ()
-            yield finding(package.place(path), f"{path} is {known}: delete it", key=known)
+            message = f"{path} is {known}: delete it"
+            yield finding(package.place(path), message, key=known, covered_by=("PKG029",))
     if not package.only:
         yield from _second_models(package)
         yield from _build_files(package)

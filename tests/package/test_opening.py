@@ -92,6 +92,44 @@ def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> Non
     assert names(write(files)) == ["b"]
 
 
+@pytest.mark.parametrize(
+    "mark",
+    [
+        "install/a/share/colcon-core/packages/a",
+        "install/a/share/ament_index/resource_index/packages/a",
+        "install/share/colcon-core/packages/a",
+        "build/a/colcon_build.rc",
+    ],
+)
+def test_what_colcon_built_is_left_out_unless_it_is_named(write: Write, mark: str) -> None:
+    top = mark.partition("/")[0]
+    space = write({mark: "", f"{top}/a/share/a/urdf/a.urdf": "<robot name='a'/>", **ROVER})
+    if mark.startswith("install/share"):
+        space = write({"install/share/a/urdf/a.urdf": "<robot name='a'/>"})
+        (space / "install/a/share/a/urdf/a.urdf").unlink()
+    with open_input(space) as opened:
+        assert [package.name for package in opened.packages] == ["rover"]
+        assert [(it.name, it.reason) for it in opened.skipped] == [(top, "is what colcon built")]
+    assert names(space / top) == ["a"]
+
+
+def test_a_folder_with_nothing_but_what_colcon_built_is_refused(write: Write) -> None:
+    space = write(
+        {"install/a/share/colcon-core/packages/a": "", "install/a/share/a/a.urdf": "<a/>"}
+    )
+    refused = complaint(space)
+    assert refused.reason == "contains no package except what colcon built in install"
+    assert refused.advice == f"give the sources, or {space / 'install'}"
+
+
+def test_what_colcon_built_in_a_package_is_no_part_of_it(write: Write) -> None:
+    built = "rover/install/rover/share/colcon-core/packages/rover"
+    urdf = "rover/install/rover/share/rover/urdf/rover.urdf"
+    with open_input(write({**ROVER, built: "", urdf: "<robot name='a'/>"})) as opened:
+        (package,) = opened.packages
+        assert not package.index.with_suffix(".urdf")
+
+
 def test_virtual_environments_of_python_are_left_out(write: Write) -> None:
     files = {
         "venv/pyvenv.cfg": "",
