@@ -25,8 +25,9 @@ from checker.package.detected_target import detect_target
 from checker.package.index import normal_path
 from checker.package.model_target import model_target
 from checker.package.package import Package
+from checker.package.ros_1_target import ros_1_target
 from checker.package.simulator_signs import CLASSIC
-from checker.package.target import MODEL, ROS_2, ros_2_package, usual_profile
+from checker.package.target import MODEL, ROS_1, ROS_2, ros_2_package, usual_profile
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
@@ -124,7 +125,8 @@ class Settings(Record):
         Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution. What a
         ROS 2 package is made for decides where the user names neither release nor distribution;
         for models in no such package, Gazebo Classic or Fortress where the files around them name
-        only that, and Classic where the packages of the workspace are for it alone.
+        only that, and Classic where the packages of the workspace are for it alone. Of a package of
+        ROS 1, only the report states what it is made for.
         """
         usual = usual_profile(package)
         is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
@@ -135,6 +137,8 @@ class Settings(Record):
         whole = ros_2_package(package) if wanted in (ROS_2, MODEL) else None
         if whole is not None:
             settings = settings._with_package(whole)
+        if wanted == ROS_1:
+            return replace(settings, target_reason=ros_1_target(package))
         if wanted != MODEL:
             return settings
         in_classic = settings.profile == CLASSIC_ROS_2

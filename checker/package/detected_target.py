@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.base.resources import table
 from checker.package.distribution_sign import sign_of_paths
 from checker.package.mentions import has_word
-from checker.package.simulator_signs import CLASSIC, IGNITION, ROS_GZ
+from checker.package.simulator_signs import CLASSIC, IGNITION, LATER, ROS_GZ
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -46,7 +46,7 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     if own.reason:
         return own
     found: dict[tuple[bool, str], DetectedTarget] = {}
-    for other in _launching(package):
+    for other in launching(package):
         target = _shown_target(other, distro)
         if target.reason:
             reason = f"{target.reason} in {other.name}, which launches it"
@@ -74,7 +74,7 @@ def _target_beside(package: Package) -> DetectedTarget | None:
     return DetectedTarget(False, _known_distribution(distro), reason)
 
 
-def _launching(package: Package) -> Iterator[Package]:
+def launching(package: Package) -> Iterator[Package]:
     """Yield the other packages whose launch files name a package."""
     name = package.declared_name
     for other in () if package.only else package.other_packages:
@@ -98,7 +98,7 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
         return DetectedTarget(
             False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
         )
-    if IGNITION in signs and {*signs} <= {IGNITION, ROS_GZ} and not distro:
+    if IGNITION in signs and {*signs} <= {IGNITION, LATER, ROS_GZ} and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)

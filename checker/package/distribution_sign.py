@@ -79,6 +79,14 @@ def _only(signs: Sequence[DistributionSign]) -> DistributionSign | None:
     return signs[0] if len({sign.distro for sign in signs}) == 1 else None
 
 
+def ros_1_sign(package: Package) -> DistributionSign | None:
+    """Return the release of ROS 1 that a package is made for; None if no file names one alone."""
+    for sources in files_above(package, NAMES) or [()]:
+        if signs := _signs((*own_files(package, NAMES), *sources), _NAMED_OF_ROS_1):
+            return _only(signs)
+    return None
+
+
 def before_noetic(package: Package) -> str:
     """Return why a package is made for a release of ROS 1 before Noetic, as a clause.
 

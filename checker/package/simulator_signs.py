@@ -13,11 +13,15 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 CLASSIC, IGNITION, GZ = "classic", "ignition", "gz"
+LATER = "later"
+"""Fortress or a later Gazebo."""
 ROS_GZ = "ros_gz"
 """The packages that start either Fortress, on Humble, or a later Gazebo."""
 LAUNCH = {
     CLASSIC: re.compile(r"(?<![\w/])(?:gazebo_ros|gzserver|gzclient|spawn_entity\.py)(?!\w)"),
-    IGNITION: re.compile(r"\bros_ign_(?:gazebo|bridge)\b|\bign gazebo\b|\bIGN_GAZEBO_\w+"),
+    IGNITION: re.compile(
+        r"\bros_ign_(?:gazebo|bridge)\b|\bign gazebo\b|\bIGN_GAZEBO_\w+|\bignition\.msgs\.\w+"
+    ),
     GZ: re.compile(r"\bgz sim\b|\bGZ_SIM_\w+"),
     ROS_GZ: re.compile(r"\bros_gz_(?:sim|bridge)\b"),
 }
@@ -26,14 +30,12 @@ DESCRIPTION = {
         r"\blibgazebo_ros(?:2_control|_\w+)\.so\b|\bgazebo_ros2_control/GazeboSystem\b"
     ),
     IGNITION: re.compile(r"\bignition-gazebo\d*-[\w-]+-system\b|\bign_ros2_control\b"),
-    GZ: re.compile(
-        r"\bgz-sim\d*-[\w-]+-system\b|(?<!\w)gz_ros2_control\b"
-        r"""|\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""
-    ),
+    GZ: re.compile(r"\bgz-sim\d*-[\w-]+-system\b|(?<!\w)gz_ros2_control\b"),
+    LATER: re.compile(r"""\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""),
 }
 _OF_ROS_2 = re.compile(
     rf"<ros2_control\b|gazebo_ros2_control\b"
-    rf"|{DESCRIPTION[IGNITION].pattern}|{DESCRIPTION[GZ].pattern}"
+    rf"|{DESCRIPTION[IGNITION].pattern}|{DESCRIPTION[GZ].pattern}|{DESCRIPTION[LATER].pattern}"
 )
 """Elements that are only in a URDF for ROS 2 or for Gazebo after Classic."""
 _OF_ROSLAUNCH = re.compile(r"\$\(find\s|<node\b[^<>]{0,400}?\stype\s{0,8}=")
@@ -83,16 +85,27 @@ def _signs(package: Package, kind: _Kind) -> Iterator[tuple[str, str]]:
 
 
 def signs_in_files(
-    package: Package, paths: Iterable[str], patterns: Mapping[str, re.Pattern[str]]
+    package: Package,
+    paths: Iterable[str],
+    patterns: Mapping[str, re.Pattern[str]],
+    *,
+    ros_1: bool = False,
 ) -> Iterator[tuple[str, str]]:
-    """Yield for each file and pattern that it holds the simulator, and the first place in words."""
+    """Yield for each file and pattern that it holds the simulator, and the first place in words.
+
+    Args:
+        package: The package.
+        paths: Paths of its files.
+        patterns: What names each simulator.
+        ros_1: Whether launch files of ROS 1 count; ROS 2 does not read those that are left.
+    """
     for path in paths:
         source = package.read(path)
         if not isinstance(source, SourceText):
             continue
         text = _without_comments(source)
-        if path.endswith(".launch") and _OF_ROSLAUNCH.search(text):
-            continue  # left by an exporter or a port: nothing of ROS 2 reads it
+        if not ros_1 and path.endswith(".launch") and _OF_ROSLAUNCH.search(text):
+            continue  # left by an exporter or a port
         for target, pattern in patterns.items():
             if match := pattern.search(text):
                 yield target, f"{source.where(match.start())} names {match.group().strip()}"

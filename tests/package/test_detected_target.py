@@ -23,6 +23,8 @@ GZ_PLUGIN = RAY.format("gz-sim-diff-drive-system")
 ROS_GZ = "        Node(package='ros_gz_sim', executable='create'),"
 GZ_SIM = "        ExecuteProcess(cmd=['gz sim', '-r']),"
 IGNITION_PLUGIN = RAY.format("ignition-gazebo-diff-drive-system")
+IGNITION_CLOCK = "  # '/clock@rosgraph_msgs/msg/Clock[ignition.msgs.Clock'"
+LIDAR = '<robot name="arm"><gazebo><sensor name="eye" type="gpu_lidar"/></gazebo></robot>'
 EXPORTED = '<launch><node name="s" pkg="gazebo_ros" type="spawn_model"/></launch>'
 URDF = "urdf/arm.urdf.xacro"
 DEPENDS = (
@@ -55,6 +57,10 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": True, "package.xml": DEPENDS, URDF: CLASSIC_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": ROS_GZ, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
+        ({"@ros2": ROS_GZ, URDF: f"{IGNITION_PLUGIN}{LIDAR}"}, ("ros2", "humble")),
+        ({"@ros2": f"{ROS_GZ}{IGNITION_CLOCK}", URDF: LIDAR}, ("ros2", "humble")),
+        ({"@ros2": f"{ROS_GZ}{IGNITION_CLOCK}", URDF: GZ_PLUGIN}, ("ros2", "")),
+        ({"@ros2": SPAWN, URDF: LIDAR}, ("ros2", "")),
         ({"@ros2": GZ_SIM, URDF: IGNITION_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, URDF: GZ_PLUGIN}, ("ros2", "")),
         ({"@ros2": True, "launch/gazebo.launch": EXPORTED}, ("ros2", "")),
@@ -362,3 +368,50 @@ def test_nothing_above_the_folder_that_is_given_tells(tmp_path: Path) -> None:
     write_example({"@ros2": True}, source)
     with open_input(source) as opened:
         assert Settings().for_package(opened.packages[0]).distro == ""
+
+
+ROS_1 = """<package format="2">
+  <name>{}</name><buildtool_depend>catkin</buildtool_depend>
+</package>
+"""
+SPAWN_OF_ROS_1 = """<launch>
+  <node name="s" pkg="gazebo_ros" type="spawn_model" args="-urdf -model lift"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        ({}, ""),
+        ({"launch/rviz.launch": "<launch/>"}, ""),
+        (
+            {"launch/a.launch": SPAWN_OF_ROS_1},
+            "Gazebo Classic with ROS 1: launch/a.launch:2 names gazebo_ros",
+        ),
+        (
+            {"launch/a.launch": SPAWN_OF_ROS_1, "README.md": "# Lift\nFor ROS Noetic.\n"},
+            "Gazebo Classic with ROS Noetic: launch/a.launch:2 names gazebo_ros, "
+            "README.md:2 names ROS Noetic",
+        ),
+        (
+            {
+                "../lift_gazebo/package.xml": ROS_1.format("lift_gazebo"),
+                "../lift_gazebo/launch/lift.launch": SPAWN_OF_ROS_1.replace("-model lift", "lift"),
+            },
+            "Gazebo Classic with ROS 1: launch/lift.launch:2 names gazebo_ros in lift_gazebo, "
+            "which launches it",
+        ),
+    ],
+)
+def test_a_package_of_ros_1_states_what_starts_gazebo(
+    files: Mapping[str, str], expected: str, tmp_path: Path
+) -> None:
+    own = {"package.xml": ROS_1.format("lift"), "urdf/lift.urdf": "<robot name='lift'/>"}
+    for path, text in {**own, **files}.items():
+        place = tmp_path / "lift" / path
+        (tmp_path / "lift").mkdir(exist_ok=True)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text)
+    settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
+    assert (settings.profile, settings.target_reason) == ("urdf", expected)
