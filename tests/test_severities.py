@@ -59,6 +59,31 @@ BRIDGE = """- topic_name: /model/{}/odometry
   direction: GZ_TO_ROS
 """
 TOOL = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>'
+EMPTY_COPY = {
+    "arm.urdf": "",
+    "parts/arm.urdf": "<robot name='arm'/>",
+    "launch/b.launch": "<launch><param name='a' textfile='$(find a)/parts/arm.urdf'/></launch>",
+}
+XACRO = "name='arm' xmlns:xacro='http://www.ros.org/wiki/xacro'"
+EMPTY_PART = {
+    "urdf/tool.xacro": "",
+    "urdf/wrist.xacro": f"<robot {XACRO}><xacro:include filename='tool.xacro'/></robot>",
+    "urdf/arm.xacro": f"<robot {XACRO}><xacro:include filename='wrist.xacro'/></robot>",
+}
+_INSTALLED = "install(DIRECTORY launch urdf worlds thumbnails DESTINATION share)\n"
+MESHES = {
+    "CMakeLists.txt": f"project(a)\n{_INSTALLED}install(FILES model.sdf DESTINATION share)\n",
+    "meshes/arm.dae": "<COLLADA/>",
+    "urdf/a.urdf": "<mesh filename='meshes/arm.dae'/>",
+}
+COPIES = {
+    "CMakeLists.txt": None,
+    "setup.py": """from glob import glob
+from setuptools import setup
+setup(name="a", data_files=[("share/a", glob("*/*.*"))])
+""",
+    **dict.fromkeys(("meshes/arm.dae", "meshes/old/arm.dae"), "<COLLADA/>"),
+}
 LEFTOVER = f"""<link name="tool"/>{TOOL}
 <transmission name="t"><type>transmission_interface/SimpleTransmission</type>
   <joint name="j"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
@@ -223,6 +248,16 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG003", {"thumbnails/1.png": None}, "info"),
     ("PKG008", LEFT, "info"),
     ("PKG008", {**LEFT, "launch/b.launch.py": "def generate_launch_description(): ..."}, "error"),
+    ("SDF001", {"arm.urdf": ""}, "warning"),
+    ("SDF001", {"arm.urdf": "", "launch/b.launch": "<launch><!-- arm.urdf --></launch>"}, "error"),
+    ("SDF001", EMPTY_COPY, "warning"),
+    ("SDF001", EMPTY_PART, "warning"),
+    ("SDF001", {**EMPTY_PART, "launch/b.launch": "<launch><!-- arm.xacro --></launch>"}, "error"),
+    ("PKG008", MESHES, "error"),
+    ("PKG008", {**MESHES, "urdf/a.urdf": "<mesh filename='other.dae'/>"}, "info"),
+    ("PKG008", {**MESHES, "urdf/a.urdf": "<mesh filename='${name}.dae'/>"}, "error"),
+    ("PKG008", {**COPIES, "urdf/a.urdf": "<mesh filename='meshes/old/arm.dae'/>"}, "error"),
+    ("PKG008", {**COPIES, "urdf/a.urdf": "<mesh filename='${folder}/arm.dae'/>"}, "info"),
     ("PKG015", {"third_party/asio/read me.hpp": ""}, "warning"),
     ("PKG015", {"third_party/asio/read me.hpp": "", "third_party/asio/LICENSE": ""}, "info"),
     ("PKG015", {"meshes/old body.dae": "", "meshes/LICENSE": ""}, "warning"),

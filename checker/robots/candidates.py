@@ -250,11 +250,20 @@ def _made_of(package: Package) -> Iterator[str]:
 
 def is_included(package: Package, path: str) -> bool:
     """Return whether a file of this or another package includes a file, by any kind of name."""
+    return any(including(package, path))
+
+
+def including(package: Package, path: str) -> Iterator[SourceText]:
+    """Yield the files of this and other packages that include a file, by any kind of name."""
     name = posixpath.basename(path)
-    own = (_text(package, other) for other in _files(package) if other != path)
-    others = (_text(*other) for other in _xacro_elsewhere(package))
-    # Of a computed name, such as `${kind}_arm.xacro`, the end is what was found.
-    return any(name.endswith(end) for text in (*own, *others) for end in _INCLUDED.findall(text))
+    own = ((package, other) for other in _files(package) if other != path)
+    for holder, other in (*own, *_xacro_elsewhere(package)):
+        source = holder.read(other)
+        # Of a computed name, such as `${kind}_arm.xacro`, the end is what was found.
+        if isinstance(source, SourceText) and any(
+            map(name.endswith, _INCLUDED.findall(source.text))
+        ):
+            yield source
 
 
 def _holds_parts(package: Package, path: str) -> bool:

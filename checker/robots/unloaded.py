@@ -43,7 +43,7 @@ def may_be_loaded(
     folder, name = posixpath.split(path)
     folders = {posixpath.dirname(it) for it in loaded}
     named = [text for text in launch_texts.values() if has_file(text, name)]
-    if any(not _means_others(_without_comments(text), name, loaded) for text in named):
+    if any(not means_others(_without_comments(text), name, loaded) for text in named):
         return True
     return any(
         (folder in folders and _FILE_ARGUMENT.search(text))
@@ -52,7 +52,7 @@ def may_be_loaded(
     )
 
 
-def _means_others(text: str, name: str, loaded: Collection[str]) -> bool:
+def means_others(text: str, name: str, loaded: Collection[str]) -> bool:
     """Return whether a text names no file so, but as the path of a loaded file of that name."""
     if not has_file(text, name):
         return True

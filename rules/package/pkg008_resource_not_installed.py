@@ -2,8 +2,9 @@
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
 only on the author's machine. A folder with launch files of ROS 1 alone in a package of ROS 2 is an
-info. Thumbnails are not needed there: they are infos. A setup.py
-that computes its `data_files` is not checked; if it names each folder, that is only an info.
+info. Thumbnails are not needed there: they are infos. So are meshes that no file names, such as
+backups in a folder `meshes/old` of those that are named. A setup.py that computes its `data_files`
+is not checked; if it names each folder, that is only an info.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
 for each folder with the files in it: `glob("launch/*")` does not include files in subfolders.
@@ -37,7 +38,7 @@ from checker.rule import (
     unchecked,
 )
 from checker.source.cmake import CMakeFile, Install
-from checker.source.text import Span
+from checker.source.text import SourceText, Span
 from checker.source.xml_insertion import newline_of
 
 _LESS = {
@@ -48,6 +49,7 @@ _LESS = {
 }
 """Lower severities for folders without which the robot starts."""
 _MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf")
+_NAMING = (".urdf", ".xacro", ".sdf", ".world", ".py", ".xml", ".launch", ".yaml", ".yml")
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")
 _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
@@ -76,6 +78,9 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         severity, fix = _LESS.get(folder), _install_fix(build, "DIRECTORY", [folder])
         if is_left_from_ros1(package, folder):
             message += ": it has only launch files of ROS 1; delete them, or write those of ROS 2"
+            severity, fix = Severity.INFO, None
+        elif _is_unnamed(package, folder):
+            message += ", and no file names a mesh of it"
             severity, fix = Severity.INFO, None
         yield _finding(build, message, severity, fix)
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
@@ -109,20 +114,57 @@ def _by_setup(package: Package) -> Findings:
     for folder in _filled_folders(package):
         if not _covers(origins, folder):
             message = f"folder {folder}/ is not installed: data_files names no file of it"
-            yield finding(setup, message, severity=_LESS.get(folder), key=message)
-        elif left := [*_left_meshes(package, folder)]:
-            verb = "is" if len(left) == 1 else f"and {len(left) - 1} more are"
-            message = f"{left[0]} {verb} not installed: data_files names other files of {folder}/"
-            yield finding(setup, message, key=f"meshes of {folder}")
+            severity = _LESS.get(folder)
+            if _is_unnamed(package, folder):
+                message += ", and no file names a mesh of it"
+                severity = Severity.INFO
+            yield finding(setup, message, severity=severity, key=message)
+            continue
+        left = [*_left_meshes(package, folder)]
+        copies = [path for path in left if _is_unused_copy(package, path)]
+        needed = [path for path in left if path not in copies]
+        reason = f": data_files names other files of {folder}/"
+        for paths, why, severity in (
+            (needed, reason, None),
+            (copies, ", and files of the same name elsewhere are used", Severity.INFO),
+        ):
+            if paths:
+                verb = "is" if len(paths) == 1 else f"and {len(paths) - 1} more are"
+                message = f"{paths[0]} {verb} not installed{why}"
+                yield finding(setup, message, severity=severity, key=f"meshes of {folder}{why}")
 
 
 def _left_meshes(package: Package, folder: str) -> Iterator[str]:
-    """Yield the meshes of a folder that a file of the package names and nothing installs."""
+    """Yield the meshes of a folder whose name is in a file of the package and nothing installs."""
     for file in package.index.with_suffix(*_MESHES):
         name = posixpath.basename(file.path).casefold()
         is_used = file.path.startswith(f"{folder}/") and name in package.mentioned_names
         if is_used and not installed_as(package, file.path):
             yield file.path
+
+
+def _is_unnamed(package: Package, folder: str) -> bool:
+    """Return whether a folder has only meshes of which no file, of any package, names one."""
+    if folder != "meshes":
+        return False
+    paths = (file.path for file in package.index.with_suffix(*_MESHES))
+    names = {posixpath.basename(it).casefold() for it in paths if it.startswith("meshes/")}
+    # ".stl" alone is the end of a name that a file puts together.
+    names |= {posixpath.splitext(name)[1] for name in names}
+    every = (package, *package.other_packages)
+    return bool(names) and all(names.isdisjoint(it.mentioned_names) for it in every)
+
+
+def _is_unused_copy(package: Package, path: str) -> bool:
+    """Return whether an installed mesh has the same name, and no file names this one's folder."""
+    *_, folder, name = path.split("/")
+    if not any(installed_as(package, other) for other in package.index.ending(name)):
+        return False
+    written = [f"{before}{folder}{after}" for before in "/\"'" for after in "/\"'"]
+    texts = map(package.read, (file.path for file in package.index.with_suffix(*_NAMING)))
+    return not any(
+        end in source.text for source in texts if isinstance(source, SourceText) for end in written
+    )
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:

@@ -7,7 +7,8 @@ element. In files that only Gazebo, pluginlib, Nav2 or MoveIt reads these are in
 parsers of ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not
 checked. So are faults of files in a folder of tests whose name says that a test expects them
 (`invalid_tree.urdf`), and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An
-empty file that no launch file names is a warning, and so are such an SRDF, and a fragment of a URDF
+empty file that no launch file names is a warning, unless a xacro file that is loaded includes it;
+so are such an SRDF, and a fragment of a URDF
 without `<robot>`, which other programs paste into a robot.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
@@ -23,11 +24,14 @@ from checker.base.files import NotReadable, TooLarge
 from checker.finding import Fix, Safety
 from checker.package.inheritance import Found
 from checker.package.package import Package
+from checker.robots.candidates import including
+from checker.robots.unloaded import means_others
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText, Span
 from checker.source.xml_errors import GAZEBO_FILES, is_lenient
 from checker.source.xml_positions import XmlFault
 
+_DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world")
 _FOLDERS = {"template", "templates"}
 _BUILDER = "MoveItConfigsBuilder"
 """What reads an SRDF without naming it."""
@@ -66,10 +70,8 @@ def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
 def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
     if path.endswith(".launch") and fault.span.source.text.startswith("#!"):
         return  # a script
-    is_empty = not fault.span.source.text.strip()
-    # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
-    if is_empty and (path.startswith("urdf/") or not _is_used(path, package)):
-        yield finding(fault.span, f"{path} is empty", severity=Severity.WARNING)
+    if not fault.span.source.text.strip():
+        yield _empty(path, fault, package)
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
         yield finding(fault.span, _message(path, fault), severity=Severity.INFO)
     else:
@@ -79,13 +81,45 @@ def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
         yield _finding(path, fault, Severity.WARNING if minor else None)
 
 
+def _empty(path: str, fault: XmlFault, package: Package) -> Finding:
+    """Return the finding of an empty file: a warning where nothing needs its content."""
+    includer = _loaded_including(path, package)
+    if includer:
+        return finding(fault.span, f"{path} is empty, and xacro stops: {includer} includes it")
+    is_used = _is_used(path, package)
+    # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
+    if is_used and not path.startswith("urdf/"):
+        return _finding(path, fault)
+    is_left = not is_used and path.endswith(_DESCRIPTIONS)
+    advice = ", and no launch file loads it: delete it" if is_left else ""
+    return finding(fault.span, f"{path} is empty{advice}", severity=Severity.WARNING)
+
+
+def _loaded_including(path: str, package: Package, levels: int = 5) -> str:
+    """Return the file that includes a file and that a launch file loads, if any, itself or not."""
+    same = _of_same_name(path, package)
+    for source in including(package, path) if levels else ():
+        if means_others(source.text, posixpath.basename(path), same):
+            continue
+        launched = package.workspace.launches_file(posixpath.basename(source.file))
+        if launched or _loaded_including(source.file, package, levels - 1):
+            return source.file
+    return ""
+
+
+def _of_same_name(path: str, package: Package) -> list[str]:
+    return [it for it in package.index.ending(posixpath.basename(path)) if it != path]
+
+
 def _is_used(path: str, package: Package) -> bool:
     """Return whether a file is the model or manifest of a package, or a launch file names it."""
     name = posixpath.basename(path)
     model = package.model_path
     if name == "package.xml" or (isinstance(model, Found) and model.path == path):
         return not package.only
-    return package.workspace.launches_file(name)
+    same = _of_same_name(path, package)
+    texts = package.workspace.launch_texts.values()
+    return not all(means_others(text, name, same) for text in texts)
 
 
 def _finding(path: str, fault: XmlFault, severity: Severity | None = None) -> Finding:
