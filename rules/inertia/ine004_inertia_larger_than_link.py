@@ -86,9 +86,7 @@ def check(
         elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
             continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            fixed = name in masses.robot.tree.links_fixed_to_world
-            minor = fixed or (is_prop and ratio <= _SEVERAL)
-            heavy = masses.share(name) > share and not minor
+            heavy = masses.share(name) > share and not (is_prop and ratio <= _SEVERAL)
             mounted = masses.robot.is_mounted(name)
             limit = subt_error_above if context.is_subt else error_above
             grave = ratio > limit and not (mounted or is_prop)
@@ -103,7 +101,7 @@ def check(
                 fix=moments_fix(masses.robot, inertia.link),
                 covered_by=("INE013",),
             )
-            made = ratio > warning_above and not (fixed or is_prop or mounted)
+            made = ratio > warning_above and not (is_prop or mounted)
             found.append((ratio, _formula(inertia) if made else "", fault))
     yield from _of_one_formula(sorted(found, key=lambda each: -each[0]))
 

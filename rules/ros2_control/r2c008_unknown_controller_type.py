@@ -5,6 +5,8 @@ The spawner ends with an error for a type that no package exports. Some types we
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never existed in ROS 2.
 
+Where no launch file names the controller, nothing loads it: that is a warning.
+
 An unknown type is not judged in a package for a distribution before Humble, or where a `.repos`
 file names a fork of ros2_controllers. Types of other packages are not judged, unless the class has
 the name of one of ros2_controllers and the package is neither in package.xml nor available.
@@ -97,16 +99,19 @@ def check(control: RobotControl, context: Context, package: Package) -> Findings
             if unknown:
                 yield unchecked(f"{name}: {unknown}")
                 continue
+            words = package.workspace.launch_words
+            level = None if not words or controller.name in words else Severity.WARNING
             instead = _INSTEAD.get(name)
             message = f"ROS 2 {distribution.title()} has no controller of type {name}"
             if instead:
                 message += f", expected {instead}"
-                yield finding(controller.type, message, fix=rename(controller.type, instead))
+                fix = rename(controller.type, instead)
+                yield finding(controller.type, message, severity=level, fix=fix)
             else:
                 found = misspelt(controller.type, message, suggestions)
                 of_owner = [each for each in current if each.partition("/")[0] == owner]
                 only = rename(controller.type, of_owner[0]) if len(of_owner) == 1 else None
-                yield replace(found, fix=found.fix or only)
+                yield replace(found, severity=level, fix=found.fix or only)
 
 
 def _built_from_a_fork(package: Package) -> str:

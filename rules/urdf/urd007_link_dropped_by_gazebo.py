@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
+from checker.model.values import parse_number
 from checker.package.package import Package
 from checker.physics.mass.even_inertia import inertial_fix
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
@@ -41,10 +42,17 @@ def check(
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:
             continue
+        if any(map(_has_unread_mass, links)):
+            continue  # URD012 says what is wrong with it.
         if not any(link.mass for link in links):
             yield _left_out(description, robot.links_by_name[name], links, severity, grave)
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
             yield from _without_shapes(robot.links_by_name[name], links)
+
+
+def _has_unread_mass(link: Link) -> bool:
+    masses = (mass.get("value") for mass in link.element.descendants("mass"))
+    return any(text is None or parse_number(text) is None for text in masses)
 
 
 def _left_out(
@@ -117,6 +125,7 @@ _KEPT = '<gazebo reference="j"><preserveFixedJoint>true</preserveFixedJoint></ga
 _SENSOR = '<gazebo reference="arm"><sensor name="camera" type="camera"/></gazebo>'
 GOOD = [
     _robot(_FULL, _FULL),
+    _robot(_FULL, _FULL.replace('mass value="1"', 'mass value="2*0.5"')),
     _robot(_FULL, "", "fixed", _SENSOR),
     _robot("", _FULL, "fixed"),
     {"urdf/robot_from_sdf.xacro": '<robot name="r"><link name="a"/></robot>'},

@@ -103,9 +103,9 @@ class MassProperties(Record, eq=False):
 
     @property
     def weighed(self) -> Mapping[str, LinkInertia]:
-        """The links whose mass is known."""
-        unknown = self.robot.unknown_masses
-        return {name: inertia for name, inertia in self.links.items() if name not in unknown}
+        """The links whose mass is known and has an effect: the world does not hold them."""
+        left_out = self.robot.tree.links_fixed_to_world.union(self.robot.unknown_masses)
+        return {name: inertia for name, inertia in self.links.items() if name not in left_out}
 
     def share(self, name: str) -> float:
         """Return a link's share of the robot's mass, 0…1."""
