@@ -1,4 +1,4 @@
-"""Findings in robots that no launch file loads, or that are hardware alone: they weigh less."""
+"""Findings in robots that no launch file loads, or no simulator gets: they weigh less."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
         for holder in (value, getattr(value, "robot", None)):
             clause = getattr(holder, "unloaded", "")
             if group == _OF_MASSES:
-                clause = clause or getattr(holder, "hardware_only", "")
+                clause = clause or getattr(holder, "never_simulated", "")
             if clause:
                 return str(clause)
     return ""
@@ -47,13 +47,19 @@ def less_of_unloaded(
     """
     of_loaded = [item for clause, items in said if not clause for item in items]
     yield from of_loaded
+    is_one_loaded = not all(clause for clause, _ in said)
     known = {_spot(item) for item in of_loaded if isinstance(item, Finding)}
     for clause, items in said:
         for item in items if clause else ():
             if isinstance(item, Unchecked):
                 yield replace(item, severity=Severity.WARNING)
-            elif _spot(item) not in known:
+            elif _spot(item) not in known and not (is_one_loaded and _is_parameter(item)):
                 yield _lessened(item, clause, severity)
+
+
+def _is_parameter(item: Finding) -> bool:
+    """Return whether a finding is in a file of parameters, which is that of the loaded robot."""
+    return item.places[0].file.endswith((".yaml", ".yml"))
 
 
 def _spot(item: Finding) -> tuple[Place, str]:

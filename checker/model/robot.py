@@ -54,6 +54,9 @@ _NEAR_EARTH = 0.05
 
 _BALANCING = re.compile(r"balanc|segway|pendulum", re.IGNORECASE)
 
+OTHERS_SIMULATED = "Gazebo gets another description"
+"""Why no simulator gets a robot, beside one that a simulator gets."""
+
 
 class Robot(Part, dict=True):
     """A whole robot; the parts of nested models are in the same tuples, with scoped names.
@@ -133,9 +136,13 @@ class Robot(Part, dict=True):
         return self.conventions.read_by_gazebo or bool(tag and self.element.child(tag))
 
     @property
-    def hardware_only(self) -> str:
-        """Why its ros2_control is that of hardware alone, as a clause; empty if it may not be."""
-        return self.shown_only if self.element.child("ros2_control") is not None else ""
+    def never_simulated(self) -> str:
+        """Why no simulator is meant to get it, as a clause; empty if one may be.
+
+        Gazebo gets another description, or its ros2_control is that of hardware alone.
+        """
+        certain = self.shown_only == OTHERS_SIMULATED or self.element.child("ros2_control")
+        return self.shown_only if certain else ""
 
     @property
     def is_static(self) -> bool:

@@ -18,6 +18,7 @@ from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unrea
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
 from checker.launch.ros2.graph import Ros2Launch
+from checker.package.files_above import README, files_around
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.robots.candidates import (
@@ -37,7 +38,7 @@ from checker.robots.leftovers import leftovers
 from checker.robots.other_robots import Made, in_words, other_robots
 from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
-from checker.robots.unloaded import may_be_loaded
+from checker.robots.unloaded import Naming, may_be_loaded
 from checker.robots.urdf_files import UrdfFiles
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -194,11 +195,14 @@ class PackageDescriptions:
                 else it
                 for it in descriptions
             ]
-        texts = self._package.naming_launch_texts
+        naming = Naming(
+            self._package.workspace.launch_texts,
+            self._package.naming_launch_texts,
+            [page.text for page in files_around(self._package, README)],
+        )
         return [
             it
-            if it.file in loaded
-            or may_be_loaded(self._package.workspace.launch_texts, texts, it.file, loaded)
+            if it.file in loaded or may_be_loaded(naming, it.file, loaded)
             else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
             for it in descriptions
         ]

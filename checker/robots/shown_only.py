@@ -10,6 +10,7 @@ from checker.formats.xacro.files import local_path
 from checker.launch.ros2.descriptions import loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
+from checker.model.robot import OTHERS_SIMULATED
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
@@ -20,6 +21,7 @@ _SIMULATORS = re.compile(
     re.IGNORECASE,
 )
 """What a launch file contains that starts a simulator, or may."""
+_DESCRIPTION = re.compile(r"\w\.(?:urdf|xacro|sdf)\b")
 _CLOCK = re.compile(
     r"simulat(?:ion|ed|or)\s{1,4}(?:\(gazebo\)\s{1,4})?(?:clock|time)\b", re.IGNORECASE
 )
@@ -37,9 +39,10 @@ def shown_only(
 ) -> str:
     """Return why no simulator gets a description, as a clause; empty if one may.
 
-    A description with an element for Gazebo is for a simulator, whatever starts it, and so may be a
-    package whose launch files are in another one. In a folder without package.xml and without
-    launch files it takes more than friction or colours: a plugin or a sensor.
+    A description with an element for Gazebo is for a simulator, whatever starts it, unless a
+    simulator is given another one. So may be a package whose launch files are in another one. In a
+    folder without package.xml and without launch files it takes more than friction or colours: a
+    plugin or a sensor.
 
     Args:
         package: The package being checked.
@@ -47,23 +50,46 @@ def shown_only(
         document: The description.
         own: What the launch files of ROS 2 of the package start.
     """
-    root, launch = document.root, package.workspace.launch_texts
-    tags = [child.tag for tag in root.all("gazebo") for child in tag.children]
+    root, launch, name = document.root, package.workspace.launch_texts, package.declared_name
+    if package.only or _has_simulated_hardware(root):
+        return ""
+    texts = _starting(launch, posixpath.basename(path))
+    if texts and not _starts_simulator(texts, name):
+        others = (text for text in launch.values() if _DESCRIPTION.search(text))
+        if _starts_simulator(others, name):
+            return OTHERS_SIMULATED
     loose = not launch and not package.exists("package.xml")
-    in_gazebo = not _SIMULATED.isdisjoint(tags) if loose else root.child("gazebo")
-    if package.only or in_gazebo or _has_simulated_hardware(root):
+    if _is_for_gazebo(root, loose=loose):
         return ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
-    texts = _starting(launch, posixpath.basename(path)) or [*launch.values()]
+    return _unstarted(texts or [*launch.values()], name, loose=loose) or (
+        OTHERS_SIMULATED if _get_others(package, own, path) else ""
+    )
+
+
+def _is_for_gazebo(root: Element, *, loose: bool) -> bool:
+    tags = (child.tag for tag in root.all("gazebo") for child in tag.children)
+    return not _SIMULATED.isdisjoint(tags) if loose else root.child("gazebo") is not None
+
+
+def _unstarted(texts: Sequence[str], name: str, *, loose: bool) -> str:
+    """Return the clause that launch files start no simulator; else empty."""
     if not texts:
         return "no launch file of the workspace starts anything" if loose else ""
-    if not any(_SIMULATORS.search(_CLOCK.sub("", text)) for text in texts):
-        return "no launch file that loads it starts a simulator"
-    graphs = [*own, *(graph for _, graph in launches_naming(package))]
-    if _get_others(package, graphs, path):
-        return "Gazebo gets another description"
-    return ""
+    if _starts_simulator(texts, name):
+        return ""
+    return "no launch file that loads it starts a simulator"
+
+
+def _starts_simulator(texts: Iterable[str], name: str) -> bool:
+    """Return whether a launch file starts a simulator, or may.
+
+    Args:
+        texts: The launch files.
+        name: The name of the package, which may be that of a simulator: `gazebo_sim`.
+    """
+    return any(_SIMULATORS.search(_CLOCK.sub("", text.replace(name, ""))) for text in texts)
 
 
 def _has_simulated_hardware(root: Element) -> bool:
@@ -95,8 +121,9 @@ def _starting(launch: Mapping[str, str], name: str) -> list[str]:
     return [*found.values()]
 
 
-def _get_others(package: Package, graphs: Sequence[LaunchGraph], path: str) -> bool:
+def _get_others(package: Package, own: Iterable[LaunchGraph], path: str) -> bool:
     """Return whether a launch file loads the description of a file, and none spawns it."""
+    graphs = [*own, *(graph for _, graph in launches_naming(package))]
     loaded = (each for graph in graphs for each in loaded_descriptions(package, graph))
     named = any(local_path(package, each.load.path) == path for each in loaded)
     return named and spawns_others(package, graphs, path)

@@ -6,6 +6,7 @@ import posixpath
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from checker.base.record import Record
 from checker.package.mentions import has_file
 
 _NAME = re.compile(
@@ -24,31 +25,40 @@ _NAMED = re.compile(r"""\bname\s{0,8}=\s{0,8}["']([\w.-]{1,100})["']""")
 _VALUE = re.compile(r"""\b(?:default|value)\s{0,8}=\s{0,8}["']([\w.-]{0,100})["']""")
 
 
-def may_be_loaded(
-    launch_texts: Mapping[str, str],
-    naming: Mapping[str, str],
-    path: str,
-    loaded: Collection[str] = (),
-) -> bool:
+class Naming(Record):
+    """The texts that may name a description.
+
+    Attributes:
+        launches: All launch files, by path.
+        own: Those of the package, or that name it, by path.
+        pages: README files.
+    """
+
+    launches: Mapping[str, str]
+    own: Mapping[str, str]
+    pages: Sequence[str] = ()
+
+
+def may_be_loaded(naming: Naming, path: str, loaded: Collection[str] = ()) -> bool:
     """Return whether a launch file names a description, or a name that may be this one.
 
-    So does one with an argument that takes any file, beside a file that it loads by default.
+    So does one with an argument that takes any file, beside a file that it loads by default, where
+    a README names this one.
 
     Args:
-        launch_texts: All launch files.
-        naming: Those of the package, or that name it.
+        naming: The texts.
         path: The path of the description.
         loaded: The paths of the descriptions that are loaded.
     """
     folder, name = posixpath.split(path)
-    folders = {posixpath.dirname(it) for it in loaded}
-    named = [text for text in launch_texts.values() if has_file(text, name)]
+    told = any(has_file(page, name) for page in naming.pages)
+    given = told and folder in {posixpath.dirname(it) for it in loaded}
+    named = [text for text in naming.launches.values() if has_file(text, name)]
     if any(not means_others(_without_comments(text), name, loaded) for text in named):
         return True
     return any(
-        (folder in folders and _FILE_ARGUMENT.search(text))
-        or (text not in named and _may_name(text, name))
-        for text in naming.values()
+        (given and _FILE_ARGUMENT.search(text)) or (text not in named and _may_name(text, name))
+        for text in naming.own.values()
     )
 
 

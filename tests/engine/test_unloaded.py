@@ -6,10 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.finding import Severity
+from checker.engine.unloaded import less_of_unloaded
+from checker.finding import Place, Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport, ReportedFinding
-from checker.robots.unloaded import may_be_loaded
+from checker.robots.unloaded import Naming, may_be_loaded
+from checker.rule import Finding
 from checker.settings import Settings
 from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
 
@@ -77,6 +79,33 @@ def test_what_is_hardware_alone_has_warnings(
     assert ("starts a simulator" in found.message) is (severity is Severity.WARNING)
 
 
+def test_what_rviz_alone_gets_has_warnings(tmp_path: Path) -> None:
+    path = tmp_path / NAME / "launch" / "simulate.launch.py"
+    path.parent.mkdir(parents=True)
+    path.write_text(python(_LAUNCH.replace("new.urdf", "solid.urdf").replace("text =", "gz =")))
+    (found,) = _faults(_check(tmp_path, f'{_link(_FAULTY)}<gazebo reference="body"/>'))
+    assert found.severity is Severity.WARNING
+    assert found.message.endswith("(Gazebo gets another description)")
+
+
+def _at(file: str) -> Finding:
+    return Finding((Place(file, 1, 1, 1),), "radius 0.1 m, expected 0.2 m")
+
+
+@pytest.mark.parametrize(
+    ("of_loaded", "kept"),
+    [([], ["urdf/old.urdf"]), (None, ["urdf/old.urdf", "config/wheels.yaml"])],
+)
+def test_parameters_are_those_of_the_loaded_robot(
+    of_loaded: list[Finding] | None, kept: list[str]
+) -> None:
+    said: list[tuple[str, list[Finding]]] = [("", of_loaded)] if of_loaded is not None else []
+    said.append(("only in urdf/old.urdf", [_at("urdf/old.urdf"), _at("config/wheels.yaml")]))
+    found = [it for it in less_of_unloaded(said, Severity.ERROR) if isinstance(it, Finding)]
+    assert [it.places[0].file for it in found] == kept
+    assert {it.severity for it in found} == {Severity.WARNING}
+
+
 def test_what_tests_load_has_warnings(tmp_path: Path) -> None:
     _check(tmp_path, _link(_GOOD))
     path = tmp_path / NAME / "test" / "fake.urdf"
@@ -136,13 +165,14 @@ def test_what_nothing_names_has_a_warning(tmp_path: Path) -> None:
         ("name + '_v1.urdf.xacro'", False),
         ("arm_v1.urdf.xacro", False),
         ("my_arm_v2.urdf.xacro", False),
-        ("<arg name='model' default='$(find arm)/urdf/arm_v1.urdf'/>", True),
-        ("DeclareLaunchArgument(name='urdf_file', default_value=path)", True),
+        ("<arg name='model' default='$(find arm)/urdf/arm_v1.urdf'/>", False),
     ],
 )
 def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
     texts = {"launch/a.launch": text}
-    assert may_be_loaded(texts, texts, "urdf/arm_v2.urdf.xacro", {"urdf/arm.urdf"}) is loaded
+    assert (
+        may_be_loaded(Naming(texts, texts), "urdf/arm_v2.urdf.xacro", {"urdf/arm.urdf"}) is loaded
+    )
 
 
 @pytest.mark.parametrize(
@@ -158,13 +188,22 @@ def test_computed_names_may_be_those_of_a_file(text: str, loaded: bool) -> None:
 )
 def test_a_file_of_the_name_of_a_loaded_one(text: str, loaded: bool) -> None:
     texts = {"launch/a.launch": text}
-    assert may_be_loaded(texts, texts, "urdf_v2/arm.urdf", {"urdf_v1/arm.urdf"}) is loaded
+    assert may_be_loaded(Naming(texts, texts), "urdf_v2/arm.urdf", {"urdf_v1/arm.urdf"}) is loaded
 
 
-def test_an_argument_takes_files_of_the_folder_of_its_default() -> None:
-    texts = {"launch/a.launch": "<arg name='model' default='$(find arm)/urdf/arm.urdf'/>"}
-    assert may_be_loaded(texts, texts, "urdf/arm_v2.urdf", {"urdf/arm.urdf"})
-    assert not may_be_loaded(texts, texts, "original/arm_v2.urdf", {"urdf/arm.urdf"})
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<arg name='model' default='$(find arm)/urdf/arm.urdf'/>",
+        "DeclareLaunchArgument(name='urdf_file', default_value=path)",
+    ],
+)
+def test_an_argument_takes_a_file_that_a_page_names(text: str) -> None:
+    texts, loaded = {"launch/a.launch": text}, {"urdf/arm.urdf"}
+    told = Naming(texts, texts, ["roslaunch arm a.launch model:=urdf/arm_v2.urdf"])
+    assert may_be_loaded(told, "urdf/arm_v2.urdf", loaded)
+    assert not may_be_loaded(told, "original/arm_v2.urdf", loaded)
+    assert not may_be_loaded(Naming(texts, texts), "urdf/arm_v2.urdf", loaded)
 
 
 _CONVERTED = '<sdf version="1.9"><model name="rover"><link/></model></sdf>'
