@@ -5,8 +5,12 @@ Harmonic and later know the names of Gazebo's own materials (`Gazebo/Red`) and n
 script is black too, or the material also has plain colours or PBR textures, which Gazebo uses, the
 script does nothing. Only this rule checks `file://media` URIs of scripts.
 
-Fix: give `<ambient>`, `<diffuse>` and `<specular>`, or `<pbr>` with textures of the package, and
-remove the script.
+Gazebo Classic reads scripts. One whose URI is a path in a home is found on the machine of its
+author alone: elsewhere the part has no colour and no texture, and no camera sees its mark.
+
+Fix: for Classic, write the folders of the script as `model://NAME/materials/scripts` and
+`model://NAME/materials/textures`; for others, give `<ambient>`, `<diffuse>` and `<specular>`, or
+`<pbr>` with textures of the package, and remove the script.
 Source: Model Migration Guide and model reviews; gz-rendering reads no material scripts;
 gz-sim8, rendering/MaterialParser.
 """
@@ -15,6 +19,7 @@ from collections.abc import Iterator
 
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
+from checker.package.uris import is_on_one_machine
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import removal
@@ -34,7 +39,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if element.tag != "material":
             continue
         script = element.child("script")
-        if script is not None and context.release not in SCRIPTED:
+        if script is not None and context.release in SCRIPTED:
+            yield from _on_one_machine(script)
+        elif script is not None:
             yield from _script(element, script, mapped=context.release in MAPPING)
         elif not element.children and not element.text.stated:
             yield finding(
@@ -42,6 +49,17 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
                 "<material> is empty, so it has no effect",
                 severity=Severity.INFO,
                 fix=Fix(Safety.SAFE, (removal(element),)),
+            )
+
+
+def _on_one_machine(script: Element) -> Iterator[Finding]:
+    for uri in script.all("uri"):
+        if is_on_one_machine(uri.text.value):
+            yield finding(
+                uri,
+                f"the material script is in {uri.text.value.strip()}, a path of one machine: "
+                "elsewhere the part has no texture; write model://NAME/materials/…",
+                key="machine",
             )
 
 
@@ -85,4 +103,12 @@ BAD = [
     _visual(f"<material>{_SCRIPT}<ambient>1 0 0 1</ambient></material>  <!-- ^ SDF015 -->"),
     _visual(f"<material>{_SCRIPT.replace('Red', 'Black')}</material>  <!-- ^ SDF015 -->"),
     _visual("<material/>  <!-- ^ SDF015 -->"),
+    {
+        "@profile": "gazebo-classic",
+        "@fragment": _visual(
+            "<material><script>\n"
+            "<uri>/home/ann/models/tag/materials/scripts</uri>  <!-- ^ SDF015 -->\n"
+            "<name>Tag</name></script></material>"
+        ),
+    },
 ]
