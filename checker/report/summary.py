@@ -123,10 +123,18 @@ _NAME_LIMIT = 200
 
 
 def summary_text(packages: Sequence[PackageReport], palette: Palette) -> str:
-    """Return a table with a line for each package, and below it the counts of all."""
+    """Return a table with a line for each package, and below it the counts of all.
+
+    Packages of one name have their paths.
+    """
     heads = ("package", "verdict", *_plurals(packages))
+    of_name = Counter(package.name for package in packages)
     rows = [
-        (plain(package.name), verdict_word(package.verdict), *map(str, counts))
+        (
+            plain(package.name if of_name[package.name] == 1 else package.path),
+            verdict_word(package.verdict),
+            *map(str, counts),
+        )
         for package in packages
         for counts in [_counts(package)[: len(heads) - 2]]
     ]

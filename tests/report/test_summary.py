@@ -28,6 +28,12 @@ def test_a_line_for_each_package() -> None:
     ]
 
 
+def test_packages_of_one_name_have_their_paths() -> None:
+    twins = (GOOD, replace(GOOD, path="parts/good"), PACKAGE)
+    lines = summary_text(twins, Palette(enabled=False)).splitlines()
+    assert [line.split()[0] for line in lines[1:4]] == ["models/good", "parts/good", "rover"]
+
+
 def test_what_is_suppressed_has_a_column_where_there_is_any() -> None:
     aside = Suppressed(PACKAGE.findings[0], SuppressedBy.SETTINGS, "it is so")
     some = replace(GOOD, suppressed=(aside, aside))
