@@ -20,12 +20,13 @@ from checker.model.geometry.placed_shapes import union
 from checker.physics.mass.even_inertia import centre_fix
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
 @rule("INE005", "centre-of-mass-outside-link", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
+    context: Context,
     *,
     error_above: float = 0.5,
     warning_above: float = 0.15,
@@ -41,8 +42,8 @@ def check(
             outside is a warning, a closer one is skipped.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its centre of mass is farther away than the robot is large.
-        shift: Share of the diagonal around the robot; a link of the base is a warning if it moves
-            the robot's centre of mass no farther.
+        shift: Share of the diagonal around the robot; a link is a warning if it moves the robot's
+            centre of mass no farther. In a robot for SubT this holds for links of its base.
     """
     if masses.robot.is_static:
         return
@@ -64,11 +65,9 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:
-            slight = (
-                name in masses.robot.tree.base
-                and whole is not None
-                and (masses.share(name) * outside <= shift * whole.diagonal)
-            )
+            of_base = name in masses.robot.tree.base or not context.is_subt
+            moved = masses.share(name) * outside
+            slight = of_base and whole is not None and moved <= shift * whole.diagonal
             harmless = slight or masses.robot.is_mounted(name)
             grave = far or (outside > error_above * box.diagonal and not harmless)
             yield finding(

@@ -19,6 +19,7 @@ import math
 
 from checker.model.robot import Robot
 from checker.physics.mass.even_inertia import even_moments, moments_fix
+from checker.physics.mass.link_geometry import volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -33,6 +34,7 @@ def check(
     least: float = 0.125,
     least_of_mesh: float = 0.03,
     share: float = 0.02,
+    heaviest: float = 8000.0,
 ) -> Findings:
     """Compare the largest moment of moving links with that of their shapes at their mass.
 
@@ -41,6 +43,7 @@ def check(
             collisions, else over its visuals; less is a warning.
         least_of_mesh: The same for links with meshes whose moments are not all equal.
         share: Share of the robot's mass; a link with no more is often a placeholder and skipped.
+        heaviest: Density in kg/m³; of a link with a greater one the mass is wrong (INE006).
     """
     robot = masses.robot
     if robot.is_static:
@@ -48,7 +51,7 @@ def check(
     for name, inertia in masses.weighed.items():
         if masses.share(name) <= share or not _states_moments(inertia):
             continue
-        if not _moves_by_itself(masses, name):
+        if not _moves_by_itself(masses, name) or _density(robot, inertia) > heaviest:
             continue
         even, largest = _largest_even_moment(robot, inertia), inertia.principal[2]
         is_drawn = _has_mesh(inertia) and not _has_equal_moments(inertia)
@@ -83,6 +86,13 @@ def _largest_even_moment(robot: Robot, inertia: LinkInertia) -> float:
     """Return the largest moment about an axis of `<inertial>`, kg·m²; 0 if it is not known."""
     even = even_moments(robot, inertia.link)
     return max(even[number] for number in _DIAGONAL) if even is not None else 0.0
+
+
+def _density(robot: Robot, inertia: LinkInertia) -> float:
+    """Return the least density of a link, kg/m³; 0 if its volume is not known."""
+    link = inertia.link
+    bounds = volume_bounds(robot, link.collisions or link.visuals)
+    return inertia.mass / bounds[1] if bounds is not None and bounds[1] > 0.0 else 0.0
 
 
 def _has_mesh(inertia: LinkInertia) -> bool:

@@ -1,4 +1,4 @@
-"""A Classic plugin in a URDF is an error where a launch file spawns it into Gazebo."""
+"""A Classic plugin in a URDF is an error where a launch file spawns it, else information."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PLAIN = '<robot name="rover"><link name="base_link"/></robot>\n'
     ("files", "severity"),
     [
         ({"urdf/rover.urdf": URDF.format("rover")}, Severity.ERROR),
-        ({"urdf/rover.urdf": PLAIN, "urdf/old.urdf": URDF.format("old")}, Severity.WARNING),
+        ({"urdf/rover.urdf": PLAIN, "urdf/old.urdf": URDF.format("old")}, Severity.INFO),
     ],
 )
 def test_severity(tmp_path: Path, files: dict[str, str], severity: Severity) -> None:
