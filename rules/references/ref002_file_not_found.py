@@ -12,8 +12,7 @@ ROS distribution has it, and this package has every file that is named that way.
 found either. Files in one folder of which nothing is installed are reported once; PKG008 reports
 meshes/ and other usual folders.
 
-An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone. It is
-reported if the package has the file.
+An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone.
 
 A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked. One
 that a `.gitignore` keeps out of the repository is a warning: its author has it.
@@ -36,7 +35,8 @@ from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.no_package import MESHES
 from checker.package.package import Package
-from checker.package.uris import Unknown, own_path_on_machine, path_behind
+from checker.package.target import package_around
+from checker.package.uris import Unknown, is_on_one_machine, own_path_on_machine, path_behind
 from checker.rule import (
     Concern,
     Finding,
@@ -65,6 +65,8 @@ def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
                 yield _misnamed(package, uri, path.package, uri in meshes)
             elif path.package:
                 yield unchecked(f"{uri.value} {path.reason}")
+            elif is_on_one_machine(uri.value):
+                yield _elsewhere(package, uri, uri in meshes)
             continue
         if package.exists(path):
             if own_path_on_machine(package, uri.value):
@@ -123,6 +125,22 @@ def _on_machine(uri: Located[str], near: str) -> Finding:
         f"{uri.value} is on its author's machine and is found on no other: write {near}",
         key="machine",
         fix=replace_text(uri, near),
+        covered_by=("REF001", "URD002"),
+    )
+
+
+def _elsewhere(package: Package, uri: Located[str], mesh: bool) -> Finding:
+    """Report a path on its author's machine of which this package has no file."""
+    around = package_around(package)
+    inside = own_path_on_machine(around, uri.value) if around is not None else ""
+    near = (
+        f"package://{around.name}/{inside}" if around is not None and inside else "a relative URI"
+    )
+    return finding(
+        uri,
+        f"{uri.value} is on its author's machine and is found on no other: write {near}",
+        severity=None if mesh else Severity.WARNING,
+        key="machine",
         covered_by=("REF001", "URD002"),
     )
 
@@ -205,6 +223,11 @@ BAD = [
 """,
         "meshes/wheel.dae": "",
     },
+    """
+<visual name="v"><geometry><mesh>
+  <uri>file:///home/ann/ws/src/other/meshes/wheel.dae</uri>  <!-- ^ REF002 -->
+</mesh></geometry></visual>
+""",
     {
         **_ARM,
         "urdf/arm.urdf": _FORMER.replace("</visual>", "</visual> <!-- ^ REF002 -->").replace(
