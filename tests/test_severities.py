@@ -31,6 +31,16 @@ WHEEL = """
   </collision>
 </link>
 """
+MADE = """<model><name>Wood</name><version>1.0</version>
+<author><name>A</name><email>a@example.org</email></author><description>Trees</description>
+<sdf version="1.6">made.sdf</sdf></model>
+"""
+STAGE = """<sdf version="1.9"><world name="stage">
+  <plugin filename="gz-sim-user-commands-system" name="gz::sim::systems::UserCommands"/>
+  <plugin filename="gz-sim-scene-broadcaster-system" name="gz::sim::systems::SceneBroadcaster"/>
+  <model name="prop">{}</model>
+</world></sdf>
+"""
 
 
 def sdf(version: str) -> str:
@@ -273,6 +283,10 @@ CASES: list[tuple[str, Example, str]] = [
         {"@fragment": LEAVING, OTHER_MESH: "", SIBLING: "<package/>", "package.xml": DEPENDS},
         "info",
     ),
+    ("WLD002", STAGE.format("<link name='eye'/>"), "info"),
+    ("WLD002", STAGE.format("<link name='box'><collision name='c'/></link>"), "error"),
+    ("PKG004", {"model.config": MADE}, "error"),
+    ("PKG004", {"model.config": MADE, ".gitignore": "made.sdf\n"}, "warning"),
     ("SDF001", {"worlds/example.sdf": "<sdf><!-- a -- b --></sdf>"}, "info"),
     ("SDF001", {"bt/a.xml": "<root><BehaviorTree/><!-- a -- b --></root>"}, "info"),
     ("SDF001", {"arm.urdf": ""}, "warning"),

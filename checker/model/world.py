@@ -45,7 +45,8 @@ class World(Tagged, Record, eq=False, dict=True):
     @cached_property
     def systems(self) -> frozenset[str]:
         """Systems that its plugins and those of its models load: `sensors`, `physics`, `imu`."""
-        plugins = (*self.plugins, *(plugin for model in self.models for plugin in model.plugins))
+        of_models = (plugin for model in self.models for plugin in model.all_plugins)
+        plugins = (*self.plugins, *of_models)
         return frozenset(name for plugin in plugins for name in systems_of(plugin))
 
     def all_systems(self, release: str) -> frozenset[str]:

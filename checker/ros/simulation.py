@@ -145,8 +145,8 @@ class Simulation(Record, eq=False, dict=True):
 
     @cached_property
     def spawned_systems(self) -> frozenset[str]:
-        """Systems that the robots that it spawns load: `sensors`, `imu`."""
-        plugins = (plugin for spawned in self.robots for plugin in spawned.robot.plugins)
+        """Systems that the robots that it spawns load, with their sensors: `sensors`, `imu`."""
+        plugins = (plugin for spawned in self.robots for plugin in spawned.robot.all_plugins)
         return frozenset(name for plugin in plugins for name in systems_of(plugin))
 
     @cached_property

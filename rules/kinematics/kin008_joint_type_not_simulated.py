@@ -2,7 +2,8 @@
 
 Gazebo with DART turns a gearbox, a revolute2 and a continuous joint of SDF into a fixed joint: a
 wheel on it does not turn. A continuous joint of URDF becomes a revolute one, and turns. Gazebo
-Classic drops planar and floating joints of URDF. No accepted package that we checked has this
+Classic drops planar and floating joints of URDF. A robot on a floating joint of the root link
+`world` is free, as it would be without the joint. No accepted package that we checked has this
 fault.
 
 Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
@@ -14,6 +15,7 @@ supports.
 from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
+from checker.model.tree import WORLD
 from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule
 
 _BECOMES = {
@@ -40,7 +42,7 @@ def check(robot: Robot, context: Context) -> Findings:
             hint = suggestions.hint(type) or f"; expected one of {', '.join(known)}"
             fix = respelling(joint.type, suggestions)
             yield finding(joint.type, f"{message}, which does not exist{hint}", fix=fix)
-        elif type in lost:
+        elif type in lost and not (type == "floating" and joint.parent.value == WORLD):
             release = f"Gazebo {context.release.capitalize()}"
             yield finding(
                 joint.type, f"{message}, {_BECOMES[lost[type]].format(release)}", key=type
@@ -62,8 +64,15 @@ _URDF = """
 <link name="wheel"/>
 <joint name="axle" type="continuous"><parent link="upper_arm"/><child link="wheel"/></joint>
 """
+_FLOATING = """<robot name="rover">
+  <link name="world"/>
+  <link name="base_link"/>
+  <joint name="j" type="floating"><parent link="world"/><child link="base_link"/></joint>
+</robot>
+"""
 GOOD = [
     {"@urdf": _URDF, "@profile": "ros2"},
+    {"@urdf": True, "@profile": "urdf", "urdf/arm.urdf": _FLOATING},
     _joint("revolute"),
     _joint("fixed"),
     _joint("ball"),
@@ -75,4 +84,11 @@ BAD = [
     _marked("revolute2"),
     _marked("hinge"),
     _marked(""),
+    {
+        "@urdf": True,
+        "@profile": "urdf",
+        "urdf/arm.urdf": _FLOATING.replace('"world"', '"mast"').replace(
+            "</joint>", "</joint>  <!-- ^ KIN008 -->"
+        ),
+    },
 ]

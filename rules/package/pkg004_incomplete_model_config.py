@@ -2,8 +2,9 @@
 
 Gazebo opens the file that `<sdf>` names; of several, the one with the newest version that it
 supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
-missing, it is a warning. Fuel shows the other entries, including the contact of the author: a
-submission needs them (a warning), for other models they are an info.
+missing, or a `.gitignore` keeps it out of the repository, as one that a program writes, it is a
+warning. Fuel shows the other entries, including the contact of the author: a submission needs them
+(a warning), for other models they are an info.
 
 Fix: add what is missing of name, version, author with name and email, description, and
 `<sdf version="…">model.sdf</sdf>` with the version that the model file states.
@@ -17,6 +18,7 @@ from html import escape
 
 from checker.finding import Fix
 from checker.formats.sdf.document import parse_version
+from checker.package.git_ignored import ignored_by
 from checker.package.manifests import ModelConfig, Paperwork, SdfEntry
 from checker.package.model_file import own_model
 from checker.package.package import Package
@@ -92,11 +94,14 @@ def _missing_files(
         alike = [it for it in package.index.similar_files(path) if it not in others]
         same = [other for other in alike if other.casefold() == path.casefold()] or alike
         meant = same[0] if len(same) == 1 else ""
+        hint = f"; did you mean {alike[0]}?" if alike else ""
+        ignored = ignored_by(package, path) if written else ""
+        if ignored:
+            hint = f": {ignored} keeps it out of the repository"
         yield finding(
             entry.file,
-            f"model.config names {written or 'no file'}, but this file does not exist"
-            + (f"; did you mean {alike[0]}?" if alike else ""),
-            severity=None if chosen in (None, entry) else Severity.WARNING,
+            f"model.config names {written or 'no file'}, but this file does not exist{hint}",
+            severity=None if chosen in (None, entry) and not ignored else Severity.WARNING,
             fix=replace_text(entry.file, meant, Safety.UNSAFE) if meant else None,
         )
 
@@ -140,6 +145,13 @@ BAD = [
         "model.config": f"""<model>{_REST.replace("@", "@x.").replace("<name>A", "<name>TODO")}
 <sdf version="1.6">model.sdf</sdf></model>
 """.replace("<model>", "<model>  <!-- ^ PKG004 -->")
+    },
+    {
+        "model.config": f"""<model>{_REST}
+<sdf version="1.6">made.sdf</sdf>  <!-- ^ PKG004 -->
+</model>
+""",
+        ".gitignore": "made.sdf\n",
     },
     {"model.config": f"{_START}<name>Rover</name><sdf>model.sdf</sdf></model>"},
     {

@@ -1,13 +1,15 @@
 """A world whose own plugins replace the default systems of Gazebo.
 
 As soon as a world names one plugin, Gazebo does not load physics, user commands and the scene
-broadcaster any more: nothing moves, nothing can be spawned, or the window stays empty. From Ionic
-on, a world can load both with `<gz:policies>`.
+broadcaster any more: nothing moves, nothing can be spawned, or the window stays empty. A world
+whose models have neither joints nor collisions, such as a camera alone, needs no physics: an info.
+From Ionic on, a world can load both with `<gz:policies>`.
 
 Fix: name the missing plugin as well.
 Source: gz-sim, `SimulationRunner::LoadServerPlugins` and server.config.
 """
 
+from checker.model.robot import Robot
 from checker.model.world import World, holds
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
@@ -29,15 +31,26 @@ def check(world: World, context: Context) -> Findings:
     for system, without in _DEFAULTS.items():
         if holds(loaded, system):
             continue
-        severe = system == "physics" and any(not model.is_static for model in world.models)
+        severe = system == "physics" and any(map(_may_move, world.models))
         yield finding(
             world,
             f"world {world.name!r} names plugins, but not {system}, so Gazebo does not load it: "
             f"{without}",
-            severity=Severity.ERROR if severe else _LESS.get(system),
+            severity=Severity.ERROR if severe else _less(world, system),
             key=f"{world.name} {system}",
             related=[(world.plugins[0], "from this plugin on, only those named here are loaded")],
         )
+
+
+def _may_move(model: Robot) -> bool:
+    """Return whether physics moves a model: a camera without body and joint waits to be moved."""
+    bodies = any(link.collisions for link in model.links)
+    return not model.is_static and (bodies or bool(model.joints))
+
+
+def _less(world: World, system: str) -> Severity | None:
+    still = world.models and not any(map(_may_move, world.models))
+    return Severity.INFO if system == "physics" and still else _LESS.get(system)
 
 
 def _world(plugins: str, mark: str = "") -> str:
