@@ -13,7 +13,7 @@ from checker.source.xml import XmlDocument
 
 _NAMING = (
     *(".py", ".cpp", ".cc", ".h", ".hpp", ".yaml", ".yml", ".json", ".toml", ".sh", ".bat"),
-    *(".md", ".rst", ".ipynb", ".m", ".xacro", ".txt", ".usda"),
+    *(".md", ".rst", ".ipynb", ".m"),
 )
 _PAGES = (".ts", ".tsx", ".js", ".jsx", ".html", ".vue")
 _TEXTS_LIMIT = 400

@@ -54,10 +54,8 @@ def shown_only(
     if package.only or _has_simulated_hardware(root):
         return ""
     texts = _starting(launch, posixpath.basename(path))
-    if texts and not _starts_simulator(texts, name):
-        others = (text for text in launch.values() if _DESCRIPTION.search(text))
-        if _starts_simulator(others, name):
-            return OTHERS_SIMULATED
+    if texts and not _starts_simulator(texts, name) and _spawns_another(launch.values(), name):
+        return OTHERS_SIMULATED
     loose = not launch and not package.exists("package.xml")
     if _is_for_gazebo(root, loose=loose):
         return ""
@@ -80,6 +78,14 @@ def _unstarted(texts: Sequence[str], name: str, *, loose: bool) -> str:
     if _starts_simulator(texts, name):
         return ""
     return "no launch file that loads it starts a simulator"
+
+
+def _spawns_another(texts: Iterable[str], name: str) -> bool:
+    """Return whether launch files give a simulator a description that they name, and no other."""
+    starting = [text for text in texts if _starts_simulator([text], name)]
+    own = [text for text in starting if _DESCRIPTION.search(text)]
+    from_ros = (text for text in starting if any(option in text for option in _FROM_ROS))
+    return bool(own) and all(text in own for text in from_ros)
 
 
 def _starts_simulator(texts: Iterable[str], name: str) -> bool:
