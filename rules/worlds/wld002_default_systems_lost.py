@@ -49,8 +49,9 @@ def _may_move(model: Robot) -> bool:
 
 
 def _less(world: World, system: str) -> Severity | None:
-    still = world.models and not any(map(_may_move, world.models))
-    return Severity.INFO if system == "physics" and still else _LESS.get(system)
+    loose = [model for model in world.models if not model.is_static]
+    is_stage = bool(loose) and not any(map(_may_move, loose))
+    return Severity.INFO if system == "physics" and is_stage else _LESS.get(system)
 
 
 def _world(plugins: str, mark: str = "") -> str:
