@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
-from checker.source.text import SourceText, blank_markup
+from checker.source.text import SourceText, without_comments
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -103,21 +103,12 @@ def signs_in_files(
         source = package.read(path)
         if not isinstance(source, SourceText):
             continue
-        text = _without_comments(source)
+        text = without_comments(source.file, source.text)
         if not ros_1 and path.endswith(".launch") and _OF_ROSLAUNCH.search(text):
             continue  # left by an exporter or a port
         for target, pattern in patterns.items():
             if match := pattern.search(text):
                 yield target, f"{source.where(match.start())} names {match.group().strip()}"
-
-
-_LINE_COMMENT = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
-
-
-def _without_comments(source: SourceText) -> str:
-    if source.file.lower().endswith((".py", ".yaml", ".yml")):
-        return _LINE_COMMENT.sub(lambda match: " " * len(match.group()), source.text)
-    return blank_markup(source.text)
 
 
 def is_described_for_ros_2(package: Package) -> bool:

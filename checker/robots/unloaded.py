@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from checker.base.record import Record
 from checker.package.mentions import has_file
+from checker.source.text import without_comments
 
 _NAME = re.compile(
     r"""(?:\$\([^()"'<>]{0,100}\)|\$(?!\()|[^\s"'/<>=$]){0,200}\.(?:urdf\.xacro|xacro|urdf)\b"""
@@ -53,11 +54,13 @@ def may_be_loaded(naming: Naming, path: str, loaded: Collection[str] = ()) -> bo
     folder, name = posixpath.split(path)
     told = any(has_file(page, name) for page in naming.pages)
     given = told and folder in {posixpath.dirname(it) for it in loaded}
-    named = [text for text in naming.launches.values() if has_file(text, name)]
-    if any(not means_others(_without_comments(text), name, loaded) for text in named):
+    named = {file: text for file, text in naming.launches.items() if has_file(text, name)}
+    written = (without_comments(file, text) for file, text in named.items())
+    if not all(means_others(text, name, loaded) for text in written):
         return True
     return any(
-        (given and _FILE_ARGUMENT.search(text)) or (text not in named and _may_name(text, name))
+        (given and _FILE_ARGUMENT.search(text))
+        or (text not in named.values() and _may_name(text, name))
         for text in naming.own.values()
     )
 
@@ -70,13 +73,6 @@ def means_others(text: str, name: str, loaded: Collection[str]) -> bool:
     paths = (it.split("/") for it in loaded if it.endswith(f"/{name}"))
     written = (f"{it[-2]}{between}{name}" for it in paths for between in ("/", "', '"))
     return plain.count(name) == sum(map(plain.count, written))
-
-
-def _without_comments(text: str) -> str:
-    """Return the text of a launch file without the comments of XML and of whole lines of Python."""
-    kept, *rest = text.split("<!--")
-    code = kept + "".join(each.partition("-->")[2] for each in rest)
-    return "\n".join(line for line in code.split("\n") if not line.lstrip().startswith("#"))
 
 
 def _may_name(text: str, name: str) -> bool:

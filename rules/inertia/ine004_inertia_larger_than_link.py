@@ -74,7 +74,11 @@ def check(
         yield unchecked(reason)
     found: list[tuple[float, str, Finding]] = []
     for name, inertia in masses.weighed.items():
-        if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
+        if (
+            inertia.link.inertial is None
+            or inertia.centre is None
+            or not inertia.states_possible_moments
+        ):
             continue
         reach = known_reach(masses.robot, inertia.link, inertia.centre)
         ratio = inertia.gyration_radius / reach if reach else math.inf
@@ -160,14 +164,6 @@ def _is_made_up(inertia: LinkInertia) -> bool:
 def _has_equal_moments(inertia: LinkInertia) -> bool:
     least, *_, most = inertia.principal
     return math.isclose(least, most, rel_tol=1e-6)
-
-
-def _possible(inertia: LinkInertia) -> bool:
-    """Skip what INE001 (missing), INE002 (impossible) and INE003 (zero values) report."""
-    inertial = inertia.link.inertial
-    stated = inertial is not None and any(moment.stated for moment in inertial.moments)
-    possible = inertia.has_moments and inertia.pseudo_eigenvalue >= -1e-12
-    return stated and inertia.mass > 0.0 and possible
 
 
 def _wheel(moment: float, mark: str = "", beside: float = 2.0) -> str:

@@ -49,7 +49,7 @@ def check(
     if robot.is_static:
         return
     for name, inertia in masses.weighed.items():
-        if masses.share(name) <= share or not _states_moments(inertia):
+        if masses.share(name) <= share or not inertia.states_possible_moments:
             continue
         if not _moves_by_itself(masses, name) or _density(robot, inertia) > heaviest:
             continue
@@ -67,19 +67,11 @@ def check(
             )
 
 
-def _states_moments(inertia: LinkInertia) -> bool:
-    """Skip what INE001 (missing), INE002 (impossible) and INE003 (zero values) report."""
-    inertial = inertia.link.inertial
-    stated = inertial is not None and any(moment.stated for moment in inertial.moments)
-    return stated and inertia.has_moments and inertia.pseudo_eigenvalue >= -1e-12
-
-
 def _moves_by_itself(masses: MassProperties, name: str) -> bool:
-    """Return whether no joint fixes a link to the world or to a heavier one."""
-    tree = masses.robot.tree
-    fixed = tree.rigid_bodies.links[tree.rigid_bodies.of_link[name]]
-    heaviest = max(masses.links[other].mass for other in fixed)
-    return name not in tree.links_fixed_to_world and masses.links[name].mass >= heaviest
+    """Return whether no joint fixes a link to a heavier one."""
+    bodies = masses.robot.tree.rigid_bodies
+    fixed = bodies.links[bodies.of_link[name]]
+    return masses.links[name].mass >= max(masses.links[other].mass for other in fixed)
 
 
 def _largest_even_moment(robot: Robot, inertia: LinkInertia) -> float:

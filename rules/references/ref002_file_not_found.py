@@ -26,6 +26,8 @@ import posixpath
 import re
 from collections.abc import Iterable, Iterator
 
+from msgspec.structs import replace
+
 from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.package.dependencies import Use, former_names
@@ -131,18 +133,11 @@ def _on_machine(uri: Located[str], near: str) -> Finding:
 
 def _elsewhere(package: Package, uri: Located[str], mesh: bool) -> Finding:
     """Report a path on its author's machine of which this package has no file."""
-    around = package_around(package)
-    inside = own_path_on_machine(around, uri.value) if around is not None else ""
-    near = (
-        f"package://{around.name}/{inside}" if around is not None and inside else "a relative URI"
-    )
-    return finding(
-        uri,
-        f"{uri.value} is on its author's machine and is found on no other: write {near}",
-        severity=None if mesh else Severity.WARNING,
-        key="machine",
-        covered_by=("REF001", "URD002"),
-    )
+    near, around = "a relative URI", package_around(package)
+    if around is not None and (inside := own_path_on_machine(around, uri.value)):
+        near = f"package://{around.name}/{inside}"
+    severity = None if mesh else Severity.WARNING
+    return replace(_on_machine(uri, near), severity=severity, fix=None)
 
 
 def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:

@@ -31,27 +31,27 @@ def check(world: World, context: Context) -> Findings:
     for system, without in _DEFAULTS.items():
         if holds(loaded, system):
             continue
-        severe = system == "physics" and any(map(_may_move, world.models))
         yield finding(
             world,
             f"world {world.name!r} names plugins, but not {system}, so Gazebo does not load it: "
             f"{without}",
-            severity=Severity.ERROR if severe else _less(world, system),
+            severity=_severity(world, system),
             key=f"{world.name} {system}",
             related=[(world.plugins[0], "from this plugin on, only those named here are loaded")],
         )
 
 
-def _may_move(model: Robot) -> bool:
-    """Return whether physics moves a model: a camera without body and joint waits to be moved."""
-    bodies = any(link.collisions for link in model.links)
-    return not model.is_static and (bodies or bool(model.joints))
-
-
-def _less(world: World, system: str) -> Severity | None:
+def _severity(world: World, system: str) -> Severity | None:
+    """Return the severity; of physics, whether a model in the world needs it now."""
     loose = [model for model in world.models if not model.is_static]
-    is_stage = bool(loose) and not any(map(_may_move, loose))
-    return Severity.INFO if system == "physics" and is_stage else _LESS.get(system)
+    if system != "physics" or not loose:
+        return _LESS.get(system)
+    # A camera without body and joint waits to be moved.
+    return Severity.ERROR if any(map(_has_body_or_joint, loose)) else Severity.INFO
+
+
+def _has_body_or_joint(model: Robot) -> bool:
+    return bool(model.joints) or any(link.collisions for link in model.links)
 
 
 def _world(plugins: str, mark: str = "") -> str:

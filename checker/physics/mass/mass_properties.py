@@ -15,6 +15,8 @@ _HEAVY, _OUTSIDE = 0.02, 0.5
 """Share of the robot's mass, and displacement, from which a centre of mass is not believed."""
 _NOISE = 1e-14
 """kg·m²: a grain of sand has more."""
+_ROUNDING = 1e-12
+"""What an eigenvalue of 0 may be below it by rounding."""
 
 
 class LinkInertia(Record, eq=False):
@@ -44,6 +46,14 @@ class LinkInertia(Record, eq=False):
     def has_moments(self) -> bool:
         """True if it has moments greater than the noise of a CAD program's export."""
         return not max(map(abs, self.principal)) <= _NOISE
+
+    @property
+    def states_possible_moments(self) -> bool:
+        """True unless the moments are missing (INE001), impossible (INE002) or zero (INE003)."""
+        inertial = self.link.inertial
+        stated = inertial is not None and any(moment.stated for moment in inertial.moments)
+        possible = self.has_moments and self.pseudo_eigenvalue >= -_ROUNDING
+        return stated and self.mass > 0.0 and possible
 
     @property
     def moments_span(self) -> Span:
