@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.base.resources import table
 from checker.package.distribution_sign import sign_of_paths
 from checker.package.mentions import has_word
-from checker.package.simulator_signs import CLASSIC, IGNITION, LATER, ROS_GZ
+from checker.package.simulator_signs import CLASSIC, IGNITION, LATER, ROS_GZ, classic_start
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -86,14 +86,16 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
     """Return what the content of a package shows.
 
     Gazebo Classic is detected by a launch file, a plugin or a dependency that only Classic has,
-    where nothing is of later ones: a package for both is judged for the later one.
+    where nothing is of later ones, or by launch files of Classic alone that spawn the package's
+    robot. Any other package for both is judged for the later one.
     """
     named = None if distro else package.distribution_sign
     distro = distro or (named.distro if named else "")
     signs = package.simulator_signs
-    if [*signs] == [CLASSIC] and distro in ("", *table("gazebo_classic_ros2")["distros"]):
+    classic = signs[CLASSIC] if [*signs] == [CLASSIC] else _classic_start(package)
+    if classic and distro in ("", *table("gazebo_classic_ros2")["distros"]):
         known = _known_distribution(distro or _OLDEST)
-        return DetectedTarget(True, known, classic_reason(signs[CLASSIC]))
+        return DetectedTarget(True, known, classic_reason(classic))
     if named is not None:
         return DetectedTarget(
             False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
@@ -102,6 +104,13 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)
+
+
+def _classic_start(package: Package) -> str:
+    """Return where a robot for later Gazebos is started, in Classic alone; else empty."""
+    start = classic_start(package) if CLASSIC in package.simulator_signs else ""
+    others = launching(package) if start else ()
+    return "" if any({*other.simulator_signs} - {CLASSIC} for other in others) else start
 
 
 def classic_reason(sign: str) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
+from checker.package.mentions import has_file, has_word
 from checker.source.text import SourceText, without_comments
 
 if TYPE_CHECKING:
@@ -33,6 +35,7 @@ DESCRIPTION = {
     GZ: re.compile(r"\bgz-sim\d*-[\w-]+-system\b|(?<!\w)gz_ros2_control\b"),
     LATER: re.compile(r"""\btype\s*=\s*["'](?:gpu_lidar|rgbd_camera|navsat|air_pressure)["']"""),
 }
+_CLASSIC_SPAWN = "spawn_entity"
 _OF_ROS_2 = re.compile(
     rf"<ros2_control\b|gazebo_ros2_control\b"
     rf"|{DESCRIPTION[IGNITION].pattern}|{DESCRIPTION[GZ].pattern}|{DESCRIPTION[LATER].pattern}"
@@ -70,6 +73,23 @@ def simulator_signs(package: Package) -> dict[str, str]:
     started = _first(_signs(package, _STARTING))
     kinds = (_MODELS, _PYTHON) if started else (_MODELS, _DEPENDENCIES, _PYTHON)
     return _first(chain(started.items(), *(_signs(package, kind) for kind in kinds)))
+
+
+def classic_start(package: Package) -> str:
+    """Return where launch files start Classic alone, with a robot of the package; else empty.
+
+    Its description may be for a later Gazebo, as an example that was copied into it. One that
+    names Classic as well is for both, and other packages may start a later one.
+    """
+    started = _first(_signs(package, _STARTING))
+    described = _first(_signs(package, _MODELS))
+    if [*started] != [CLASSIC] or CLASSIC in described:
+        return ""
+    names = [posixpath.basename(it.path) for it in package.index.with_suffix(".urdf", ".xacro")]
+    texts = [without_comments(path, text) for path, text in package.launch_texts.items()]
+    spawns = any(has_word(text, _CLASSIC_SPAWN) for text in texts)
+    own = any(has_file(text, name) for text in texts for name in names)
+    return started[CLASSIC] if spawns and own else ""
 
 
 def _first(named: Iterable[tuple[str, str]]) -> dict[str, str]:

@@ -17,11 +17,14 @@ packages (`subt_plugins.json`); packages that distributions do not have (`remove
 No accepted package that we checked has this fault.
 """
 
+from collections.abc import Mapping
+
 from msgspec.structs import replace
 
 from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.launch.ros2.package_launch import built_by_ament
+from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
     classic_plugin,
@@ -94,13 +97,29 @@ def _found(host: PluginHost, package: Package, context: Context) -> Findings:
             continue
         yield finding(
             plugin.filename,
-            f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
-            "neither shipped nor built by "
+            _in_classic(plugin, context)
+            or f"library {plugin.filename.value} is not in {release_label(context.release)}, and "
+            "is neither shipped nor built by "
             f"{' or '.join(package.name for package in lenders.at_hand)}"
             f"{successor or _elsewhere(stem, context) or suggestions.hint(stem)}",
             severity=None if successor else _severity(stem, context, suggestions),
             key=stem,
         )
+
+
+def _in_classic(plugin: Plugin, context: Context) -> str:
+    """Return what Gazebo Classic does without a system of later Gazebos; empty for other cases."""
+    stem = newer_name(library_stem(plugin.filename.value))
+    if not context.is_classic or not is_of_gazebo(stem):
+        return ""
+    known: Mapping[str, str] = table("gazebo_classic_ros2")["systems_instead"]
+    advice = "no plugin of Classic is known that does the same"
+    if stem in known:
+        advice = f"use {known[stem]}" if known[stem] else "remove it, Classic needs no such plugin"
+    return (
+        f"Gazebo Classic does not load {plugin.filename.value}, a system of later Gazebos, and the "
+        f"robot is started without it: {advice}"
+    )
 
 
 def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> bool:
@@ -233,6 +252,7 @@ BAD = [
     },
     _classic("libgazebo_ros_dif_drive.so", "  <!-- ^ PLG002 -->"),
     _classic("gz-sim-diff-drive-system", "  <!-- ^ PLG002 -->"),
+    _classic("libignition-gazebo-sensors-system.so", "  <!-- ^ PLG002 -->"),
     _ignition("  <!-- ^ PLG002 -->"),
     _undeclared("", "  <!-- ^ PLG002 -->"),
 ]
