@@ -16,6 +16,7 @@ from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.expansion import Expander
 from checker.launch.ros2.graph import Ros2Launch
 from checker.model.devices.known import KnownDevices
+from checker.model.named_files import NamedFiles
 from checker.model.plugin_host import PluginHost
 from checker.model.robot import Robot
 from checker.package.manifests import Paperwork
@@ -30,7 +31,13 @@ from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Context, Rule
 
 _OF_A_ROBOT = frozenset(
-    map(type_name, (Robot, UrdfDescription, RobotControl, PluginFiles, LinkInertias, PluginHost))
+    map(
+        type_name,
+        (
+            *(Robot, UrdfDescription, RobotControl, PluginFiles, LinkInertias, PluginHost),
+            NamedFiles,
+        ),
+    )
 )
 _BESIDE = _OF_A_ROBOT.union(
     map(type_name, (Package, Paperwork, Context, KnownDevices, SpawnedFiles))

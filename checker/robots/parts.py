@@ -17,6 +17,7 @@ from checker.formats.xacro.expansion import Expander
 from checker.launch.spawner.emitted_xml import SpawnedXml
 from checker.model.controllers import Controller
 from checker.model.first_configuration import FirstConfiguration
+from checker.model.named_files import NamedFiles, files_of
 from checker.model.plugin_host import PluginHost, model_host, world_host
 from checker.model.robot import Robot
 from checker.model.world import World
@@ -25,9 +26,11 @@ from checker.package.formats import Format, format_of
 from checker.package.inheritance import Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.package.uris import Unknown, path_behind
 from checker.robots.driven_elsewhere import driving_file
 from checker.robots.expanded_sdf import expanded_model
 from checker.robots.unspawned import unspawned
+from checker.source.text import Located
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
@@ -146,6 +149,35 @@ def plugin_hosts(
     if isinstance(robots, NotAvailable):
         return hosts or robots
     return (*map(model_host, robots), *hosts)
+
+
+@part
+def named_files(
+    package: Package,
+    robots: tuple[Robot, ...] | NotAvailable,
+    content: Content | NotAvailable,
+) -> tuple[NamedFiles, ...] | NotAvailable:
+    """Return the files that the robots name, and those of the static models of a world."""
+    of_robots = () if isinstance(robots, NotAvailable) else tuple(map(files_of, robots))
+    models = () if isinstance(content, NotAvailable) else content.robots
+    scenery = (it for it in models if package.kind is PackageKind.WORLD and it.is_static)
+    files = (*of_robots, *(_of_scenery(package, model) for model in scenery))
+    return robots if isinstance(robots, NotAvailable) and not files else files
+
+
+def _of_scenery(package: Package, model: Robot) -> NamedFiles:
+    """Return the files that a model of a world names.
+
+    The world may get an absent model from Fuel, or from a folder of the user's: as with includes,
+    nothing is said about its files.
+    """
+    files = files_of(model)
+    return replace(files, uris=tuple(it for it in files.uris if not _is_of_absent(package, it)))
+
+
+def _is_of_absent(package: Package, uri: Located[str]) -> bool:
+    of_model = uri.value.startswith("model://")
+    return of_model and isinstance(path_behind(package, Robot.folder_of(uri), uri.value), Unknown)
 
 
 @part

@@ -12,6 +12,7 @@ Source: Model Migration Guide, step 8: "Use relative URIs".
 import posixpath
 import re
 
+from checker.model.named_files import NamedFiles
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.package.uris import path_behind
@@ -24,7 +25,7 @@ _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 @rule("REF001", "absolute-uri", Severity.ERROR, Concern.PORTABILITY)
 def check(
     package: Package,
-    robot: Robot,
+    files: NamedFiles,
     *,
     allowed: tuple[str, ...] = ("https://fuel.ignitionrobotics.org", "https://fuel.gazebosim.org"),
 ) -> Findings:
@@ -34,17 +35,16 @@ def check(
         allowed: Prefixes of URIs, including the scheme, that are allowed, such as those of models
             on Fuel.
     """
-    meshes = {shape.geometry.uri for shape in robot.shapes()}
-    for uri in robot.file_uris:
+    for uri in files.uris:
         scheme = _SCHEME.match(uri.value)
         if (scheme is None and not uri.value.startswith("/")) or uri.value.startswith(allowed):
             continue
-        near = _in_package(package, robot.folder_of(uri), uri)
+        near = _in_package(package, Robot.folder_of(uri), uri)
         hint = f"; write {near}" if near else ""
         yield finding(
             uri,
             f"URI {uri.value} is not relative{hint}",
-            severity=None if uri in meshes else Severity.WARNING,
+            severity=None if uri in files.meshes else Severity.WARNING,
             key=scheme.group() if scheme else "/",
             fix=replace_text(uri, near) if near else None,
             covered_by=() if near else ("REF002",),

@@ -14,6 +14,9 @@ meshes/ and other usual folders.
 
 An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone.
 
+The models that a world file contains are checked as well. `model://` of a model that is not there
+may be one of Fuel, or of the user's own, and is not checked.
+
 A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked. One
 that a `.gitignore` keeps out of the repository is a warning: its author has it.
 
@@ -29,6 +32,7 @@ from collections.abc import Iterable, Iterator
 from msgspec.structs import replace
 
 from checker.finding import Fix
+from checker.model.named_files import NamedFiles
 from checker.model.robot import Robot
 from checker.package.dependencies import Use, former_names
 from checker.package.downloaded import downloaded_by
@@ -53,38 +57,37 @@ from checker.rule import (
 from checker.source.text import Located
 
 _NAMED = re.compile(r"package://([^/]+)/(.+)")
+_SDF = (".sdf", ".world")
+"""Files in which Gazebo finds packages by `model://` alone."""
 
 
 @rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
-def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
+def check(package: Package, files: NamedFiles, paperwork: Paperwork) -> Findings:
     """Report URIs that lead to no file."""
-    meshes = {shape.geometry.uri for shape in robot.shapes()}
-    misnamed = _former_names(package, paperwork, robot.file_uris)
-    for uri in robot.file_uris:
-        path = path_behind(package, robot.folder_of(uri), uri.value)
+    misnamed = _former_names(package, paperwork, files.uris)
+    for uri in files.uris:
+        path = path_behind(package, Robot.folder_of(uri), uri.value)
         if isinstance(path, Unknown):
             if path.package in misnamed:
-                yield _misnamed(package, uri, path.package, uri in meshes)
+                yield _misnamed(package, uri, path.package, uri in files.meshes)
             elif path.package:
                 yield unchecked(f"{uri.value} {path.reason}")
             elif is_on_one_machine(uri.value):
-                yield _elsewhere(package, uri, uri in meshes)
+                yield _elsewhere(package, uri, uri in files.meshes)
             continue
         if package.exists(path):
             if own_path_on_machine(package, uri.value):
-                yield _on_machine(uri, posixpath.relpath(path, robot.folder_of(uri) or "."))
+                yield _on_machine(uri, posixpath.relpath(path, Robot.folder_of(uri) or "."))
             if uri.value.startswith("package://"):
-                yield from _not_installed(package, uri, path, uri in meshes)
+                yield from _not_installed(package, uri, path, uri in files.meshes)
             continue
         if place := downloaded_by(package, path):
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
-        yield _missing(package, robot, uri, path, is_mesh=uri in meshes)
+        yield _missing(package, files, uri, path)
 
 
-def _missing(
-    package: Package, robot: Robot, uri: Located[str], path: str, *, is_mesh: bool
-) -> Finding:
+def _missing(package: Package, files: NamedFiles, uri: Located[str], path: str) -> Finding:
     alike = [other for other in package.index.similar_files(path) if _may_be(other, path)]
     where = f" (looked for {path})" if path != uri.value else ""
     hint = f"; did you mean {alike[0]}?" if alike else ""
@@ -94,8 +97,8 @@ def _missing(
     return finding(
         uri,
         f"{uri.value} does not exist{where}{hint}",
-        severity=None if is_mesh and not ignored else Severity.WARNING,
-        key=robot.unloaded or path,
+        severity=None if uri in files.meshes and not ignored else Severity.WARNING,
+        key=files.unloaded or path,
         covered_by=("REF004",),
         fix=None if ignored else _other_file(uri, path, alike),
     )
@@ -135,7 +138,8 @@ def _elsewhere(package: Package, uri: Located[str], mesh: bool) -> Finding:
     """Report a path on its author's machine of which this package has no file."""
     near, around = "a relative URI", package_around(package)
     if around is not None and (inside := own_path_on_machine(around, uri.value)):
-        near = f"package://{around.name}/{inside}"
+        scheme = "model" if uri.span.source.file.endswith(_SDF) else "package"
+        near = f"{scheme}://{around.declared_name}/{inside}"
     severity = None if mesh else Severity.WARNING
     return replace(_on_machine(uri, near), severity=severity, fix=None)
 

@@ -14,6 +14,7 @@ relative URIs.
 import posixpath
 import re
 
+from checker.model.named_files import NamedFiles
 from checker.model.robot import Robot
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -23,19 +24,18 @@ _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 @rule("REF003", "uri-leaves-package", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot, package: Package, paperwork: Paperwork) -> Findings:
+def check(files: NamedFiles, package: Package, paperwork: Paperwork) -> Findings:
     """Report relative URIs that lead out of the package that states them."""
     manifest = paperwork.manifest
-    meshes = {shape.geometry.uri for shape in robot.shapes()}
-    for uri in robot.file_uris:
+    for uri in files.uris:
         if _SCHEME.match(uri.value) or uri.value.startswith("/"):
             continue
-        path = _from_package(robot.folder_of(uri), uri.value)
+        path = _from_package(Robot.folder_of(uri), uri.value)
         if not path.startswith("../"):
             continue
         other = path.split("/")[1]
         together = manifest is not None and manifest.depends_on(other) and package.exists(path)
-        severity = None if uri in meshes else Severity.WARNING
+        severity = None if uri in files.meshes else Severity.WARNING
         yield finding(
             uri,
             f"{uri.value} leaves the package: copy the file into the package",

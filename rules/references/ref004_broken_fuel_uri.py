@@ -13,7 +13,7 @@ Source: general knowledge of the URIs that ign-fuel-tools reads.
 import re
 from collections.abc import Iterator
 
-from checker.model.robot import Robot
+from checker.model.named_files import NamedFiles
 from checker.package.fuel import is_on_fuel, package_on_fuel, read_fuel_uri
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -23,14 +23,13 @@ _MEANT = {True: "<owner>/models/<name>/tip/files/<path>", False: "<owner>/models
 
 
 @rule("REF004", "broken-fuel-uri", Severity.ERROR, Concern.ROBOT)
-def check(package: Package, robot: Robot, paperwork: Paperwork) -> Findings:
+def check(package: Package, files: NamedFiles, paperwork: Paperwork) -> Findings:
     """Report Fuel URIs of another form, and files that an available package does not have."""
     yield from _depends(package, paperwork)
-    files = robot.file_uris
-    for uri in (*files, *robot.unresolved_includes):
+    for uri in (*files.uris, *files.includes):
         if not is_on_fuel(uri.value):
             continue
-        is_file = uri in files
+        is_file = uri in files.uris
         named = read_fuel_uri(uri.value)
         if named is None or bool(named.path) is not is_file:
             yield finding(uri, f"Fuel URI {uri.value} is not of the form {_MEANT[is_file]}")

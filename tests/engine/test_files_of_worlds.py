@@ -1,0 +1,54 @@
+"""Files that the static models of a world name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.report.report import PackageReport
+from checker.settings import Settings
+
+_WORLD = """<sdf version="1.7">
+<world name="hall">
+  <model name="walls">
+    <static>true</static>
+    <link name="link">
+      <visual name="v"><geometry><mesh><uri>@</uri></mesh></geometry></visual>
+    </link>
+  </model>
+</world>
+</sdf>
+"""
+
+
+def _check(tmp_path: Path, uri: str) -> PackageReport:
+    world = tmp_path / "hall.world"
+    world.write_text(_WORLD.replace("@", uri))
+    return check_package(world, Settings(select=("REF002", "REF004"), trial=False)).packages[0]
+
+
+@pytest.mark.parametrize(
+    ("uri", "expected"),
+    [
+        ("file:///home/ann/ws/src/hall/walls.stl", "on its author's machine"),
+        ("meshes/walls.stl", "does not exist"),
+        ("https://fuel.gazebosim.org/1.0/acme/models/walls/walls.stl", "is not of the form"),
+    ],
+)
+def test_a_file_that_a_static_model_names_and_that_is_not_there(
+    tmp_path: Path, uri: str, expected: str
+) -> None:
+    (found,) = _check(tmp_path, uri).findings
+    assert expected in found.message
+    assert found.severity is not Severity.INFO
+
+
+@pytest.mark.parametrize("uri", ["walls.stl", "model://cafe/meshes/cafe.dae"])
+def test_a_file_that_is_there_or_may_be_of_an_absent_model(tmp_path: Path, uri: str) -> None:
+    (tmp_path / "walls.stl").touch()
+    report = _check(tmp_path, uri)
+    assert not report.findings
+    assert not report.blind_spots
