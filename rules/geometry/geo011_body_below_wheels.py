@@ -9,9 +9,12 @@ Fix: raise or shrink the collision, or lower the wheels.
 Source: geometry of collisions in the robot's initial pose.
 """
 
+from collections import Counter
+
 from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
+from checker.model.tree import WORLD
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import ball_wheel
 
@@ -21,7 +24,8 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
     """Report collisions of the body that reach below all wheels or have little clearance.
 
     Arms, legs and other moving parts may reach down. A robot with one axle needs something else to
-    stand on, such as a caster, and is skipped.
+    stand on, such as a caster, and is skipped. What swivels with a wheel of its own, as a fork
+    does, may be near the ground, but not below the wheels.
 
     Options:
         tolerance: Metres that a collision may reach below the lowest point of wheels and tracks
@@ -37,15 +41,26 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
     rolling = {link.scoped_name for part in parts for link in part.links}
     bodies = robot.tree.rigid_bodies
     carrying = {bodies.of_link[name] for name in carriers(robot, parts)}
+    forks = _forks(robot, rolling)
     for link in robot.tree.links.values():
         name = link.scoped_name
         if name in rolling or bodies.of_link[name] not in carrying:
             continue
         for piece in place_shapes(robot, link, link.collisions):
             clearance = piece.box.low[2] - ground
+            if clearance >= -tolerance and bodies.of_link[name] in forks:
+                continue
             # What reaches below the wheels by no more than the tolerance has no room at all.
             if clearance < -tolerance or max(clearance, 0.0) < least_clearance * radius:
                 yield _finding(piece, clearance, least_clearance * radius, tolerance)
+
+
+def _forks(robot: Robot, rolling: set[str]) -> set[str]:
+    """Return the rigid bodies that move on a joint of their own and carry one wheel."""
+    bodies = robot.tree.rigid_bodies
+    ties = [it for it in robot.tree.ties if it.joint.type.value != "fixed" and it.parent != WORLD]
+    wheels = Counter(bodies.of_link[it.parent] for it in ties if it.child in rolling)
+    return {body for it in ties if wheels[body := bodies.of_link[it.child]] == 1}
 
 
 def _finding(piece: Placed, clearance: float, expected: float, tolerance: float) -> Finding:
@@ -61,7 +76,26 @@ def _finding(piece: Placed, clearance: float, expected: float, tolerance: float)
     )
 
 
-def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True) -> str:
+_FORK = """
+<link name="fork">
+  <collision name="tip">
+    <pose>-0.3 0 {z} 0 0 0</pose>{mark}
+    <geometry><box><size>0.1 0.02 0.1</size></box></geometry>
+  </collision>
+</link>
+<joint name="swivel" type="revolute"><parent>base_link</parent><child>fork</child></joint>
+"""
+
+
+def _caster(z: float, mark: str = "") -> str:
+    """Return a rover whose third wheel is that of a caster."""
+    wheel = ball_wheel("caster_wheel", -0.3, 0.0).replace("base_link", "fork")
+    return _rover(0.0, rear=False, more=f"{_FORK.format(z=z, mark=mark)}{wheel}")
+
+
+def _rover(
+    z: float, mark: str = "", link: str = "base_link", rear: bool = True, more: str = ""
+) -> str:
     ends = (("front", 0.3), ("rear", -0.3)) if rear else (("front", 0.0),)
     sides = (("left", 0.2), ("right", -0.2))
     wheels = "".join(ball_wheel(f"{end}_{side}", x, y) for end, x in ends for side, y in sides)
@@ -83,7 +117,7 @@ def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True)
     return f"""
 <sdf version="1.6">
 <model name="acme_rover_sensor_config_1">
-{base}{body}{wheels}{arm if link == "arm" else ""}
+{base}{body}{wheels}{more}{arm if link == "arm" else ""}
 <plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{joints}</plugin>
 </model>
 </sdf>
@@ -91,5 +125,11 @@ def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True)
 
 
 _MARK = "  <!-- ^ GEO011 -->"
-GOOD = [_rover(0.0), _rover(-0.02), _rover(-0.2, link="arm"), _rover(-0.07, rear=False)]
-BAD = [_rover(-0.08, _MARK), _rover(-0.04, _MARK)]
+GOOD = [
+    _rover(0.0),
+    _rover(-0.02),
+    _rover(-0.2, link="arm"),
+    _rover(-0.07, rear=False),
+    _caster(-0.04),
+]
+BAD = [_rover(-0.08, _MARK), _rover(-0.04, _MARK), _caster(-0.08, _MARK)]
