@@ -7,12 +7,14 @@ collision: it marks a point, such as the centre of a tool. In published robots, 
 measure up to 16 mm, and mistakes 38 mm or more. In scenery, with no moving joint, sensor or plugin,
 it is an info: two tables in one file stand apart by intent. Two arms may stand apart as well, each
 with a base that is fixed to the world or to a root link without shapes, directly or through links
-without shapes.
+without shapes. So may a part that is fixed to the world, such as a camera that looks at the robot.
 
-Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
+Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it. Where
+the message names a visual and a collision that differ, give both one pose.
 Source: geometry: boxes along the robot's axes around each collision and visual.
 """
 
+import math
 from collections.abc import Sequence
 
 from checker.model.geometry.boxes import Box, TooManyPairs, clusters
@@ -67,13 +69,14 @@ def check(
     for group in members:
         if group is body or (_stands_alone(robot, group) and _stands_alone(robot, body)):
             continue
-        if _marks_point(group, ball):
+        if _marks_point(group, ball) or _is_on_world(robot, group):
             continue
         if _diagonal(group) > marker and not (is_scenery and _shows_frames(group)):
             own = {*group}
-            others = (piece for piece in shapes if piece not in own)
+            others = [piece for piece in shapes if piece not in own]
             distance = _distance(group, [piece.box for piece in others])
-            yield _floating_part(group, distance, gap, Severity.INFO if is_scenery else None)
+            severity = Severity.INFO if is_scenery else None
+            yield _floating_part(group, distance, gap, severity, _twin(group, others))
 
 
 def _boxes_with_axles(robot: Robot, shapes: Sequence[Placed], reach: float) -> list[Box]:
@@ -98,6 +101,27 @@ def _stands_alone(robot: Robot, group: Sequence[Placed]) -> bool:
     based = any(tie.parent in roots and tie.joint.type.value == "fixed" for tie in ties)
     moving = (tie for tie in ties if tie.joint.type.value != "fixed" and tie.parent in links)
     return based and any(tie.child not in wheels for tie in moving)
+
+
+def _is_on_world(robot: Robot, group: Sequence[Placed]) -> bool:
+    """Return whether a group is fixed to the world, and carries no other part.
+
+    Links without shapes may be between it and the world.
+    """
+    tree = robot.tree
+    at = {piece.link.scoped_name for piece in group}
+    others = (tree.links[it.child] for it in tree.ties if it.parent in at and it.child not in at)
+    if any(link.collisions or link.visuals for link in others):
+        return False
+    seen: set[str] = set()
+    while at - seen:
+        seen |= at
+        ties = [tie for name in at for tie in tree.ties_above.get(name, ())]
+        above = {tie.parent for tie in ties if tie.joint.type.value == "fixed"}
+        if WORLD in above:
+            return True
+        at = {it for it in above if not (tree.links[it].collisions or tree.links[it].visuals)}
+    return False
 
 
 def _roots_without_shapes(tree: LinkTree) -> set[str]:
@@ -153,10 +177,40 @@ def _distance(group: Sequence[Placed], others: Sequence[Box]) -> float:
     )
 
 
+def _twin(group: Sequence[Placed], others: Sequence[Placed]) -> Placed | None:
+    """Return the visual of a collision, or the collision of a visual, that is elsewhere.
+
+    It is of the same link, and its box has the same size.
+    """
+    first = group[0]
+    if len(group) > 1:
+        return None
+    kind, sides = type(first.shape), _sides(first.box)
+    alike = (it for it in others if it.link is first.link and not isinstance(it.shape, kind))
+    return next((it for it in alike if math.dist(_sides(it.box), sides) <= _EQUAL), None)
+
+
+def _sides(box: Box) -> list[float]:
+    return [high - low for low, high in zip(box.low, box.high, strict=True)]
+
+
 def _floating_part(
-    group: Sequence[Placed], distance: float, gap: float, severity: Severity | None
+    group: Sequence[Placed],
+    distance: float,
+    gap: float,
+    severity: Severity | None,
+    twin: Placed | None,
 ) -> Finding:
     first = group[0]
+    if twin is not None:
+        apart = math.dist(first.box.centre, twin.box.centre)
+        return finding(
+            first.shape,
+            f"{first.shape.name.value!r} of {first.link.name.value!r} is {_length(apart)} from "
+            f"{twin.shape.name.value!r}, the other shape of the same part: give both one pose",
+            severity=severity,
+            related=[(twin.shape, "the other shape")],
+        )
     more = f" and {len(group) - 1} more" if len(group) > 1 else ""
     x, y, z = first.box.centre
     return finding(
@@ -238,7 +292,41 @@ def _arms(mount: str, mark: str = "", between: str = "fixed") -> object:
     return {"@urdf": arm("left", -1.0) + arm("right", 1.0, mark)}
 
 
+_WATCH = """
+<link name="world"/>
+<link name="watch">
+  <visual><geometry>
+    <box size="0.1 0.1 0.1"/>
+  </geometry></visual>
+</link>
+<joint name="hold" type="fixed"><parent link="world"/><child link="base_link"/></joint>
+<joint name="stand" type="fixed"><parent link="world"/><child link="post"/></joint>
+<link name="post"/>
+<joint name="post_top" type="fixed">
+  <parent link="post"/><child link="watch"/><origin xyz="2 0 1"/>
+</joint>
+"""
+_CASTER = """
+<collision name="caster_collision"><pose>0.4 0 0.05 0 0 0</pose>{}
+  <geometry><sphere><radius>0.05</radius></sphere></geometry>
+</collision>
+<visual name="caster_visual"><pose>0.2 0 0.05 0 0 0</pose>
+  <geometry><sphere><radius>0.05</radius></sphere></geometry>
+</visual>
+<visual name="body_visual"><geometry><box><size>0.6 0.4 0.1</size></box></geometry></visual>
+"""
+
+
+def _on_world() -> dict[str, object]:
+    body = '<visual><geometry><box size="1 0.5 0.2"/></geometry></visual>'
+    tie = '<parent link="base_link"/><child link="body"/>'
+    return {
+        "@urdf": f'<link name="body">{body}</link><joint name="j" type="fixed">{tie}</joint>{_WATCH}'
+    }
+
+
 GOOD = [
+    _on_world(),
     _arms("fixed"),
     _WHEEL,
     _WHEEL.replace("left_wheel", "left_front_link"),
@@ -252,6 +340,7 @@ GOOD = [
 BAD = [
     _camera("0 0 0.45", _MARK),
     _camera("1.5 0 0", _MARK),
+    _CASTER.format(_MARK).replace("0.4 0 0.05", "0.5 0 0.05"),
     _arms("floating", _MARK),
     _arms("fixed", _MARK, between="floating"),
 ]
