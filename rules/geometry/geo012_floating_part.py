@@ -320,9 +320,8 @@ _CASTER = """
 def _on_world() -> dict[str, object]:
     body = '<visual><geometry><box size="1 0.5 0.2"/></geometry></visual>'
     tie = '<parent link="base_link"/><child link="body"/>'
-    return {
-        "@urdf": f'<link name="body">{body}</link><joint name="j" type="fixed">{tie}</joint>{_WATCH}'
-    }
+    joint = f'<joint name="j" type="fixed">{tie}</joint>'
+    return {"@urdf": f'<link name="body">{body}</link>{joint}{_WATCH}'}
 
 
 GOOD = [
