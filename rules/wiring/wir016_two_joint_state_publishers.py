@@ -18,17 +18,11 @@ from collections.abc import Iterator
 from checker.launch.ros1.graph import resolve_name
 from checker.model.controllers import Controller
 from checker.ros.wiring.endpoints import Endpoint
+from checker.ros.wiring.joint_states import JOINT_STATE, invented
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
-_PROGRAMS = (
-    "joint_state_publisher/joint_state_publisher",
-    "joint_state_publisher_gui/joint_state_publisher_gui",
-)
-_STATES = "sensor_msgs/msg/JointState"
-_COLLECTS = "source_list"
-_DEFAULTS = "publish_default_positions"
 _LOCAL = "use_local_topics"
 _USUAL_NAME = "joint_state_broadcaster"
 """A controller that is one by its name, where the file that states its type is not known."""
@@ -38,14 +32,7 @@ _USUAL_NAME = "joint_state_broadcaster"
 def check(wiring: Wiring) -> Findings:
     """Report each joint_state_publisher whose topic something else publishes as well."""
     before: list[Endpoint] = []
-    for each in wiring.endpoints if len(wiring.described) <= 1 else ():
-        if not (each.publishes and each.certain and _STATES in each.types):
-            continue
-        node = each.owner
-        if not isinstance(node, WiredNode) or node.program not in _PROGRAMS:
-            continue
-        if not _invents(node):
-            continue
+    for each, node in invented(wiring) if len(wiring.described) <= 1 else ():
         others = [it for it in _known(wiring) if it.topic == each.topic]
         others += [it for it in before if it.topic == each.topic]
         before.append(each)
@@ -59,19 +46,12 @@ def check(wiring: Wiring) -> Findings:
             )
 
 
-def _invents(node: WiredNode) -> bool:
-    """Return whether a joint_state_publisher certainly publishes what nothing measures."""
-    switch = node.settings.get(_DEFAULTS)
-    on = switch is None or switch.text == "true"
-    return node.knows_parameters and on and _COLLECTS not in node.settings
-
-
 def _known(wiring: Wiring) -> Iterator[Endpoint]:
     """Yield what certainly publishes measured positions: controllers, and plugins in Gazebo."""
     for each in wiring.endpoints:
         behind = not each.by.startswith("a bridge") and not isinstance(each.owner, WiredNode)
         local = isinstance(each.owner, Controller) and each.owner.flag(_LOCAL, default=False)
-        if behind and not local and each.publishes and each.certain and _STATES in each.types:
+        if behind and not local and each.publishes and each.certain and JOINT_STATE in each.types:
             yield each
     configured = {run.controller.name for run in wiring.controllers}
     for spawner in filter(None, (node.spawner for node in wiring.nodes)):
@@ -79,7 +59,7 @@ def _known(wiring: Wiring) -> Iterator[Endpoint]:
             if name.value == _USUAL_NAME and name.value not in configured:
                 topic = resolve_name("joint_states", posixpath.dirname(spawner.manager))
                 by = f"controller {name.value!r}"
-                yield Endpoint(topic, (_STATES,), True, by, name.span, spawner, certain=True)
+                yield Endpoint(topic, (JOINT_STATE,), True, by, name.span, spawner, certain=True)
 
 
 _HEAD = "LaunchDescription([\n"
