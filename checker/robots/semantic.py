@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fnmatch import fnmatchcase
 from functools import cached_property
+from glob import escape
 from itertools import islice
 
 from checker.base.parts import NotAvailable, part
@@ -27,7 +29,8 @@ _ASSISTANT = ".setup_assistant"
 _ROBOTS_LIMIT = 8
 _FILES_LIMIT = 400
 _SRDF_LIMIT = 20
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_NOT_THE_TREE = re.compile(r"<!--.*?-->|<(ros2_control|transmission)\b.*?</\1>", re.DOTALL)
+"""What names joints and makes none."""
 _COMPUTED = re.compile(r"\$[{(][^{}()]{0,200}[})]")
 _ATTRIBUTE = re.compile(r"""\b([\w:]{1,60})\s{0,4}=\s{0,4}["']([^"'<>]{1,200})["']""")
 
@@ -68,16 +71,16 @@ class SemanticDescription(Record, eq=False, dict=True):
             return False
         if kind == "group" or _bare(name) in map(_bare, self.names[kind]):
             return True
-        return not any(_may_be(name, parts) for parts in self._computed)
+        return not any(fnmatchcase(name, pattern) for pattern in self._computed)
 
     @cached_property
-    def _computed(self) -> list[list[str]]:
-        """What is known of the names that the xacro files of the robots may make."""
-        texts = (_COMMENT.sub("", text) for text in self._written)
+    def _computed(self) -> list[str]:
+        """Patterns of the names that the xacro files of the robots may make."""
+        texts = (_NOT_THE_TREE.sub("", text) for text in self._written)
         found = {pair for text in texts for pair in _ATTRIBUTE.findall(text)}
         values = {value for attribute, value in found if attribute != "reference"}
         parts = map(_COMPUTED.split, values)
-        return [known for known in parts if any(known)]
+        return ["*".join(map(escape, known)) for known in parts if any(known)]
 
     @property
     def _written(self) -> Iterator[str]:
@@ -90,17 +93,6 @@ class SemanticDescription(Record, eq=False, dict=True):
 def _bare(name: str) -> str:
     """Return a name without what only a slip makes another name."""
     return name.replace("_", "").lower()
-
-
-def _may_be(name: str, known: list[str]) -> bool:
-    """Return whether a name has the known parts of a computed one, in their order."""
-    first, *others = known
-    if not others:
-        return name == first
-    at = len(first)
-    for piece in others:
-        at = name.find(piece, at) + len(piece) if piece in name[at:] else len(name) + 1
-    return name.startswith(first) and name.endswith(others[-1]) and at <= len(name)
 
 
 @part

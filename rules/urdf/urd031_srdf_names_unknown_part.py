@@ -10,8 +10,9 @@ renamed in the URDF alone.
 A joint, a chain or a group that a group loses is an error where a launch file loads the SRDF. The
 robot is that of the URDF that launch files load or that `.setup_assistant` names, and those with
 the name of the SRDF; the name must be unknown in all of them, and not one that their xacro files
-make with other arguments. Where no robot can be read, nothing is reported. A `.srdf.xacro` is read
-without arguments; names that it computes are not judged.
+make with other arguments; <ros2_control> and <transmission> make none. Where no robot can be read,
+nothing is reported. A `.srdf.xacro` is read without arguments; names that it computes are not
+judged.
 
 Fix: write the names of the URDF, or let MoveIt's setup assistant write the SRDF again. A virtual
 joint: write the root link as `child_link`, or remove it.
@@ -141,6 +142,13 @@ def _group(part: str, more: str = "") -> str:
 _BASE = '<virtual_joint name="fixture" type="fixed" parent_frame="world" child_link="{}"/>{}'
 _PAIR = '<disable_collisions link1="base_link" link2="{}" reason="Never"/>{}'
 _MARK = "  <!-- ^ URD031 -->"
+_CONTROLLED = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="z" value="0.1"/>
+<xacro:macro name="wheel" params="at"><origin xyz="${at} 0 ${z}"/></xacro:macro>
+<link name="base_link"/>
+<ros2_control name="arm" type="system"><joint name="elbow"/></ros2_control>
+</robot>
+"""
 _PREFIXED = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:arg name="prefix" default=""/>
 <link name="$(arg prefix)base_link"/>
@@ -195,4 +203,10 @@ BAD = [
     ),
     _srdf(_BASE.format("upper_arm", _MARK)),
     _xacro('<group name="arm"><joint name="elbow"/></group>', _MARK),
+    {
+        **_srdf(_group(f'<joint name="elbow"/>{_MARK}')),
+        "urdf/arm.urdf": None,
+        "urdf/arm.urdf.xacro": _CONTROLLED,
+        "launch/spawn.launch": None,
+    },
 ]
