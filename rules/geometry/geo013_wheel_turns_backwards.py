@@ -43,6 +43,8 @@ from checker.rule import (
 
 _LEFT: Vector = (0.0, 1.0, 0.0)
 _UP: Vector = (0.0, 0.0, 1.0)
+_OPPOSED = -0.9
+"""Cosine of the angle between two axes up to which they point against each other."""
 _OPPOSITE = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
 _LEFT_WORD = re.compile(r"(?<![A-Za-z])left(?![a-z])|(?<![A-Z])L(?:eft(?![a-z])|EFT(?![A-Z]))")
 _ENDS = ("front", "rear")
@@ -222,7 +224,9 @@ def _against_its_side(robot: Robot, least_cosine: float, least_share: float) -> 
         leftward = [wheel for cosine, wheel in along if cosine >= least_cosine]
         rightward = [wheel for cosine, wheel in along if cosine <= -least_cosine]
         fewer, more = sorted((rightward, leftward), key=len)
-        for wheel in fewer:
+        # The axes of three omnidirectional wheels point to the middle, none against another.
+        opposed = [w for w in fewer if w.axis and _dot(w.axis, more[0].axis or _UP) <= _OPPOSED]
+        for wheel in opposed:
             yield finding(
                 wheel.joint.axes[0].xyz[0],
                 f"axis {_axis_text(wheel.joint)} of wheel joint {wheel.joint.name.value!r} points "
@@ -395,6 +399,12 @@ def _marked(drive: str) -> str:
     return drive.replace("oint>\n", f"oint>{_MARK}\n", 2)
 
 
+def _omni(*wheels: tuple[str, str]) -> dict[str, str]:
+    """Return a robot with omnidirectional wheels, whose axes point to its middle."""
+    named = zip(("first", "second", "third"), wheels, strict=True)
+    return {"@urdf": "".join(_urdf_wheel(name, at, axis) for name, (at, axis) in named)}
+
+
 _END = "</xyz>"
 _MARK = "  <!-- ^ GEO013 -->"
 _LEFTWARD, _RIGHTWARD = f"0 1 0{_END}", f"0 -1 0{_END}"
@@ -410,6 +420,11 @@ GOOD = [
     _urdf(_Y, _Y),
     _urdf(_Y, _Y, right=_BACK),
     _pair("0.2", "-0.2"),
+    _omni(
+        ("0 -0.2 0", '0 -1 0"/>'),
+        ("0.17 -0.4 0", '-0.866 0.5 0"/>'),
+        ("-0.17 -0.4 0", '0.866 0.5 0"/>'),
+    ),
 ]
 BAD = [
     _rover(_LEFTWARD, f"{_RIGHTWARD}{_MARK}"),

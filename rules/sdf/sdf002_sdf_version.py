@@ -4,7 +4,8 @@ The version defines what each element means: the frame of a pose, the joint type
 parser reads a file by its stated version, converts older ones to its own, and refuses newer ones:
 Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT requires
 1.6; another version that Dome reads is a warning. If `model.config` states another version than the
-model file, tools that choose by it choose the wrong file.
+model file, tools that choose by it choose the wrong file; with one file there is nothing to choose,
+and this is an info outside SubT.
 
 Fix: write a version that the target reads, for the SubT simulator `<sdf version="1.6">`, in
 `model.sdf` and in `model.config`, and check the file against that version.
@@ -47,9 +48,11 @@ def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
     yield from _of_model(version, context)
     expected = context.sdf_version or version.value.strip()
     config = paperwork.config
-    for entry in config.sdf if config is not None and expected else ():
+    entries = config.sdf if config is not None and expected else ()
+    is_choice = len(entries) > 1 or context.profile == "subt"
+    for entry in entries:
         if normpath(entry.file.value) == sdf.document.source.file:
-            yield from _of_config(entry, expected)
+            yield from _of_config(entry, expected, is_choice)
 
 
 def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
@@ -78,7 +81,7 @@ def _is_refused(version: str, context: Context) -> bool:
     return stated is None or newest is None or stated > newest
 
 
-def _of_config(entry: SdfEntry, expected: str) -> Iterator[Finding]:
+def _of_config(entry: SdfEntry, expected: str, is_choice: bool) -> Iterator[Finding]:
     written = entry.version.value.strip()
     if written == expected:
         return
@@ -86,7 +89,7 @@ def _of_config(entry: SdfEntry, expected: str) -> Iterator[Finding]:
     yield finding(
         entry.version,
         f"model.config {state} for {entry.file.value}, expected {expected}",
-        severity=Severity.WARNING,
+        severity=Severity.WARNING if is_choice else Severity.INFO,
         fix=replace_text(entry.version, expected) if written else None,
     )
 

@@ -2,8 +2,8 @@
 
 Without `<update_rate>`, or with 0, a sensor measures at every simulation step, a thousand times per
 second. A camera or lidar then slows down the simulation, and no device is that fast. A negative
-rate has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is an
-info.
+rate has no meaning; a 0 that is written for a cheap sensor, such as an IMU, is an info outside
+SubT. Most IMUs in the SubT challenge measure 50 times per second; another rate is an info.
 
 Fix: write the rate of the device, in hertz.
 Source: SDFormat specification, sensor/update_rate; SubT model reviews; the robots of the challenge.
@@ -16,6 +16,13 @@ from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 EXEMPT = (SensorType.CONTACT, SensorType.OTHER)
 """Sensors that measure on events, and those that SEN001 reports."""
+CHEAP = (
+    SensorType.IMU,
+    SensorType.MAGNETOMETER,
+    SensorType.AIR_PRESSURE,
+    SensorType.ALTIMETER,
+)
+"""Sensors that neither render nor cast rays."""
 
 
 @rule("SEN015", "update-rate", Severity.WARNING, Concern.INTERFACE)
@@ -35,6 +42,7 @@ def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings
                 rate,
                 f"{_name(sensor)} has {_rate(sensor)}; expected the device's rate in hertz",
                 key=f"{sensor.kind} {rate.value:g} {rate.stated}",
+                severity=Severity.INFO if _is_chosen(sensor, context) else None,
             )
         elif sensor.kind is SensorType.IMU and context.profile == "subt" and rate.value != imu_rate:
             yield finding(
@@ -43,6 +51,13 @@ def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings
                 f"challenge measure at {imu_rate:g} Hz",
                 severity=Severity.INFO,
             )
+
+
+def _is_chosen(sensor: Sensor, context: Context) -> bool:
+    """Return whether a 0 is written for a sensor that costs nothing at every step."""
+    rate = sensor.update_rate
+    written = rate.stated and rate.value == 0.0
+    return written and sensor.kind in CHEAP and context.profile != "subt"
 
 
 def _name(sensor: Sensor) -> str:
