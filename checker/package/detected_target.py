@@ -75,10 +75,14 @@ def _target_beside(package: Package) -> DetectedTarget | None:
 
 
 def launching(package: Package) -> Iterator[Package]:
-    """Yield the other packages whose launch files name a package."""
+    """Yield the other packages whose launch files name a package, or the path of a folder."""
+    named = any(package.exists(manifest) for manifest in ("package.xml", "model.config"))
     name = package.declared_name
+    # The name of a folder is also that of models and nodes.
+    end = "" if named else "/"
     for other in () if package.only else package.other_packages:
-        if any(has_word(text, name) for text in other.launch_texts.values()):
+        texts = other.launch_texts.values()
+        if any(has_word(text, name) and f"{name}{end}" in text for text in texts):
             yield other
 
 

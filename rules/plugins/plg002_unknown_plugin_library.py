@@ -2,10 +2,10 @@
 
 Gazebo cannot load it: it prints one line and continues without the drive, the sensor or other
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
-package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
-libraries: there it is an info, unless the name is one of Gazebo's own. It is a warning if the
-library is of a known package, on which package.xml does not depend (PKG007 reports it where the
-robot's <ros2_control> tags name that package, too), and an error if the ROS 2
+package or a dependency, outside of SubT any package beside it, ships or builds it. There the
+simulator's paths may lead to more libraries: it is an info, unless the name is one of Gazebo's own.
+It is a warning if the library is of a known package, on which package.xml does not depend (PKG007
+reports it where the robot's <ros2_control> tags name that package, too), and an error if the ROS 2
 distribution no longer has that package: `ign_ros2_control-system` from Jazzy on. For Gazebo
 Classic, it is an error if the name is a misspelt library of gazebo_ros_pkgs. In a description that
 launch files load and never spawn into Gazebo it weighs less.
@@ -36,7 +36,11 @@ from checker.model.plugin_library import (
     release_label,
     releases_with,
 )
-from checker.package.dependencies import AvailablePackages, available_packages
+from checker.package.dependencies import (
+    AvailablePackages,
+    available_packages,
+    libraries_of,
+)
 from checker.package.package import Package
 from checker.ros.ros2_control.plugin_packages import plugin_uses
 from checker.ros.spawned_files import SpawnedFiles
@@ -85,6 +89,8 @@ def _found(host: PluginHost, package: Package, context: Context) -> Findings:
             continue
         if not context.is_subt and newer_name(stem) in known:
             continue  # PLG010 says so.
+        if not context.is_subt and _is_built_beside(stem, package):
+            continue
         if lenders.unknown and context.is_subt:
             yield unchecked(
                 f"{plugin.filename.value} may come from {', '.join(lenders.unknown)}, which is not "
@@ -120,6 +126,11 @@ def _in_classic(plugin: Plugin, context: Context) -> str:
         f"Gazebo Classic does not load {plugin.filename.value}, a system of later Gazebos, and the "
         f"robot is started without it: {advice}"
     )
+
+
+def _is_built_beside(stem: str, package: Package) -> bool:
+    """Return whether another package of the workspace has a library, so that a path leads to it."""
+    return any(stem in libraries_of(other) for other in package.other_packages)
 
 
 def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> bool:
@@ -242,6 +253,11 @@ GOOD = [
         **_ignition(),
         f"../{_IGNITION}/package.xml": f"<package><name>{_IGNITION}</name></package>",
         f"../{_IGNITION}/CMakeLists.txt": f"add_library({_IGNITION}-system SHARED a.cc)",
+    },
+    {
+        **_classic("libgazebo_acme_lidar.so"),
+        "../acme_plugins/package.xml": "<package><name>acme_plugins</name></package>",
+        "../acme_plugins/CMakeLists.txt": "add_library(gazebo_acme_lidar SHARED a.cc)",
     },
 ]
 BAD = [
