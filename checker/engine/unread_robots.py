@@ -113,7 +113,7 @@ def _was_read(subject: Subject) -> bool:
         return True
     simulations = subject.one(Simulations)
     launched = () if isinstance(simulations, NotAvailable) else simulations.launched
-    return any(simulation.robots for simulation in launched)
+    return any(simulation.robots or simulation.classic_robots for simulation in launched)
 
 
 def _of_launch_files(subject: Subject) -> Iterator[_Reason]:

@@ -104,9 +104,12 @@ def _unseen(package: PackageReport, names_robots: bool) -> str:
 
 
 def _aside(package: PackageReport) -> str:
-    off = [skipped.reason for skipped in package.not_checked if skipped.cause is Cause.SWITCHED_OFF]
+    unseen = package.not_checked
+    off = [skipped.reason for skipped in unseen if skipped.cause is Cause.SWITCHED_OFF]
     others = sum(reason not in (NO_TRIAL, NO_PHYSICS) for reason in off)
-    phrases = ["trial not run"] if NO_TRIAL in off else []
+    without = any(it.rule == ROBOT and it.cause is Cause.NOT_APPLICABLE for it in unseen)
+    phrases = ["no robot of its own"] if without else []
+    phrases += ["trial not run"] if NO_TRIAL in off else []
     phrases += ["physics is not installed"] if NO_PHYSICS in off else []
     phrases += [f"{count(others, 'rule')} switched off"] if others else []
     phrases += [_suppressed(package)] if package.suppressed else []
