@@ -222,6 +222,20 @@ FRICTION = """
 </collision>
 """
 LOST = '<gazebo reference="caster">{}</gazebo>'
+PICTURE = '<visual name="v"><geometry><box><size>{}</size></box></geometry></visual>'
+SCENERY = """<sdf version="1.6"><model name="walls">{}<link name="link">
+<collision name="c"><geometry><mesh><uri>meshes/a.obj</uri></mesh></geometry></collision>
+</link></model></sdf>
+"""
+PAINTED = """<visual name="v">
+  <geometry><mesh><uri>meshes/part.obj</uri></mesh></geometry>{}
+</visual>
+"""
+UNPAINTED = {
+    "meshes/part.obj": "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "meshes/part.mtl": "newmtl paint\nmap_Kd a.png\n",
+}
+GREY = "<material><diffuse>0.5 0.5 0.5 1</diffuse></material>"
 CASES: list[tuple[str, Example, str]] = [
     ("SDF013", FRICTION.format(second=""), "info"),
     ("SDF013", FRICTION.format(second="<mu>1</mu>"), "warning"),
@@ -305,6 +319,13 @@ CASES: list[tuple[str, Example, str]] = [
     ("SEN002", '<sensor name="s" type="ray"/>', "error"),
     ("URD008", {"@urdf": LEFTOVER}, "info"),
     ("URD008", {"@urdf": LEFTOVER + READ}, "warning"),
+    ("GEO008", PICTURE.format("1 1 0"), "warning"),
+    ("GEO008", PICTURE.format("1 0 0"), "error"),
+    ("GEO008", PICTURE.format("1 1 0").replace("visual", "collision"), "error"),
+    ("MSH006", {"@fragment": PAINTED.format(""), **UNPAINTED}, "warning"),
+    ("MSH006", {"@fragment": PAINTED.format(GREY), **UNPAINTED}, "info"),
+    ("MSH004", {"model.sdf": SCENERY.format(""), **FINE}, "warning"),
+    ("MSH004", {"model.sdf": SCENERY.format("<static>true</static>"), **FINE}, "info"),
     ("MSH004", {"@urdf": DRAWN, **FINE}, "info"),
     ("MSH004", {"@urdf": DRAWN + CAMERA, **FINE}, "warning"),
 ]  # fmt: skip

@@ -4,23 +4,28 @@ Physics engines refuse such a shape, drop it, or compute contacts that explode. 
 mirrors a mesh: this is useful for a visual, but the surface of a collision becomes inside out. No
 accepted package that we checked has this fault.
 
+A visual whose size or scale is zero along one axis is shown flat, and may be meant so, as a picture
+on the ground: this is a warning.
+
 Fix: write the length in metres as a positive number; mirror a mesh in the mesh file.
 Source: SDFormat specification, geometry: lengths are above 0.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from checker.formats.corrections import rewrite
 from checker.model.geometry.shapes import Geometry
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
 
 _LENGTHS = ("height", "length", "radii", "radius", "scale", "size")
+_ALONG_AXES = ("scale", "size")
 
 
 @rule("GEO008", "non-positive-size", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
-    """Report lengths that are not above 0; a mirrored collision mesh is a warning."""
+    """Report lengths that are not above 0; mirrored collisions, flat visuals are warnings."""
     for link in robot.links:
         for collision in link.collisions:
             whose = f"{collision.name.value!r} of {link.name.value!r}"
@@ -32,7 +37,9 @@ def check(robot: Robot) -> Findings:
 
 def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Finding]:
     for name in _LENGTHS:
-        for number in geometry.sizes.get(name, ()):
+        numbers = geometry.sizes.get(name, ())
+        flat = not touches and name in _ALONG_AXES and _is_flat(numbers)
+        for number in numbers:
             mirrored = name == "scale" and number.value < 0
             if not number.value <= 0 or (mirrored and not touches):
                 continue
@@ -40,10 +47,16 @@ def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Findi
                 number,
                 f"{name} of {geometry.shape} {whose} is {number.value:g}, expected more than 0"
                 + (": the mesh is mirrored" if mirrored else ""),
-                severity=Severity.WARNING if mirrored else Severity.ERROR,
+                severity=Severity.WARNING if mirrored or flat else Severity.ERROR,
                 key="mirrored" if mirrored else "",
                 fix=rewrite([(number, -number.value)]) if number.value and not mirrored else None,
             )
+
+
+def _is_flat(numbers: Sequence[Located[float]]) -> bool:
+    """Return whether a shape has no length along one axis alone."""
+    lengths = [number.value for number in numbers]
+    return lengths.count(0) == 1 and all(length > 0 for length in lengths if length)
 
 
 def _box(size: str) -> str:
