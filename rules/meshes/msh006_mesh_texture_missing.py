@@ -3,6 +3,9 @@ r"""A mesh file names a texture that does not exist.
 The part is plain grey. Gazebo looks in the mesh's folder, then in the folder `materials/textures`
 next to it. A path such as `C:\Users\me\paint.png` works on one machine only.
 
+Where a visual of an SDF file has a `<material>` of its own, Gazebo paints the part with that: then
+it is information.
+
 Fix: put the picture where the mesh file expects it, or correct the path in the mesh file.
 Source: Model Migration Guide, step 7; gz-common, `Material::SetTextureImage`, which tries
 `<folder of the mesh>/<name>` and `<folder of the mesh>/../materials/textures/<name>`.
@@ -14,6 +17,7 @@ from collections.abc import Iterator
 from urllib.parse import unquote
 
 from checker.model.components import Visual
+from checker.model.geometry.shapes import Material
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -36,9 +40,11 @@ def check(package: Package, robot: Robot) -> Findings:
             if _ON_A_SERVER.match(name) or _is_there(package, use.file, name):
                 continue
             absolute = "an absolute path" if _ABSOLUTE.match(name) else "which does not exist"
+            replaced = robot.conventions.read_by_gazebo and _material(use) is not None
             kind = "material file" if name in use.file.materials else "texture"
             message = f"{use.uri.value} names the {kind} {name}, {absolute}"
-            yield finding(use.uri, message, key=kind)
+            severity = Severity.INFO if replaced else None
+            yield finding(use.uri, message, severity=severity, key=kind)
 
 
 def _is_there(package: Package, mesh: Mesh, name: str) -> bool:
@@ -61,8 +67,12 @@ def _paths(mesh: Mesh, name: str) -> Iterator[str]:
         yield posixpath.normpath(posixpath.join(folder, "../materials/textures", written))
 
 
+def _material(use: MeshUse) -> Material | None:
+    return use.shape.material if isinstance(use.shape, Visual) else None
+
+
 def _has_own_texture(use: MeshUse) -> bool:
-    material = use.shape.material if isinstance(use.shape, Visual) else None
+    material = _material(use)
     return material is not None and bool(material.textures)
 
 
