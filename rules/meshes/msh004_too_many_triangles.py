@@ -3,7 +3,7 @@
 The simulator tests collision meshes against each other at every step, and draws visual meshes again
 for each camera and each lidar of the robot. A URDF without sensors is only drawn on the screen:
 there, many triangles of visuals are infos. So are those of collisions where no launch file gives
-the robot to a simulator.
+the robot to a simulator, and all of a static model: it is scenery, and nothing moves it.
 
 Fix: reduce the mesh (Blender: Decimate); use boxes, cylinders and spheres as collisions.
 Source: Model Migration Guide and review findings; the figures are ten times what the accepted
@@ -29,9 +29,10 @@ def check(
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
-    once = not (robot.conventions.states_devices or robot.sensors)
+    scenery = robot.is_static
+    once = scenery or not (robot.conventions.states_devices or robot.sensors)
     drawn = Severity.INFO if once else Severity.WARNING
-    tested = Severity.INFO if robot.shown_only else Severity.WARNING
+    tested = Severity.INFO if robot.shown_only or scenery else Severity.WARNING
     total = 0
     for use in robot.mesh_uses:
         triangles = use.file.triangles if isinstance(use.file, Mesh) else 0
@@ -44,6 +45,7 @@ def check(
                 f"{kind} mesh {use.uri.value} has {triangles:,} triangles, "
                 f"expected at most {most:,}",
                 severity=tested if use.is_collision else drawn,
+                key=kind,
             )
     if total > together:
         yield finding(
