@@ -25,6 +25,8 @@ _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b"
 """The name of a world that a launch file puts together."""
 _OF_URDF = (".urdf", ".urdf.xacro", ".xacro")
 """Suffixes of the description that an SDF model was converted from."""
+_OF_EDITOR = "model_editor_models"
+"""The folder into which Gazebo's model editor writes what it saves."""
 _BRANCH = "\u2500 "
 """A line of a README that draws the tree of files starts none of them."""
 
@@ -61,6 +63,8 @@ def unspawned(package: Package, path: str) -> str:
         path: The file of the model, as that package lists it.
     """
     around = package_around(package)
+    if around is None and package.root.parent.name == _OF_EDITOR:
+        return _left_by_editor(package, path)
     if around is None or package.exists("package.xml"):
         return ""
     folder = package.root.relative_to(around.root).as_posix()
@@ -86,6 +90,16 @@ def unspawned(package: Package, path: str) -> str:
     ):
         return ""
     return clause
+
+
+def _left_by_editor(package: Package, path: str) -> str:
+    """Return the clause that launch files load no model of Gazebo's model editor; else empty."""
+    name = package.root.name
+    names = (f"model://{name}", f"{name}/{path}")
+    texts = [*_texts(None, package, ""), *package.workspace.launch_texts.values()]
+    named = any(each in text for text in texts for each in names)
+    starts = bool(package.workspace.launch_words)
+    return f"only in {name}/{path}, which no launch file loads" if starts and not named else ""
 
 
 def may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:

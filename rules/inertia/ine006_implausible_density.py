@@ -17,21 +17,35 @@ Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
 """
 
-import math
-from collections.abc import Iterator
+from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
+
+from checker.base.record import Record
 from checker.finding import Fix
 from checker.formats.corrections import rewrite
 from checker.model.components import Collision, Link, Visual
-from checker.physics.mass.link_geometry import known_reach, not_looked_at, volume_bounds
+from checker.model.geometry.placed_shapes import union
+from checker.physics.mass.link_geometry import known_box, known_reach, not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _GRAMS = 1000.0
 """In a kilogram."""
+_LEAST_GRAMS = 100.0
+"""A smaller mass may be one in kg that was not computed, such as 1."""
+_FOAM = 100.0
+"""kg/m³; a link whose mass was in grams is denser than foam."""
+_ALUMINIUM = 2700.0
+"""kg/m³, from which a mass is proposed."""
 _GRAVE = 0.1
 """Share of the mass of the robot; a link of impossible density with no more is a warning: it may be
 right for the robot, while the shape stands for a larger one."""
+_SHIFT = 0.05
+"""Share of the diagonal around the robot by which what is too much moves the centre of mass."""
+_HALF = 0.5
+"""Share of the mass of the robot; if links of impossible density have more, all is too heavy."""
 
 
 @rule("INE006", "implausible-density", Severity.WARNING, Concern.ROBOT)
@@ -53,8 +67,9 @@ def check(
             warning.
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
             visuals if that is more; more is a warning, or an info if these are meshes.
-        impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
-            because no metal is so dense, except for the foot of a robot that only stands.
+        impossible: Density in kg/m³, for the same volume as for `heaviest`; no metal is so dense,
+            so more is an error if the robot weighs or balances otherwise by it: such links are half
+            of its mass, or move its centre of mass. The foot of a robot that only stands may.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
         contrast: Factor by which such a link is denser than the rest of the robot.
@@ -68,7 +83,7 @@ def check(
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
     large, carried = _large(masses, volume_share), _links_on_heavier_ones(masses)
-    others = _Others(masses)
+    others, found = _Others(masses), list[_Heavy]()
     for name, inertia in masses.weighed.items():
         link = inertia.link
         counts = masses.share(name) > share or name in large
@@ -88,13 +103,7 @@ def check(
         heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
         density = inertia.mass / most if most > 0.0 else 0.0
         if density > heaviest:
-            grave = density > impossible and masses.share(name) > _GRAVE
-            grave = grave and not _stands(masses, inertia.link)
-            severity = Severity.ERROR if grave and heavy is Severity.WARNING else heavy
-            grams = (
-                _from_grams(masses, inertia) if grave and lightest < density / 1e3 < metal else None
-            )
-            yield from _say(inertia, most, f"at most {heaviest:g}", severity, grams)
+            found.append(_Heavy(name, inertia, most, heavy))
         elif density > max(metal, contrast * others.density(name)):
             rest = f"the other links have {_rounded(others.density(name))}"
             yield from _say(inertia, most, f"at most {metal:g}; {rest}", heavy)
@@ -104,17 +113,75 @@ def check(
             # What a box or a ball of a world weighs is its author's choice.
             severity = Severity.INFO if masses.robot.is_prop else Severity.WARNING
             yield from _say(inertia, collisions[0], f"at least {lightest:g}", severity)
+    yield from _too_heavy(masses, found, heaviest, impossible)
 
 
-def _from_grams(masses: MassProperties, inertia: LinkInertia) -> Fix | None:
-    """Return the fix that takes a mass for grams, and moments that fit it for g·m²."""
+def _too_heavy(
+    masses: MassProperties, found: Sequence[_Heavy], heaviest: float, impossible: float
+) -> Iterator[Finding]:
+    """Report links that are denser than steel; those denser than any metal with a mass instead."""
+    drawn = [it for it in found if it.density <= impossible or it.severity is Severity.INFO]
+    for each in drawn:
+        yield from _say(each.inertia, each.volume, f"at most {heaviest:g}", each.severity)
+    solid = [it for it in found if it not in drawn]
+    total = sum(masses.share(each.name) for each in solid)
+    for each in solid:
+        grave = masses.share(each.name) > _GRAVE and not _stands(masses, each.inertia.link)
+        grave = grave and (total > _HALF or _unbalances(masses, each, heaviest))
+        mass = each.plausible_mass(heaviest)
+        expected = f"at most {heaviest:g}: {_rounded(mass)} kg would be plausible"
+        severity = Severity.ERROR if grave else Severity.WARNING
+        fix = _lighter(masses, each.inertia, mass)
+        yield from _say(each.inertia, each.volume, expected, severity, fix)
+
+
+class _Heavy(Record, eq=False):
+    """A link that is denser than steel.
+
+    Attributes:
+        volume: The greatest that its shapes can fill, m³.
+        severity: That of a link of steel; an info if the volume is that of a mesh.
+    """
+
+    name: str
+    inertia: LinkInertia
+    volume: float
+    severity: Severity
+
+    @property
+    def density(self) -> float:
+        """Of the link, kg/m³."""
+        return self.inertia.mass / self.volume
+
+    def plausible_mass(self, heaviest: float) -> float:
+        """Return the mass in kg if it was written in grams, else that of aluminium, two digits."""
+        grams = self.inertia.mass / _GRAMS
+        if self.inertia.mass >= _LEAST_GRAMS and _FOAM < grams / self.volume < heaviest:
+            return grams
+        return float(f"{_ALUMINIUM * self.volume:.2g}")
+
+
+def _unbalances(masses: MassProperties, heavy: _Heavy, heaviest: float) -> bool:
+    """Return whether what a link weighs too much moves the robot's centre of mass."""
+    boxes = [known_box(masses.robot, link) for link in masses.robot.links]
+    whole = union([box for box in boxes if box is not None])
+    if heavy.inertia.centre is None or masses.centre is None or whole is None:
+        return False
+    excess = heavy.inertia.mass - heaviest * heavy.volume
+    moved = excess * math.dist(heavy.inertia.centre, masses.centre)
+    return moved > _SHIFT * whole.diagonal * (masses.mass - excess)
+
+
+def _lighter(masses: MassProperties, inertia: LinkInertia, mass: float) -> Fix | None:
+    """Return the fix that writes a mass, and scales moments that are too large for it."""
     inertial, centre = inertia.link.inertial, inertia.centre
     if inertial is None or centre is None:
         return None
+    ratio = mass / inertia.mass
     reach = known_reach(masses.robot, inertia.link, centre) or math.inf
-    heavy = inertia.gyration_radius * math.sqrt(_GRAMS) > reach
-    numbers = (inertial.mass, *(inertial.moments if heavy else ()))
-    return rewrite((number, number.value / _GRAMS) for number in numbers)
+    large = inertia.gyration_radius / math.sqrt(ratio) > reach
+    moments = [(moment, moment.value * ratio) for moment in inertial.moments]
+    return rewrite([(inertial.mass, mass), *(moments if large else ())])
 
 
 def _is_mesh(shape: Collision | Visual) -> bool:
@@ -220,6 +287,16 @@ GOOD = [
     _box(2, size="0.001 0.001 0.001"),
     _box(2, size="0.1 0.1 0.001", more=_HOUSING),
 ]
+_CASTER = """
+<link name="ball">
+  <inertial>
+    <mass value="0.2"/>{}
+    <inertia ixx="1e-6" iyy="1e-6" izz="1e-6" ixy="0" ixz="0" iyz="0"/>
+  </inertial>
+  <collision><geometry><sphere radius="0.01"/></geometry></collision>
+</link>
+<joint name="j" type="fixed"><parent link="upper_arm"/><child link="ball"/></joint>
+"""
 _BESIDE = """
 <link name="ballast">
   <inertial><mass>4</mass></inertial>
@@ -228,6 +305,7 @@ _BESIDE = """
 """
 BAD = [
     _box(9, _MARK),
+    {"@urdf": _CASTER.format(_MARK)},
     _box(100, _MARK),
     _box(0.005, _MARK),
     f"<link name='foam'>{_box(0.005, _MARK)}</link>{_BESIDE}",

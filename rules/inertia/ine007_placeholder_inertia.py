@@ -10,10 +10,12 @@ Source: Model Migration Guide; review of exported models.
 
 from collections.abc import Iterator, Sequence
 
+from msgspec.structs import replace
+
 from checker.model.robot import Robot
 from checker.physics.mass.even_inertia import even_moments, moments_fix
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 _ABOUT = 3.0
@@ -24,7 +26,12 @@ _MORE_PRECISE = ("INE004", "INE013")
 
 @rule("INE007", "placeholder-inertia", Severity.WARNING, Concern.ROBOT)
 def check(
-    masses: MassProperties, *, links: int = 3, share: float = 0.02, alike: float = 0.1
+    masses: MassProperties,
+    context: Context,
+    *,
+    links: int = 3,
+    share: float = 0.02,
+    alike: float = 0.1,
 ) -> Findings:
     """Report unit tensors, and one tensor on several different links.
 
@@ -38,6 +45,21 @@ def check(
     """
     if masses.robot.is_static:
         return
+    light = _is_scenery(masses.robot) and not context.is_subt
+    for found in _placeholders(masses, links, share, alike):
+        yield replace(found, severity=Severity.INFO) if light else found
+
+
+def _is_scenery(robot: Robot) -> bool:
+    """Return whether a model for Gazebo has no sensor or plugin, and hardly a moving joint."""
+    moving = sum(joint.type.value != "fixed" for joint in robot.joints)
+    bare = not (robot.sensors or robot.plugins or robot.controllers)
+    return bare and robot.conventions.read_by_gazebo and 2 * moving < len(robot.joints)
+
+
+def _placeholders(
+    masses: MassProperties, links: int, share: float, alike: float
+) -> Iterator[Finding]:
     by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
     for name, inertia in masses.weighed.items():
         tensor = _stated_moments(inertia)

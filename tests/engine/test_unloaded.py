@@ -257,3 +257,22 @@ def test_what_nothing_loads_may_be_given_to_xacro_by_hand(
     (folder / "urdf" / name).write_text(text)
     settings = Settings(select=("URD001",), trial=False)
     assert len(check_package(folder, settings).packages[0].findings) == count
+
+
+def test_what_the_model_editor_saved_weighs_less(tmp_path: Path) -> None:
+    moments = "".join(f"<{name}>1</{name}>" for name in ("iyy", "izz"))
+    inside = f"<inertial><mass>1</mass><inertia><ixx>-1</ixx>{moments}</inertia></inertial>"
+    files = {
+        "show/package.xml": PACKAGE_XML,
+        "show/launch/show.launch.py": python(_LAUNCH),
+        "model_editor_models/wall/model.sdf": (
+            f'<sdf version="1.6"><model name="wall"><link name="l">{inside}</link></model></sdf>'
+        ),
+    }
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    settings = Settings(select=("INE002",), trial=False)
+    found = [it for report in check_package(tmp_path, settings).packages for it in _faults(report)]
+    assert [it.severity for it in found] == [Severity.WARNING]

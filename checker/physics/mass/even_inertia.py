@@ -19,8 +19,8 @@ DENSITY = 1000.0
 """kg/m³, which SDFormat 1.11 takes for `<inertial auto="true">`: water."""
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_NOISE = 1e-9
-"""Share of the largest moment: a smaller product is what rounding left."""
+_NOISE = 1e-4
+"""Share of the largest moment: a smaller product is what the rounding of an angle left."""
 
 
 def even_body(robot: Robot, link: Link) -> Body | None:
