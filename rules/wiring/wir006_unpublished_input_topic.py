@@ -8,13 +8,16 @@ below the name of its model, `diff_drive_controller` publishes `~/odom`, the ste
 It is reported for odometry, scans, point clouds, ranges and IMUs where a parameter names the topic,
 and a robot or driver of the same launch publishes the type under another name which the node does
 not read. Where the launch starts nodes whose topics are not known, it is only reported if both
-names differ only in separators (`imu_data`, `imu/data`): such a node may pass messages on.
+names differ only in separators (`imu_data`, `imu/data`): such a node may pass messages on. A topic
+counts as published where the source of such a node's package names it in `create_publisher` or
+`advertise`.
 
 Fix: write the name that is published, or remap it.
 Source: robot_localization, slam_toolbox and navigation2: parameters that name topics;
 ros2_controllers, topics of the controllers.
 """
 
+from checker.package.package import Package
 from checker.ros.wiring.sensed import (
     alike,
     sources,
@@ -22,17 +25,18 @@ from checker.ros.wiring.sensed import (
     unpublished_inputs,
     where_published,
 )
+from checker.ros.wiring.source_topics import source_topics
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
 @rule("WIR006", "unpublished-input-topic", Severity.WARNING, Concern.INTERFACE)
-def check(wiring: Wiring) -> Findings:
+def check(wiring: Wiring, package: Package) -> Findings:
     """Report inputs of known nodes whose messages are on a topic of another name."""
     published = {each.topic for each in wiring.endpoints if each.publishes}
     for wanted, message in unpublished_inputs(wiring, published):
         others = sources(wiring, wanted, message, topics_read_by(wiring, wanted.owner))
-        if not others:
+        if not others or _is_in_source(wiring, package, wanted.topic):
             continue
         unknown = wiring.more_publishers(message) or wiring.unknown_parts
         if unknown and not alike(wanted, others[0]):
@@ -45,6 +49,11 @@ def check(wiring: Wiring) -> Findings:
             key=f"{wanted.by} {wanted.topic}",
             related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
         )
+
+
+def _is_in_source(wiring: Wiring, package: Package, topic: str) -> bool:
+    """Return whether the source of a node of the launch names a topic that it publishes."""
+    return any(topic in source_topics(package, node) for node in wiring.every_node)
 
 
 _HEAD = "LaunchDescription([\n"
@@ -192,7 +201,14 @@ _RELAY = """LaunchDescription([
         Node(package="topic_tools", executable="relay",
              parameters=[{"input_topic": "/odom", "output_topic": "/wheel/odometry"}]),
 """
+_PYTHON = "self.pub = self.create_publisher(Odometry, 'o_dom', 10)\n"
+_OWN = _UNKNOWN.replace("acme_rover", "acme_rover_bringup")
+_PUBLISHES = """pub_ = this->create_publisher<nav_msgs::msg::Odometry>(
+    "o_dom", rclcpp::SensorDataQoS());
+"""
 GOOD = [
+    {**_filter("/o_dom", launch=_OWN), "src/relay.cpp": _PUBLISHES},
+    {**_filter("/o_dom", launch=_OWN), "nodes/a.py": _PYTHON},
     _filter("/wheel/odometry", launch=_RELAY),
     _included_example("/scan"),
     _component("/scan"),
