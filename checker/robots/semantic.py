@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from fnmatch import fnmatchcase
 from functools import cached_property
-from glob import escape
 from itertools import islice
 
 from checker.base.parts import NotAvailable, part
@@ -71,16 +69,16 @@ class SemanticDescription(Record, eq=False, dict=True):
             return False
         if kind == "group" or _bare(name) in map(_bare, self.names[kind]):
             return True
-        return not any(fnmatchcase(name, pattern) for pattern in self._computed)
+        return not any(_may_be(name, parts) for parts in self._computed)
 
     @cached_property
-    def _computed(self) -> list[str]:
-        """Patterns of the names that the xacro files of the robots may make."""
+    def _computed(self) -> list[list[str]]:
+        """What is known of the names that the xacro files of the robots may make."""
         texts = (_NOT_THE_TREE.sub("", text) for text in self._written)
         found = {pair for text in texts for pair in _ATTRIBUTE.findall(text)}
         values = {value for attribute, value in found if attribute != "reference"}
         parts = map(_COMPUTED.split, values)
-        return ["*".join(map(escape, known)) for known in parts if any(known)]
+        return [known for known in parts if any(known)]
 
     @property
     def _written(self) -> Iterator[str]:
@@ -93,6 +91,22 @@ class SemanticDescription(Record, eq=False, dict=True):
 def _bare(name: str) -> str:
     """Return a name without what only a slip makes another name."""
     return name.replace("_", "").lower()
+
+
+def _may_be(name: str, known: list[str]) -> bool:
+    """Return whether a name has the known parts of a computed one, in their order."""
+    first, *others = known
+    if not others:
+        return name == first
+    *middle, last = others
+    if not name.startswith(first):
+        return False
+    end = len(first)
+    for piece in middle:
+        if (at := name.find(piece, end)) < 0:
+            return False
+        end = at + len(piece)
+    return name.endswith(last) and end + len(last) <= len(name)
 
 
 @part
