@@ -30,6 +30,7 @@ from checker.package.simulator_signs import CLASSIC
 from checker.package.target import MODEL, ROS_1, ROS_2, ros_2_package, usual_profile
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
+from checker.rulebook.profiles import profile as profile_of
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
 from checker.rulebook.suppression.entries import SettingsEntry, entries_of
 from checker.source.text_file import read_text
@@ -154,7 +155,11 @@ class Settings(Record):
         """Return the settings with the target detected from the content of a ROS 2 package."""
         target = detect_target(package, self.distro)
         profile = CLASSIC_ROS_2 if target.is_classic else self.profile
-        return replace(self, profile=profile, distro=target.distro, target_reason=target.reason)
+        reason = target.reason
+        if not reason and not target.distro:
+            usual = profile_of(ROS_2).context.distro
+            reason = f"ROS 2 {usual.capitalize()}: nothing names another, --distro chooses one"
+        return replace(self, profile=profile, distro=target.distro, target_reason=reason)
 
     @property
     def description(self) -> str:
