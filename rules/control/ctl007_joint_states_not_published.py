@@ -28,7 +28,8 @@ def check(control: ControlSystem) -> Findings:
         return
     everywhere = _topics(control, control.launches)
     for launch in control.launches:
-        topics = launch.state_topics | (_topics(control, [launch]) or everywhere)
+        of_nodes = {publisher.topic for publisher in launch.state_publishers}
+        topics = of_nodes | (_topics(control, [launch]) or everywhere)
         deaf = [listener for listener in launch.listeners if listener.topic not in topics]
         if deaf and control.unread:
             yield from map(unchecked, control.unread)

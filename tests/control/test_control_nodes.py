@@ -10,10 +10,10 @@ from checker.launch.ros1.expansion import expand_launch
 from checker.launch.ros1.graph import LaunchGraph, Node
 from checker.ros.control.nodes import (
     Spawned,
-    published_states,
     read_listener,
     read_model,
     read_spawned,
+    read_state_publisher,
 )
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
@@ -110,9 +110,12 @@ def test_listener(content: str, topic: str) -> None:
 def test_publishers_of_joint_states() -> None:
     gui = node("joint_state_publisher_gui", "joint_state_publisher_gui", "", 'ns="r"')
     relay = node("topic_tools", "relay", "/r/joint_states joint_states")
-    assert published_states(gui) == "/r/joint_states"
-    assert published_states(relay) == "/joint_states"
-    assert not published_states(node("topic_tools", "relay"))
+    found = [read_state_publisher(each) for each in (gui, relay, node("topic_tools", "relay"))]
+    assert [it and (it.topic, it.is_source) for it in found] == [
+        ("/r/joint_states", True),
+        ("/joint_states", False),
+        None,
+    ]
 
 
 def test_spawn_model() -> None:

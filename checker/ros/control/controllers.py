@@ -12,7 +12,12 @@ from checker.formats.urdf.description import Transmission
 from checker.launch.ros1.graph import resolve_name
 from checker.model.components import Joint, Plugin
 from checker.model.ros_parameters import Parameter
-from checker.ros.control.nodes import Spawned, SpawnedModel, StateListener
+from checker.ros.control.nodes import (
+    Spawned,
+    SpawnedModel,
+    StateListener,
+    StatePublisher,
+)
 from checker.source.text import Located, Span
 
 IMMOBILE = ("fixed", "floating")
@@ -122,7 +127,7 @@ class ControlLaunch(Record, eq=False):
         spawned: Controllers that it starts.
         listeners: Nodes that turn joint states into transforms.
         models: Models that it spawns into Gazebo.
-        state_topics: Absolute topics on which nodes of it publish joint states.
+        state_publishers: Nodes that publish joint states.
         parameters: Absolute names of the parameters that it sets, `<rosparam>`s by their namespace.
         missing: Descriptions that it names and that do not exist.
     """
@@ -131,7 +136,7 @@ class ControlLaunch(Record, eq=False):
     spawned: tuple[Spawned, ...]
     listeners: tuple[StateListener, ...]
     models: tuple[SpawnedModel, ...]
-    state_topics: frozenset[str]
+    state_publishers: tuple[StatePublisher, ...]
     parameters: frozenset[str]
     missing: tuple[ParameterFault, ...] = ()
 

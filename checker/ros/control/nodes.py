@@ -67,6 +67,28 @@ class StateListener(Record, eq=False):
     span: Span
 
 
+class StatePublisher(Record, eq=False):
+    """A node that publishes joint states.
+
+    Attributes:
+        node: The node.
+        topic: Absolute topic on which it publishes them.
+    """
+
+    node: Node
+    topic: str
+
+    @property
+    def is_source(self) -> bool:
+        """True for a joint_state_publisher; False for a relay."""
+        return self.node.package in _SOURCES
+
+    @property
+    def span(self) -> Span:
+        """The node's start tag."""
+        return self.node.span
+
+
 class SpawnedModel(Record, eq=False):
     """A model that gazebo_ros's `spawn_model` puts into Gazebo.
 
@@ -163,16 +185,16 @@ def read_listener(node: Node) -> StateListener | None:
     return StateListener(node, wanted, node.span)
 
 
-def published_states(node: Node) -> str:
-    """Return the absolute topic on which a node publishes joint states; empty for others.
+def read_state_publisher(node: Node) -> StatePublisher | None:
+    """Return where a node publishes joint states; None for any other node.
 
     A relay counts for every type: its topics are the user's choice.
     """
     if node.package in _SOURCES:
-        return node.resolve(STATES)
+        return StatePublisher(node, node.resolve(STATES))
     if node.package == "topic_tools" and node.type == "relay" and len(node.words) > 1:
-        return node.resolve(node.words[1].value)
-    return ""
+        return StatePublisher(node, node.resolve(node.words[1].value))
+    return None
 
 
 def read_model(node: Node) -> SpawnedModel | None:

@@ -25,10 +25,10 @@ from checker.ros.control.controllers_reader import MANAGER_PLUGIN
 from checker.ros.control.loaded_parameters import Parameters
 from checker.ros.control.nodes import (
     Spawned,
-    published_states,
     read_listener,
     read_model,
     read_spawned,
+    read_state_publisher,
 )
 from checker.source.text import Located
 
@@ -129,7 +129,7 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
     graph = entry.graph
     listeners = (read_listener(node) for node in graph.nodes)
     models = (read_model(node) for node in graph.nodes)
-    topics = (published_states(node) for node in graph.nodes)
+    publishers = (read_state_publisher(node) for node in graph.nodes)
     unread += (
         f"whether {condition.value} is true is known only at launch"
         for condition in graph.undecided
@@ -139,7 +139,7 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
         tuple(_spawned(graph.nodes, unread)),
         tuple(listener for listener in listeners if listener and is_known(listener.topic)),
         tuple(model for model in models if model),
-        frozenset(topic for topic in topics if topic),
+        tuple(publisher for publisher in publishers if publisher),
         frozenset(param.name for param in graph.params),
         tuple(missing_descriptions(package, graph)),
     )
