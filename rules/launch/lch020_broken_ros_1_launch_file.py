@@ -44,6 +44,13 @@ _BUILD = ("CMakeLists.txt", "setup.py")
 _NOT_PLAIN = re.compile(r"\bGLOB\b|\bforeach\b|\badd_subdirectory\b|add_executable\W{1,8}\$")
 """What may build programs whose names CMakeLists.txt does not state."""
 _PROGRAM = re.compile(r"\.(?:py|sh|bash)\Z")
+_OF_ITS_NAME = frozenset(
+    {
+        *("amcl", "move_base", "rviz", "rqt_graph"),
+        *("joint_state_publisher", "joint_state_publisher_gui", "robot_state_publisher"),
+    }
+)
+"""Released packages whose program has the name of the package."""
 
 
 @rule("LCH020", "broken-ros-1-launch-file", Severity.ERROR, Concern.INTERFACE)
@@ -98,6 +105,9 @@ def _of_one_name(nodes: Iterable[Node]) -> Iterator[Finding]:
 
 def _without_program(package: Package, node: Node) -> Iterator[Finding]:
     holder = package.named(node.package) if is_known(node.package + node.type) else None
+    if holder is None and node.package in _OF_ITS_NAME and node.type != node.package:
+        near = Suggestions((node.package,)).correction(node.type) or ""
+        yield from [_not_started(node, near)] if near else []
     if holder is None or not node.type or is_ros2_only(holder):
         return
     files = {posixpath.basename(file.path) for file in holder.index.files}
@@ -111,12 +121,16 @@ def _without_program(package: Package, node: Node) -> Iterator[Finding]:
         near = scripts.get(node.type) or scripts.get(meant, meant)
         if not near and not is_script:
             return
-        hint = f"; did you mean {near!r}?" if near else ""
-        yield finding(
-            node,
-            f"node {node.name!r} does not start: {node.package} has no program {node.type!r}{hint}",
-            key=f"{node.package}/{node.type}",
-        )
+        yield _not_started(node, near)
+
+
+def _not_started(node: Node, near: str) -> Finding:
+    hint = f"; did you mean {near!r}?" if near else ""
+    return finding(
+        node,
+        f"node {node.name!r} does not start: {node.package} has no program {node.type!r}{hint}",
+        key=f"{node.package}/{node.type}",
+    )
 
 
 def _build_text(holder: Package) -> str:
@@ -166,6 +180,7 @@ GOOD = [
     _node("watch.py"),
     _node("planner"),
     _node("wacth.py", package="acme_tools"),
+    _node("state_publisher", package="robot_state_publisher"),
     _launch('<node name="watch" pkg="acme_arm_description" type="wacth.py" if="false"/>'),
     _two(' ns="arm"'),
     _two(' if="false"'),
@@ -187,6 +202,7 @@ BAD = [
     _include(_ARM, "two.launch", _MARK),
     _node("wacth.py", _MARK),
     _node("watch", _MARK),
+    _node("joint_state_publihser", _MARK, package="joint_state_publisher"),
     {
         **_launch(
             f"""<arg name="model" default="tall"/>
