@@ -17,7 +17,8 @@ from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, SharePath
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
 from checker.package.formats import robot_suffixes
-from checker.package.kind import PackageKind
+from checker.package.kind import PackageKind, is_urdf
+from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.released import distributions_with
 from checker.package.unchecked_models import unchecked_models
@@ -25,6 +26,9 @@ from checker.report.report import FILES, ROBOT, Cause, NotChecked
 from checker.ros.simulation import Simulations
 
 _NO_ROBOT = "no URDF, xacro, SDF or MJCF file of it is a robot, and no launch file starts one"
+_BESIDE_URDF = (
+    "{0} is not checked beside the URDF that launch files load: check it with subt-check {0}"
+)
 _TEMPLATE = re.compile(r"\.(?:sdf|urdf|xacro)\.(?:jinja2?|j2|em|erb)$")
 _OF_ROBOT = frozenset({"controller_manager", "robot_state_publisher"})
 """Packages whose nodes are started for a robot alone."""
@@ -52,6 +56,9 @@ def unread_robots(subject: Subject) -> Iterator[NotChecked]:
     cause = Cause.NOT_SUPPORTED if was_read else Cause.NOT_AT_HAND
     for reason in unchecked_models(file.path for file in package.index.files):
         yield NotChecked(FILES, reason, cause)
+    model = own_model(package) if package.kind is PackageKind.URDF_DESCRIPTION else None
+    if model is not None and not is_urdf(model):
+        yield NotChecked(FILES, _BESIDE_URDF.format(model), Cause.NOT_SUPPORTED)
     mujoco = subject.one(MjcfFiles)
     if isinstance(mujoco, MjcfFiles) and mujoco.left_out:
         beyond = f"only {MODELS_LIMIT} of its MuJoCo models are checked, {mujoco.left_out} are not"

@@ -93,6 +93,7 @@ def _names(folder: Path) -> list[str]:
         return []
 
 
+_URDF = (".urdf", ".xacro")
 _ADD_LIBRARY = re.compile(r"^[ \t]{0,80}add_library[ \t]{0,8}\(", re.MULTILINE | re.IGNORECASE)
 
 
@@ -130,11 +131,23 @@ def kind_of(package: Package) -> PackageKind:
     if submission or package.exists(SPAWNER) or package.exists("launch/vehicle_topics.launch"):
         return PackageKind.ROBOT
     model = own_model(package)
-    if model is not None and not model.lower().endswith((".urdf", ".urdf.xacro")):
+    described = bool(package.index.with_suffix(*_URDF))
+    if model is not None and not (is_urdf(model) or (described and _loads_urdf(package))):
         return PackageKind.BASE_MODEL
-    if package.index.with_suffix(".urdf", ".xacro"):
+    if described:
         return PackageKind.URDF_DESCRIPTION
     return _kind_without_robot(package)
+
+
+def is_urdf(path: str) -> bool:
+    """Return whether a model file is URDF, by its name."""
+    return path.lower().endswith((".urdf", ".urdf.xacro"))
+
+
+def _loads_urdf(package: Package) -> bool:
+    """Return whether launch files of ROS load URDF: a model beside it is an object or a stage."""
+    texts = package.launch_texts.values() if package.exists("package.xml") else ()
+    return any(suffix in text for text in texts for suffix in _URDF)
 
 
 def _kind_without_robot(package: Package) -> PackageKind:

@@ -52,6 +52,13 @@ def test_a_robot_that_was_read_is_missed_by_nobody(tmp_path: Path) -> None:
     assert reasons(checked({"@ros2": True}, tmp_path)) == []
 
 
+def test_a_model_beside_urdf_is_said_to_be_unchecked(tmp_path: Path) -> None:
+    stage = '<sdf version="1.9"><model name="hall"><link name="wall"/></model></sdf>'
+    report = checked({"@ros2": True, "model.sdf": stage}, tmp_path)
+    assert report.facts["robot"] == "arm"
+    assert any("subt-check model.sdf" in unseen.reason for unseen in report.not_checked)
+
+
 def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
     report = checked(WITHOUT_ROBOT, tmp_path)
     assert report.verdict is VerdictKind.INCOMPLETE

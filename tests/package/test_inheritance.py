@@ -35,6 +35,10 @@ def names(ruby: str) -> list[str]:
     return [reference.package_name for reference in spawner_references(SourceText("s.rb", ruby))]
 
 
+DESCRIPTION = PackageKind.URDF_DESCRIPTION
+BESIDE = {"r/model.sdf": MODEL, "r/package.xml": "", "r/urdf/r.xacro": ""}
+
+
 @pytest.mark.parametrize(
     ("files", "kind"),
     [
@@ -48,6 +52,8 @@ def names(ruby: str) -> list[str]:
         ({"r/CMakeLists.txt": "# add_library(drive)", "r/package.xml": ""}, PackageKind.UNKNOWN),
         ({"r/urdf/r.urdf.xacro": "", "r/package.xml": ""}, PackageKind.URDF_DESCRIPTION),
         ({"r/package.xml": "<package/>"}, PackageKind.UNKNOWN),
+        ({**BESIDE, "r/launch/start.launch.py": "'urdf/' + name + '.xacro'"}, DESCRIPTION),
+        ({**BESIDE, "r/launch/start.launch.py": "'models/yard/model.sdf'"}, PackageKind.BASE_MODEL),
     ],
 )
 def test_kinds(write: Write, files: Mapping[str, str], kind: PackageKind) -> None:
