@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from checker.base.parts import Ask, NotAvailable, part
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.xacro.expansion import Expander
@@ -62,6 +64,9 @@ def robot_controls(
     """Return ros2_control of each robot that has it."""
     found = map(reader.control, descriptions) if any(map(may_be_controlled, descriptions)) else ()
     controls = tuple(control for control in found if control is not None)
+    if len(controls) == 1 and not controls[0].controllers:
+        (only,) = controls
+        return (replace(only, beside=reader.controllers_beside(only)),)
     return controls or NotAvailable(_without_control(files), applicable=False)
 
 
@@ -117,7 +122,8 @@ def controlled_robots(
     started = package.workspace.launch_words
     known = () if isinstance(controls, NotAvailable) else controls
     found = {
-        id(it.robot): (it.robot, it.controllers or reader.controllers_beside(it)) for it in known
+        id(it.robot): (it.robot, it.controllers or it.beside or reader.controllers_beside(it))
+        for it in known
     }
     others = [it.robot for it in descriptions if it.transmissions and id(it.robot) not in found]
     # Files of parameters are read for those robots alone that need them.

@@ -2,7 +2,8 @@
 
 A controller claims the interfaces of its joints when it is activated: `wheel_joint/velocity`. If a
 `<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
-controller that no launch file names, this is a warning: nothing starts it.
+controller that no launch file names, this is a warning: nothing starts it. A package with one robot
+and no controllers is compared with those of the only other package that configures its joints.
 
 Fix: write one name of the joint in URDF, `<ros2_control>` and controller, or add the
 `<command_interface>` or `<state_interface>` that the controller needs: drives need `velocity` of
@@ -52,7 +53,7 @@ def check(control: RobotControl, package: Package) -> Findings:
     if control.has_variants or not control.hardware:
         return
     suggestions = Suggestions(control.components)
-    for controller in control.controllers:
+    for controller in control.controllers or control.beside:
         for fault in _faults(control, controller, suggestions):
             if not control.is_named:
                 yield replace(fault, severity=Severity.WARNING)
@@ -142,7 +143,7 @@ def _arm(
     parameters: str,
     kind: str = "joint_trajectory_controller/JointTrajectoryController",
     more: str = "",
-) -> object:
+) -> dict[str, object]:
     return {
         "@urdf": ros2_control(_INTERFACES + more, GAZEBO) + gazebo_control(_PARAMETERS),
         "config/arm.yaml": f"""controller_manager:
@@ -162,6 +163,17 @@ def _follow(joint: str, state: str = "position") -> object:
     )
 
 
+def _beside(joints: str) -> dict[str, object]:
+    """Return a robot whose controllers another package configures."""
+    bringup = "../acme_arm_bringup"
+    arm = _arm(f"joints: {joints}")
+    return {
+        "@urdf": ros2_control(_INTERFACES),
+        f"{bringup}/package.xml": "<package><name>acme_arm_bringup</name></package>",
+        f"{bringup}/config/arm.yaml": arm["config/arm.yaml"],
+    }
+
+
 _FORWARD = "forward_command_controller/ForwardCommandController"
 _GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 _IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
@@ -171,9 +183,11 @@ GOOD = [
     _arm("interface_name: position\n    joints: [shoulder]", _FORWARD),
     _arm("sensor_name: imu\n    frame_id: base_link", _IMU),
     _arm("sensor_name: <robot>/imu\n    frame_id: base_link", _IMU),
+    _beside("[shoulder]"),
 ]
 BAD = [
     _arm("joints: [elbow]  # ^ R2C009"),
+    {**_beside("[shoulder, elbow]"), "@reported": ["../acme_arm_bringup/config/arm.yaml:7"]},
     _arm("joints: [elbow]  # ^ R2C009", more='<joint name="elbow_"/>'),
     _arm(
         "joints: [shoulder]  # ^ R2C009\n"

@@ -108,6 +108,7 @@ class RobotControl(Record, eq=False, dict=True):
         files: Files of parameters that are about its controllers.
         unread: The reasons why parameters are not known, each the end of a sentence.
         by_default: Whether the robot is the one that its file makes without further values.
+        beside: Controllers that another package configures for the only robot of its package.
     """
 
     robot: Robot
@@ -116,6 +117,7 @@ class RobotControl(Record, eq=False, dict=True):
     files: tuple[ControllerFile, ...] = ()
     unread: tuple[str, ...] = ()
     by_default: bool = True
+    beside: tuple[Controller, ...] = ()
 
     @property
     def is_named(self) -> bool:
