@@ -158,7 +158,7 @@ class Settings(Record):
         reason = target.reason
         if not reason and not target.distro:
             usual = profile_of(ROS_2).context.distro
-            reason = f"ROS 2 {usual.capitalize()}: nothing names another, --distro chooses one"
+            reason = f"ROS 2 {usual.capitalize()}, as no other was found: --distro chooses one"
         return replace(self, profile=profile, distro=target.distro, target_reason=reason)
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -36,7 +36,9 @@ class DetectedTarget(Record):
 
 
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
-    """Read what a package is made for; else what launches it, and what is beside it, is made for.
+    """Read what a package is made for; else what launches it, or it launches, is made for.
+
+    Where neither shows a target, what is beside it may.
 
     Args:
         package: A package of ROS 2.
@@ -45,12 +47,8 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     own = _shown_target(package, distro)
     if own.reason:
         return own
-    found: dict[tuple[bool, str], DetectedTarget] = {}
-    for other in launching(package):
-        target = _shown_target(other, distro)
-        if target.reason:
-            reason = f"{target.reason} in {other.name}, which launches it"
-            found.setdefault((target.is_classic, target.distro), replace(target, reason=reason))
+    found = _targets_of(launching(package), distro, "which launches it")
+    found = found or _targets_of(launched_by(package), distro, "which it launches")
     if not found and not own.distro:
         return _target_beside(package) or own
     if len(found) != 1:
@@ -58,6 +56,19 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     (target,) = found.values()
     # A description with plugins of a later Gazebo is not for Classic, whatever else launches it.
     return own if target.is_classic and {*package.simulator_signs} - {CLASSIC} else target
+
+
+def _targets_of(
+    packages: Iterable[Package], distro: str, how: str
+) -> dict[tuple[bool, str], DetectedTarget]:
+    """Return the different targets that the content of packages shows, each with a reason."""
+    found: dict[tuple[bool, str], DetectedTarget] = {}
+    for other in packages:
+        target = _shown_target(other, distro)
+        if target.reason:
+            reason = f"{target.reason} in {other.name}, {how}"
+            found.setdefault((target.is_classic, target.distro), replace(target, reason=reason))
+    return found
 
 
 def _target_beside(package: Package) -> DetectedTarget | None:
@@ -83,6 +94,14 @@ def launching(package: Package) -> Iterator[Package]:
     for other in () if package.only else package.other_packages:
         texts = other.launch_texts.values()
         if any(has_word(text, name) and f"{name}{end}" in text for text in texts):
+            yield other
+
+
+def launched_by(package: Package) -> Iterator[Package]:
+    """Yield the other packages that the launch files of a package name."""
+    texts = () if package.only else package.launch_texts.values()
+    for other in package.other_packages if texts else ():
+        if any(has_word(text, other.declared_name) for text in texts):
             yield other
 
 

@@ -195,6 +195,34 @@ def test_what_launches_a_description_tells(
     assert told is (expected[1] not in ("", "iron"))
 
 
+@pytest.mark.parametrize(
+    ("words", "expected", "reason"),
+    [
+        ("", "ros2-classic", "names gzserver in lift, which it launches"),
+        ("'ign gazebo'", "ros2", "names ign gazebo"),
+    ],
+)
+def test_what_a_package_launches_tells(
+    words: str, expected: str, reason: str, tmp_path: Path
+) -> None:
+    texts = {"lift": "words = 'gzserver'\n", "tour": f"{SHARE.format('lift')}words = {words}\n"}
+    for name, text in texts.items():
+        file = tmp_path / name / "launch/start.launch.py"
+        file.parent.mkdir(parents=True)
+        file.write_text(text)
+        (tmp_path / name / "package.xml").write_text(AMENT.format(name))
+    settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "tour"))
+    assert settings.profile == expected
+    assert settings.target_reason.endswith(reason)
+
+
+def test_the_default_distribution_is_named(tmp_path: Path) -> None:
+    (tmp_path / "lift").mkdir()
+    (tmp_path / "lift/package.xml").write_text(AMENT.format("lift"))
+    settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
+    assert settings.target_reason == "ROS 2 Jazzy, as no other was found: --distro chooses one"
+
+
 CONTROL = '<ros2_control name="arm" type="system"/>'
 
 
