@@ -55,5 +55,6 @@ BAD = [
     _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
     _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
     _lamp(f"<visual>{_TWO}</visual>"),
+    _lamp(_BOX.replace("/></g", f"/>\n<origin xyz='0 0 1'/>{_MARK}\n</g").replace("@", "")),
     _lamp("", f'<joint_properties damping="1"/>{_MARK}\n<stopErp>0.2</stopErp>{_MARK}'),
 ]

@@ -30,6 +30,8 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, Span
 
 _FILE = re.compile(r"[^/\\]\.[A-Za-z]\w{1,9}\Z")
+_WITHOUT_SUFFIX = frozenset({"map_file_name"})
+"""Parameters of files to which the node adds the suffix, as slam_toolbox does."""
 _FOLDER = re.compile(r"""["'](/(?:home|Users)/[^"'\n]{1,300})["']""")
 _READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
@@ -45,7 +47,7 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
         for block in blocks_in(package, file.path, "ros__parameters"):
             for name, parameter in block.parameters.items():
                 for text in () if is_written(name) else parameter.texts:
-                    if _is_wrong(text):
+                    if _is_wrong(text, name):
                         yield _in_parameters(package, f"{name} of {block.node}", name, text)
     named = [*_in_ros_2(launch)] if launch is not None else []
     if not is_ros2_only(package):
@@ -61,10 +63,11 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
         yield _in_launch_file(package, label, text, part.span)
 
 
-def _is_wrong(text: Located[str]) -> bool:
+def _is_wrong(text: Located[str], parameter: str = "") -> bool:
     """Return whether a text is the path of a file that is on one machine, or on none."""
     path = text.value
-    return bool(_FILE.search(path)) and (is_on_one_machine(path) or is_placeholder(path))
+    is_file = parameter in _WITHOUT_SUFFIX or bool(_FILE.search(path))
+    return is_file and (is_on_one_machine(path) or is_placeholder(path))
 
 
 def _written_part(text: Located[str]) -> Located[str] | None:
@@ -218,6 +221,7 @@ BAD = [
     {"@ros2": f"        DeclareLaunchArgument('map', default_value='/path/to/a.yaml'),{_MARK}"},
     {"@ros2": f"        Node(package='p', executable='e', parameters=['{_HALL}']),{_MARK}"},
     _example("/home/ann/maps/hall.yaml", _MARK),
+    _example("/home/ann/maps/hall", _MARK, "map_file_name"),
     {**_example("/ws/src/rover/hall.yaml", _MARK), "Dockerfile": "FROM ros:jazzy\nWORKDIR /ws\n"},
     {**_example("/home/ann/ws/src/rover/maps/hall.yaml", _MARK), "maps/hall.yaml": "image: a\n"},
     _example('"/rover_ws/install/rover/share/rover/tree.xml"', _MARK, "default_bt_xml"),
