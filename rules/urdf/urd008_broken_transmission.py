@@ -137,19 +137,19 @@ def _twice(description: UrdfDescription) -> Iterator[Finding]:
 def _left_without(description: UrdfDescription) -> Iterator[Finding]:
     """Yield joints without transmission if most joints of their type have one."""
     # Transmissions of the PR2 name joints in elements such as <flexJoint> and <passive_joint>.
-    moved = {
+    named = {
         part.attributes.get("name", "")
         for transmission in description.transmissions
         for part in transmission.element.descendants()
     }
     robot = description.robot
-    moved |= {
+    moved = named | {
         descendant.text.value
         for plugin in robot.plugins
         for descendant in plugin.element.descendants()
     }
     joints = [joint for joint in robot.joints if joint.type.value in _MOVING and not joint.mimics]
-    driven = Counter(joint.type.value for joint in joints if joint.name.value in moved)
+    driven = Counter(joint.type.value for joint in joints if joint.name.value in named)
     loose = Counter(joint.type.value for joint in joints if joint.name.value not in moved)
     for joint in joints:
         kind, name = joint.type.value, joint.name.value
@@ -198,6 +198,11 @@ GOOD = [
         + '<transmission name="w" type="WristTransmission"><flexJoint name="wrist"/></transmission>'
         + _hinge("elbow")
         + _hinge("wrist")
+    },
+    {
+        "@urdf": "".join(_hinge(name) for name in ("left", "right", "caster"))
+        + "<gazebo><plugin name='drive' filename='libgazebo_ros_diff_drive.so'>"
+        "<leftJoint>left</leftJoint><rightJoint>right</rightJoint></plugin></gazebo>"
     },
 ]
 BAD = [
