@@ -3,7 +3,8 @@
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
 forgotten. A file that is left to an argument of xacro is not checked where a launch file names that
-argument, or where there is no launch file. Plugins in SDF models are checked too.
+argument, or where there is no launch file, and none is where a launch file in Python contains
+`<parameters>`: it rewrites the tag. Plugins in SDF models are checked too.
 
 Fix: correct the path, and install the file: `$(find package)/config/controllers.yaml`.
 Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
@@ -22,6 +23,7 @@ from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
+_TAG = "<parameters>"
 _ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
 
 
@@ -38,6 +40,9 @@ def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
         yield finding(fault.span, f"the parameter file cannot be read: {fault.message}")
     for reason in files.unread:
         yield unchecked(reason)
+    if files.managers and package.workspace.launches_with(_TAG):
+        yield unchecked(f"a launch file rewrites {_TAG} of the description")
+        return
     for manager in files.managers:
         if not manager.files:
             yield from _without_file(manager, package)
