@@ -13,6 +13,7 @@ from checker.engine.subject import Subject
 from checker.formats.mjcf.model import MjcfModel
 from checker.formats.mjcf.models import MODELS_LIMIT, MjcfFiles
 from checker.launch.ros1.package_launch import LaunchEntries
+from checker.launch.ros2.descriptions import loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, SharePath
 from checker.launch.ros2.named_paths import named_paths, unavailable
 from checker.model.robot import Robot
@@ -79,13 +80,22 @@ def _without_robot(subject: Subject) -> Iterator[NotChecked]:
     )
     reasons = list(dict.fromkeys(sources))
     yield from _reported(subject, reasons)
-    if not reasons and package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
+    if reasons or _loads_robot_beside(subject):
+        return
+    if package.kind in (PackageKind.UNKNOWN, PackageKind.MUJOCO_MODEL):
         # Beside other packages, one without a robot may hold messages, maps or code.
         others = package.other_packages
         beside = any(other.kind is not PackageKind.UNKNOWN for other in others)
         none_expected = beside or (others and _holds_none(subject))
         cause = Cause.NOT_APPLICABLE if none_expected else Cause.NOT_AT_HAND
         yield NotChecked(ROBOT, _NO_ROBOT, cause)
+
+
+def _loads_robot_beside(subject: Subject) -> bool:
+    """Return whether a launch file loads an available description, judged in its own package."""
+    launch = subject.one(Ros2Launch)
+    graphs = () if isinstance(launch, NotAvailable) else launch.entries
+    return any(True for graph in graphs for _ in loaded_descriptions(subject.package, graph))
 
 
 def _reported(subject: Subject, reasons: Iterable[_Reason]) -> Iterator[NotChecked]:

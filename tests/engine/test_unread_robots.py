@@ -70,6 +70,12 @@ def test_beside_a_package_with_a_robot_it_is(tmp_path: Path) -> None:
     assert reasons(report) == []
 
 
+def test_the_robot_of_another_package_is_a_robot(tmp_path: Path) -> None:
+    report = checked({"@ros2": OF_ANOTHER, ARM: None, **HAND}, tmp_path)
+    assert [it for it in report.not_checked if it.rule == ROBOT] == []
+    assert "no robot of its own" not in str(sentence(report))
+
+
 MESSAGES = {"../acme_msgs/package.xml": "<package format='3'><name>acme_msgs</name></package>"}
 
 
