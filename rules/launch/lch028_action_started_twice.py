@@ -38,7 +38,7 @@ def check(launch: Ros2Launch) -> Findings:
 
 
 def _again(actions: Iterable[Node | Process]) -> Iterator[Node | Process]:
-    """Yield the actions that start once more at an event; each has a span of its own."""
+    """Yield the actions that an event starts a second time; each has a span of its own."""
     seen: set[int] = set()
     for action in actions:
         if not action.starts:

@@ -88,11 +88,15 @@ def _make_queues(client: DBOSClient, trials: int) -> None:
 
 
 def _take_over(engine: sa.Engine, checks: Checks) -> None:
-    """Enter the checks of the tables that older versions had, and drop these."""
-    if not sa.inspect(engine).has_table(_OLD):
-        return
-    old = sa.Table(_OLD, sa.MetaData(), autoload_with=engine)
-    with engine.connect() as connection:
+    """Enter the checks of the tables that older versions had, and drop these.
+
+    Several may enter the same checks, each of which is there once.
+    """
+    with engine.begin() as connection:
+        _lock(connection)  # another may drop them
+        if not sa.inspect(connection).has_table(_OLD):
+            return
+        old = sa.Table(_OLD, sa.MetaData(), autoload_with=connection)
         rows = connection.execute(sa.select(old)).mappings().all()
     for row in rows:
         checks.enter(_task_of(row))
