@@ -236,6 +236,10 @@ UNPAINTED = {
     "meshes/part.mtl": "newmtl paint\nmap_Kd a.png\n",
 }
 GREY = "<material><diffuse>0.5 0.5 0.5 1</diffuse></material>"
+TWICE = "".join(
+    BRIDGE.format("a", f"nav_msgs/msg/{it}", "Odometry") for it in ("Odometry", "odometry")
+)
+
 CASES: list[tuple[str, Example, str]] = [
     ("SDF013", FRICTION.format(second=""), "info"),
     ("SDF013", FRICTION.format(second="<mu>1</mu>"), "warning"),
@@ -244,6 +248,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("R2C003", CHOSEN, "warning"),
     ("R2C016", {"@urdf": LIFT + MOCK + GZ}, "error"),
     ("R2C016", {"@urdf": LIFT + GZ + MOCK}, "warning"),
+    ("BRG002", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/odometry", "Odometry")}, "error"),
+    ("BRG002", {"@bridge": TWICE}, "warning"),
     ("BRG004", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/Odometry", "Odometry")}, "warning"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),

@@ -3,13 +3,16 @@
 The bridge warns "Failed to create a bridge" and continues, and the topic has no messages. It
 converts a fixed list of pairs, written as `package/msg/Name` and `gz.msgs.Name`; the names are
 case-sensitive. The list of this rule ends in October 2024: a pair that is not similar to one of the
-list is a warning or an info.
+list is a warning or an info. An entry beside another that passes the same topic is needless: a
+warning.
 
 Fix: write the pair that the finding names.
 Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
 """
 
 from collections.abc import Iterator
+
+from msgspec.structs import replace
 
 from checker.base.words import and_list
 from checker.launch.ros2.bridges.entry import GZ_PREFIXES, BridgeEntry
@@ -37,7 +40,21 @@ def check(simulations: Simulations, context: Context) -> Findings:
             passed = entry.passed
             if entry.is_own and is_known(passed.ros_type.value + passed.gz_type.value):
                 messages = {m for topic in simulation.topics_of(entry) for m in topic.messages}
-                yield from _judged(entry, messages, context.distro)
+                needless = any(_passes(it, entry.ros_topic) for it in simulation.entries)
+                for found in _judged(entry, messages, context.distro):
+                    yield _needless(found, entry.ros_topic) if needless else found
+
+
+def _passes(entry: BridgeEntry, topic: str) -> bool:
+    """Return whether an entry passes a topic of ROS in a pair that the bridge converts."""
+    is_known_pair = entry.passed.ros_type.value in ros_types(entry.gz_name)
+    return bool(topic) and entry.ros_topic == topic and is_known_pair
+
+
+def _needless(found: Finding, topic: str) -> Finding:
+    message = f"{found.message}, but another entry passes {topic}: remove this one"
+    severity = Severity.INFO if found.severity is Severity.INFO else Severity.WARNING
+    return replace(found, message=message, severity=severity, fix=None)
 
 
 def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Finding]:
