@@ -14,8 +14,8 @@ Fix: write the entry that the finding names: a version such as `1.0.0`, a mainta
 address, a license such as `Apache-2.0`, or the build tool, `catkin` in ROS 1 and `ament_cmake` in
 ROS 2.
 Source: REP 127, 140 and 149, "Required tags"; what catkin_pkg 1.1 refuses, tested tag by tag. The
-warnings are this rule's own: catkin_pkg accepts a maintainer without a name, and a package without
-catkin.
+warnings are this rule's own: catkin_pkg accepts a maintainer without a name (an info outside SubT),
+and a package without catkin.
 """
 
 import re
@@ -61,7 +61,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if manifest is None:
         return
     yield from _required(manifest, None if context.is_subt else Severity.INFO)
-    yield from _people(manifest)
+    yield from _people(manifest, Severity.WARNING if context.is_subt else Severity.INFO)
     yield from _left_from_copying(package, manifest)
     if not manifest.build_type.value and not manifest.depends_on("catkin"):
         yield from _without_build_tool(package, manifest, context)
@@ -145,12 +145,12 @@ def _required(manifest: PackageManifest, of_template: Severity | None) -> Iterat
             )
 
 
-def _people(manifest: PackageManifest) -> Iterator[Finding]:
+def _people(manifest: PackageManifest, nameless: Severity) -> Iterator[Finding]:
     if not manifest.maintainers:
         yield _missing("maintainer", Located("", manifest.span, stated=False))
     for person in manifest.maintainers:
         if not person.name.value:
-            yield finding(person, "<maintainer> has no name", severity=Severity.WARNING)
+            yield finding(person, "<maintainer> has no name", severity=nameless)
         if not person.email.value:
             name = person.name.value or "maintainer"
             yield finding(person, f"{name} has no email: write <maintainer email=…>")

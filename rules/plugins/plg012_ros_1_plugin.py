@@ -124,7 +124,7 @@ def _is_read(element: Element, package: Package) -> bool:
     return any(isinstance(it, SourceText) and topic in it.text for it in sources)
 
 
-_CLASSIC = {"@profile": "gazebo-classic", "@ros2": True}
+_CLASSIC = {"@profile": "gazebo-classic", "@ros2": True, "urdf/arm.urdf.xacro": None}
 
 
 def _drive(parameters: str) -> dict[str, object]:
