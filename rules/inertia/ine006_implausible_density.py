@@ -67,9 +67,8 @@ def check(
             warning.
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
             visuals if that is more; more is a warning, or an info if these are meshes.
-        impossible: Density in kg/m³, for the same volume as for `heaviest`; no metal is so dense,
-            so more is an error if the robot weighs or balances otherwise by it: such links are half
-            of its mass, or move its centre of mass. The foot of a robot that only stands may.
+        impossible: Density in kg/m³, for the same volume; no metal is so dense, so more is an error
+            if such links are half of the robot's mass, or move its centre of mass.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
         contrast: Factor by which such a link is denser than the rest of the robot.
