@@ -26,6 +26,11 @@ def test_every_row_of_the_ledger_is_complete() -> None:
         assert row.counts["found"] <= row.counts["faults"], row.name
 
 
+def test_each_contact_is_the_first() -> None:
+    names = [row.name.lower() for row in contacts()]
+    assert sorted({*names}) == sorted(names)
+
+
 def test_reports_count_as_faults_only(tmp_path: Path) -> None:
     rows = contacts(
         ledger(
