@@ -40,8 +40,8 @@ def check(simulations: Simulations, context: Context) -> Findings:
             passed = entry.passed
             if entry.is_own and is_known(passed.ros_type.value + passed.gz_type.value):
                 messages = {m for topic in simulation.topics_of(entry) for m in topic.messages}
-                needless = any(_passes(it, entry.ros_topic) for it in simulation.entries)
                 for found in _judged(entry, messages, context.distro):
+                    needless = any(_passes(it, entry.ros_topic) for it in simulation.entries)
                     yield _needless(found, entry.ros_topic) if needless else found
 
 

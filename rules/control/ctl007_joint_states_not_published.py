@@ -13,7 +13,6 @@ Source: robot_state_publisher (subscribes to `joint_states`); joint_state_contro
 from collections.abc import Iterable
 
 from checker.finding import Fix, Safety
-from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import ControlLaunch, ControlSystem
 from checker.ros.control.nodes import StateListener
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -57,9 +56,7 @@ def _remapped(listener: StateListener, topic: str) -> Fix | None:
 
 def _topics(control: ControlSystem, launches: Iterable[ControlLaunch]) -> frozenset[str]:
     return frozenset(
-        resolve_name("joint_states", spawned.namespace)
-        for launch in launches
-        for spawned in control.publishers(launch)
+        spawned.states_topic for launch in launches for spawned in control.publishers(launch)
     )
 
 

@@ -13,9 +13,8 @@ Fix: remove joint_state_publisher, or start it where no controller publishes the
 Source: joint_state_publisher; ros_controllers, joint_state_controller.
 """
 
-from checker.launch.ros1.graph import resolve_name
 from checker.ros.control.controllers import ControlLaunch, ControlSystem
-from checker.ros.control.nodes import STATES, StatePublisher
+from checker.ros.control.nodes import StatePublisher
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _COLLECTS = "source_list"
@@ -25,10 +24,7 @@ _COLLECTS = "source_list"
 def check(control: ControlSystem) -> Findings:
     """Report each joint_state_publisher whose topic a controller publishes as well."""
     for launch in control.launches:
-        measured = {
-            resolve_name(STATES, spawned.namespace): spawned
-            for spawned in control.publishers(launch)
-        }
+        measured = {spawned.states_topic: spawned for spawned in control.publishers(launch)}
         for each in launch.state_publishers:
             if each.topic not in measured or not each.is_source or _may_collect(each, launch):
                 continue

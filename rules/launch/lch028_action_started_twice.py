@@ -23,13 +23,8 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("LCH028", "action-started-twice", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch) -> Findings:
     """Report nodes and processes of which two starts are one and the same action."""
-    reported: set[tuple[str, int]] = set()
     for graph in launch.entries:
         for action in _again((*graph.nodes, *graph.processes)):
-            place = (action.span.source.file, action.span.start)
-            if place in reported:
-                continue
-            reported.add(place)
             yield finding(
                 action,
                 f"{_label(action)} is started a second time, by an event: this ends the launch "

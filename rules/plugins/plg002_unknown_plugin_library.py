@@ -17,7 +17,7 @@ packages (`subt_plugins.json`); packages that distributions do not have (`remove
 No accepted package that we checked has this fault.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 
 from msgspec.structs import replace
 
@@ -83,13 +83,14 @@ def _found(host: PluginHost, package: Package, context: Context) -> Findings:
     lenders = available_packages(package)
     known = lenders.libraries() | of_release.keys()
     suggestions = Suggestions(sorted(known))
+    beside = _built_beside(host, package, known) if not context.is_subt else frozenset[str]()
     for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
         if stem in ("", _NONE) or stem in known or _is_reported_elsewhere(stem, context):
             continue
         if not context.is_subt and newer_name(stem) in known:
             continue  # PLG010 says so.
-        if not context.is_subt and _is_built_beside(stem, package):
+        if stem in beside:
             continue
         if lenders.unknown and context.is_subt:
             yield unchecked(
@@ -128,9 +129,11 @@ def _in_classic(plugin: Plugin, context: Context) -> str:
     )
 
 
-def _is_built_beside(stem: str, package: Package) -> bool:
-    """Return whether another package of the workspace has a library, so that a path leads to it."""
-    return any(stem in libraries_of(other) for other in package.other_packages)
+def _built_beside(host: PluginHost, package: Package, known: Set[str]) -> frozenset[str]:
+    """Return the libraries of the workspace, to which a path leads, if one is not known."""
+    if all(library_stem(plugin.filename.value) in known for plugin in host.plugins):
+        return frozenset()
+    return frozenset(name for other in package.other_packages for name in libraries_of(other))
 
 
 def _may_be_lent(stem: str, package: Package, lenders: AvailablePackages) -> bool:

@@ -34,9 +34,14 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 def check(wiring: Wiring, package: Package) -> Findings:
     """Report inputs of known nodes whose messages are on a topic of another name."""
     published = {each.topic for each in wiring.endpoints if each.publishes}
-    for wanted, message in unpublished_inputs(wiring, published):
-        others = sources(wiring, wanted, message, topics_read_by(wiring, wanted.owner))
-        if not others or _is_in_source(wiring, package, wanted.topic):
+    missed = [
+        (wanted, message, others)
+        for wanted, message in unpublished_inputs(wiring, published)
+        if (others := sources(wiring, wanted, message, topics_read_by(wiring, wanted.owner)))
+    ]
+    in_source = source_topics(package, wiring.every_node) if missed else frozenset[str]()
+    for wanted, message, others in missed:
+        if wanted.topic in in_source:
             continue
         unknown = wiring.more_publishers(message) or wiring.unknown_parts
         if unknown and not alike(wanted, others[0]):
@@ -49,11 +54,6 @@ def check(wiring: Wiring, package: Package) -> Findings:
             key=f"{wanted.by} {wanted.topic}",
             related=[(it.span, f"{it.by} publishes {it.topic}") for it in others],
         )
-
-
-def _is_in_source(wiring: Wiring, package: Package, topic: str) -> bool:
-    """Return whether the source of a node of the launch names a topic that it publishes."""
-    return any(topic in source_topics(package, node) for node in wiring.every_node)
 
 
 _HEAD = "LaunchDescription([\n"

@@ -12,12 +12,7 @@ from checker.formats.urdf.description import Transmission
 from checker.launch.ros1.graph import resolve_name
 from checker.model.components import Joint, Plugin
 from checker.model.ros_parameters import Parameter
-from checker.ros.control.nodes import (
-    Spawned,
-    SpawnedModel,
-    StateListener,
-    StatePublisher,
-)
+from checker.ros.control.nodes import Spawned, SpawnedModel, StateListener, StatePublisher
 from checker.source.text import Located, Span
 
 IMMOBILE = ("fixed", "floating")

@@ -52,6 +52,11 @@ class Spawned(Record, eq=False):
         """Namespace and name: `/gurdy/arm_controller`."""
         return resolve_name(self.name, self.namespace)
 
+    @property
+    def states_topic(self) -> str:
+        """Absolute topic on which it publishes joint states, if it does so."""
+        return resolve_name(STATES, self.namespace)
+
 
 class StateListener(Record, eq=False):
     """A node that turns joint states into transforms.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from checker.package.package import Package
 from checker.ros.wiring.nodes import WiredNode
@@ -18,17 +18,29 @@ _PUBLISHER = re.compile(
 """A publisher in C++, whose type is in angle brackets, or in Python, where it comes first."""
 
 
-def source_topics(package: Package, node: WiredNode) -> Iterator[str]:
-    """Yield the topics that nodes of an unknown program's package may publish, absolute.
+def source_topics(package: Package, nodes: Iterable[WiredNode]) -> frozenset[str]:
+    """Return the topics that the packages of unknown programs may publish, absolute.
 
     Args:
         package: The package being checked.
-        node: The node; one of a known program has none here.
+        nodes: The nodes; one of a known program has none here.
     """
-    holder = package.named(node.node.package.value) if node.facts is None else None
+    written: dict[str, list[str]] = {}
+    topics: set[str] = set()
+    for node in nodes:
+        if node.facts is None:
+            name = node.node.package.value
+            if name not in written:
+                written[name] = [*_written(package.named(name))]
+            topics.update(map(node.resolve, written[name]))
+    return frozenset(topics)
+
+
+def _written(holder: Package | None) -> Iterator[str]:
+    """Yield the names of topics in the sources of a package, if it is available."""
     if holder is None:
         return
     for entry in holder.index.with_suffix(*_SUFFIXES):
         source = holder.read(entry.path)
         if isinstance(source, SourceText):
-            yield from map(node.resolve, _PUBLISHER.findall(source.text))
+            yield from _PUBLISHER.findall(source.text)
