@@ -76,7 +76,7 @@ def peers(folder: Path) -> Path:
     """Install the peers that PyPI has into their own environment; return its programs."""
     venv.create(folder, with_pip=True)
     programs = folder / "bin"
-    pip = [programs / "pip", "install", "--quiet", "--disable-pip-version-check", *PEERS]
+    pip = [str(programs / "pip"), "install", "--quiet", "--disable-pip-version-check", *PEERS]
     subprocess.run(pip, check=True, stderr=subprocess.DEVNULL)
     return programs
 
@@ -97,6 +97,7 @@ def main() -> None:
         packages = [
             Path(shutil.copytree(path, place / path.name, symlinks=True))
             for path in real_packages()
+            if (path / "model.sdf").is_file()
         ]
         static(max(packages, key=lambda path: path.name.startswith("x1_")), programs)
         driven = [pair for package in packages for pair in against_simcheck(package, programs)]

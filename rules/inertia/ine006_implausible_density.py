@@ -8,10 +8,11 @@ Shapes may overlap, so a light link is compared with the smallest volume that th
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
 visuals count too. A mesh that is not closed counts as its convex hull. If the greatest volume is
 that of meshes, a heavy link is an info: a mesh often draws a bracket or a cover, and the motor
-behind it is not drawn. In published robots none of the links that are heavier than steel in meshes
-has a wrong mass, and all that are so in simple shapes have one; simple shapes of up to 2 mm are
-placeholders, and do not count. A whole link that is as dense as solid steel is suspicious if the
-rest of the robot is hollow, as robots are.
+behind it is not drawn; unless even the box around the link, full of metal, would weigh less. In
+published robots none of the links that are heavier than steel in meshes has a wrong mass, and all
+that are so in simple shapes have one; simple shapes of up to 2 mm are placeholders, and do not
+count. A whole link that is as dense as solid steel is suspicious if the rest of the robot is
+hollow, as robots are.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
@@ -99,7 +100,8 @@ def check(
         drawn = visuals[1] if visuals is not None else 0.0
         most = max(collisions[1], drawn)
         counted = link.visuals if drawn > collisions[1] else link.collisions
-        heavy = Severity.INFO if any(map(_is_mesh, counted)) else Severity.WARNING
+        drawn_only = any(map(_is_mesh, counted)) and not _fills(masses, inertia, impossible)
+        heavy = Severity.INFO if drawn_only else Severity.WARNING
         density = inertia.mass / most if most > 0.0 else 0.0
         if density > heaviest:
             found.append(_Heavy(name, inertia, most, heavy))
@@ -181,6 +183,14 @@ def _lighter(masses: MassProperties, inertia: LinkInertia, mass: float) -> Fix |
     large = inertia.gyration_radius / math.sqrt(ratio) > reach
     moments = [(moment, moment.value * ratio) for moment in inertial.moments]
     return rewrite([(inertial.mass, mass), *(moments if large else ())])
+
+
+def _fills(masses: MassProperties, inertia: LinkInertia, density: float) -> bool:
+    """Return whether a link is denser than this in kg/m³ even if it fills the box around it."""
+    box = known_box(masses.robot, inertia.link)
+    if box is None:
+        return False
+    return inertia.mass > density * math.prod(box.high[i] - box.low[i] for i in range(3))
 
 
 def _is_mesh(shape: Collision | Visual) -> bool:
@@ -280,6 +290,10 @@ def _box(mass: float, mark: str = "", size: str = "0.1 0.1 0.1", more: str = "")
 
 _MARK = "  <!-- ^ INE006 -->"
 _HOUSING = '<visual name="v"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></visual>'
+_COVER = """<visual name="v">
+  <geometry><mesh><uri>meshes/cover.obj</uri></mesh></geometry>
+</visual>"""
+_CORNER = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 GOOD = [
     _box(2),
     _box(7.8),
@@ -307,5 +321,6 @@ BAD = [
     {"@urdf": _CASTER.format(_MARK)},
     _box(100, _MARK),
     _box(0.005, _MARK),
+    {"@fragment": _box(30, _MARK, "0.05 0.05 0.05", _COVER), "meshes/cover.obj": _CORNER},
     f"<link name='foam'>{_box(0.005, _MARK)}</link>{_BESIDE}",
 ]

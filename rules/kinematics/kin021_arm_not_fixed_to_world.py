@@ -40,32 +40,32 @@ _IN_WATER = ("thruster", "buoyan", "hydrodynamic")
 
 
 @rule("KIN021", "arm-not-fixed-to-world", Severity.WARNING, Concern.ROBOT)
-def check(masses: MassProperties, *, hinges: int = 4) -> Findings:
+def check(masses: MassProperties, *, hinges: int = 2) -> Findings:
     """Report arms that are free to fall over, at their root link.
 
     Options:
-        hinges: Revolute and continuous joints in a row of an arm, at least, before the first link
-            that carries several moving parts, such as fingers.
+        hinges: Revolute and continuous joints in a row that lift an arm, at least, before the first
+            link that carries several moving parts, such as fingers. A camera's pan and tilt has
+            one.
     """
     robot = masses.robot
     root = _loose_root(robot)
     chain = list(_chain(robot, root)) if root else []
-    arm = [joint for joint in chain if joint.type.value in _HINGES]
-    lifting = next((joint for joint in arm if _lifts(robot, joint)), None)
-    if len(arm) < hinges or lifting is None or not masses.standing <= robot.tree.base:
+    lifting = [it for it in chain if it.type.value in _HINGES and _lifts(robot, it)]
+    if len(lifting) < hinges or not masses.standing <= robot.tree.base:
         return
     unknown = robot.unweighed or robot.unplaced_part or _unknown_base(robot)
     if unknown:
         yield unchecked(unknown)
         return
-    moment, weight = load_bounds(masses, "", 0.0).get(lifting, 0.0), robot.gravity * masses.mass
+    moment, weight = load_bounds(masses, "", 0.0).get(lifting[0], 0.0), robot.gravity * masses.mass
     edge = _half_width(robot)
     if moment > edge * weight:
         yield finding(
             robot.tree.links[root],
             f"nothing fixes {root!r} to the world, so the arm falls over in Gazebo: stretched out, "
             f"the centre of mass of the robot is {moment / weight:.2g} m from joint "
-            f"{lifting.name.value!r}, and its base reaches {edge:.2g} m; write "
+            f"{lifting[0].name.value!r}, and its base reaches {edge:.2g} m; write "
             f"{_expected(robot, root)}",
             fix=_fixed(robot, root),
             covered_by=("INE016",),
@@ -192,8 +192,8 @@ def _arm(joints: int = 4, width: float = 0.2, mass: int = 3, **more: str) -> dic
 
 GOOD = [
     _arm(world=_WORLD),
-    _arm(3),
+    _arm(2),
     _arm(width=0.9),
     _arm(mass=60),
 ]
-BAD = [_arm(mark=_MARK), _arm(6, mass=12, mark=_MARK)]
+BAD = [_arm(mark=_MARK), _arm(3, mass=1, mark=_MARK), _arm(6, mass=12, mark=_MARK)]
