@@ -115,6 +115,8 @@ class Simulation(Record, eq=False, dict=True):
     def world_names(self) -> frozenset[str]:
         """Names of the worlds; none if one is not known."""
         names = [world.name for world in self.worlds]
+        own = (server.own_world for server in self.servers)
+        names += [file.removesuffix(".sdf") for file in own if file]
         return frozenset(names) if all(names) and not self.unknown_worlds else frozenset()
 
     def topics_of(self, entry: BridgeEntry) -> list[SimulatedTopic]:
@@ -124,22 +126,24 @@ class Simulation(Record, eq=False, dict=True):
 
     def is_silent(self, entry: BridgeEntry) -> bool:
         """Return whether nothing in Gazebo publishes what a bridge passes, where all is known."""
-        is_known = self.is_whole and self.knows_systems and not self.unknown_topics
+        is_known = self.is_whole and self.knows_world and not self.unknown_topics
         return bool(is_known and self.robots and not self.topics_of(entry))
 
     @cached_property
     def unknown_topics(self) -> str:
-        """Reason why models may have more topics than those that are known; else empty."""
+        """Reason why models may have more topics than those that are known; else empty.
+
+        What a world includes may have more, too: see `knows_world`.
+        """
         reasons = [*self.unknown_robots, *self.unknown_worlds]
         reasons += filter(None, map(unknown_owner, self.models))
-        reasons += [
-            f"{uri.value} is not available" for world in self.worlds for uri in world.unknown
-        ]
         return next(iter(reasons), "")
 
     @property
-    def knows_systems(self) -> bool:
-        """True if the systems of the world itself have only the usual topics."""
+    def knows_world(self) -> bool:
+        """True if all models of the world are available, and its systems have no own topics."""
+        if any(world.unknown for world in self.worlds):
+            return False
         plugins = (plugin for world in self.worlds for plugin in world.plugins)
         return all(is_silent(plugin) for plugin in plugins)
 
@@ -167,6 +171,12 @@ class Simulations(Record, eq=False):
     def all(self) -> tuple[Simulation, ...]:
         """Those of launch files first."""
         return (*self.launched, self.loose)
+
+    def given(self, robot: Robot) -> list[Robot]:
+        """Return a robot as launch files give it to Gazebo, each with its own arguments."""
+        file = robot.document.source.file
+        spawned = (it for each in self.launched for it in (*each.robots, *each.classic_robots))
+        return [it.robot for it in spawned if it.robot.document.source.file == file]
 
 
 def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedReader) -> Simulations:

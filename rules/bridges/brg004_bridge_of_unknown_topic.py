@@ -5,7 +5,8 @@ topics begin with the names of the world and the model in Gazebo. The argument `
 spawning program sets the name of the model.
 
 The rule needs all robots that the launch file spawns. It reports a topic if everything that the
-launch file starts is known, or if the robot has a topic with this message that is not bridged.
+launch file starts is known, or if the robot has a topic with this message that is not bridged,
+whatever models of the world are not available.
 Topics in the robot's files that an argument switches off are skipped.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
@@ -16,6 +17,7 @@ import posixpath
 import re
 from collections.abc import Iterable
 
+from checker.base.resources import table
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.bridges.entry import BridgeEntry
 from checker.package.package import Package
@@ -39,7 +41,7 @@ def check(package: Package, simulations: Simulations) -> Findings:
     It is an error if several bridges, and no other ones, are for the robot's topics.
     """
     for simulation in simulations.launched:
-        if not simulation.topics or simulation.unknown_topics:
+        if simulation.unknown_topics:
             continue
         entries = [it for it in simulation.entries if it.gz_topic and it.counts]
         own = [it for it in entries if not _OF_THE_WORLD.match(it.gz_topic)]
@@ -60,10 +62,10 @@ def _fault(package: Package, simulation: Simulation, entry: BridgeEntry) -> str:
     if _may_be_of_user(entry) or _is_written(package, simulation, entry):
         return ""
     hint = _instead(simulation, entry)
-    whole = simulation.is_whole and simulation.knows_systems
+    whole = simulation.is_whole and simulation.knows_world
     if not hint and not (simulation.robots and whole):
         return ""
-    return f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}"
+    return f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint or _lacking(entry)}"
 
 
 def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:
@@ -108,6 +110,18 @@ def _instead(simulation: Simulation, entry: BridgeEntry) -> str:
     return ""
 
 
+def _lacking(entry: BridgeEntry) -> str:
+    """Return the system that has such a topic, if only one does: the robot lacks it."""
+    last = posixpath.basename(entry.gz_topic)
+    systems = [
+        system
+        for system, topics in table("simulated_topics")["plugins"].items()
+        for topic, _, messages, _ in topics
+        if posixpath.basename(topic) == last and entry.gz_name in messages
+    ]
+    return f"; the system {systems[0]} would have it" if len(systems) == 1 else ""
+
+
 def _other_name(
     simulation: Simulation, entry: BridgeEntry, behind: Iterable[SimulatedTopic]
 ) -> str:
@@ -143,6 +157,13 @@ def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
 _SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
 _ODOMETRY = ("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
 _MARK = "  # ^ BRG004"
+_STATES = ("sensor_msgs/msg/JointState", "gz.msgs.Model")
+_FUEL = {
+    "@launch": {'("gz_args", "-r empty.sdf")': '("gz_args", ["-r ", HERE, "/yard.sdf"])'},
+    "yard.sdf": """<sdf version="1.9"><world name="yard"><include>
+  <uri>https://fuel.gazebosim.org/1.0/acme/models/Barrel</uri>
+</include></world></sdf>""",
+}
 _MAST = "<robot><sensor><topic>${ns}/lidar</topic></sensor></robot>"
 _INCLUDE = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:include filename="mast.xacro"/>
@@ -160,10 +181,13 @@ GOOD = [
         **_entry("/model/other/odometry", *_ODOMETRY),
         "@launch": {'"-name", "rover"': '"-name", LaunchConfiguration("name")'},
     },
+    {**_entry("/barrel/weight", "geometry_msgs/msg/Wrench", "gz.msgs.Wrench"), **_FUEL},
 ]
 BAD = [
     _entry("/lidar", *_SCAN, _MARK),
     {**_entry("/lidar", *_SCAN, _MARK), "urdf/mast.xacro": _MAST},
     _entry("/odom", *_ODOMETRY, _MARK),
     _entry("/model/my_rover/odometry", *_ODOMETRY, _MARK),
+    _entry("/world/empty/model/rover/joint_state", *_STATES, _MARK),
+    {**_entry("/lidar", *_SCAN, _MARK), **_FUEL},
 ]

@@ -70,9 +70,11 @@ _MARK = "  # ^ BRG011"
 _CONTROL = "ros_gz_interfaces/srv/ControlWorld"
 
 
-def _service(ros_type: str = _CONTROL, gz: str = "gz.msgs.WorldControl") -> dict[str, object]:
+def _service(
+    ros_type: str = _CONTROL, gz: str = "gz.msgs.WorldControl", name: str = "/world/empty/control"
+) -> dict[str, object]:
     return {
-        "@bridge": "- service_name: /world/hall/control\n"
+        "@bridge": f"- service_name: {name}\n"
         f"  ros_type_name: {ros_type}\n  gz_req_type_name: {gz}\n"
         "  gz_rep_type_name: gz.msgs.Boolean\n"
     }
@@ -99,5 +101,6 @@ BAD = [
     _service(f"ros_gz_interfaces/srv/control_world{_MARK}"),
     _service(f"std_srvs/srv/Empty{_MARK}"),
     _service(gz=f"gz.msgs.Boolean{_MARK}"),
+    _service(name=f"/world/hall/control{_MARK}"),
     _argument(f"/world/default/control@{_CONTROL}", _MARK),
 ]

@@ -29,6 +29,7 @@ from checker.model.tree import WORLD, Tie
 from checker.physics.mass.arm_loads import load_bounds
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import append_to
 
@@ -40,7 +41,7 @@ _IN_WATER = ("thruster", "buoyan", "hydrodynamic")
 
 
 @rule("KIN021", "arm-not-fixed-to-world", Severity.WARNING, Concern.ROBOT)
-def check(masses: MassProperties, *, hinges: int = 2) -> Findings:
+def check(masses: MassProperties, simulations: Simulations | None, *, hinges: int = 2) -> Findings:
     """Report arms that are free to fall over, at their root link.
 
     Options:
@@ -49,7 +50,8 @@ def check(masses: MassProperties, *, hinges: int = 2) -> Findings:
             one.
     """
     robot = masses.robot
-    root = _loose_root(robot)
+    is_spawned = simulations is not None and bool(simulations.given(robot))
+    root = _loose_root(robot) if is_spawned or robot.is_for_gazebo else ""
     chain = list(_chain(robot, root)) if root else []
     lifting = [it for it in chain if it.type.value in _HINGES and _lifts(robot, it)]
     if len(lifting) < hinges or not masses.standing <= robot.tree.base:
@@ -77,9 +79,8 @@ def _loose_root(robot: Robot) -> str:
     tree = robot.tree
     roots = [name for name in tree.links if name not in tree.ties_above]
     is_held = robot.is_static or any(tie.parent == WORLD for tie in tree.ties)
-    is_used = robot.is_for_gazebo and not robot.shown_only
     moves = robot.drives or robot.flies or looks_legged(robot) or robot.balances
-    if len(roots) != 1 or is_held or not is_used or moves or any(map(_carries, _names(robot))):
+    if len(roots) != 1 or is_held or robot.shown_only or moves or any(map(_carries, _names(robot))):
         return ""
     return "" if any(map(body_velocity, robot.plugins)) else roots[0]
 

@@ -49,7 +49,7 @@ def check(robot: Robot, package: Package, simulations: Simulations | None) -> Fi
     held = [it for it in robot.tree.ties if it.parent == WORLD and it.joint.type.value == "fixed"]
     if not held or robot.is_static:
         return
-    spawned = _spawned(robot, simulations)
+    spawned = simulations.given(robot) if simulations is not None else []
     if spawned and not any(it.tree.links_fixed_to_world for it in spawned):
         return
     wheels = sorted(repr(wheel.link.name.value) for wheel in _wheels_on_ground(robot))
@@ -64,13 +64,6 @@ def check(robot: Robot, package: Package, simulations: Simulations | None) -> Fi
             f"ground; remove the joint",
             severity=Severity.ERROR if spawned or ros_1 else None,
         )
-
-
-def _spawned(robot: Robot, simulations: Simulations | None) -> list[Robot]:
-    """Return a robot as launch files of ROS 2 give it to Gazebo."""
-    launched = simulations.launched if simulations is not None else ()
-    given = (each.robot for it in launched for each in (*it.robots, *it.classic_robots))
-    return [it for it in given if it.document.source.file == robot.document.source.file]
 
 
 def _wheels_on_ground(robot: Robot) -> Iterator[Wheel]:
