@@ -256,8 +256,13 @@ CASES: list[tuple[str, Example, str]] = [
     ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),
     (
         "INE006",
-        {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
+        {"@fragment": BRACKET.format(mass=20, shape=CUBE_MESH), **DRAWN_CUBE},
         "info",
+    ),
+    (
+        "INE006",
+        {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
+        "warning",
     ),
     ("URD006", {"@urdf": LOST.format("<mu1>0.9</mu1><mu2>1.2</mu2><kp>1e6</kp>")}, "warning"),
     ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "error"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
 
 from checker.base.record import Record
@@ -27,6 +28,8 @@ from checker.ros.simulated_topics import (
 from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedReader, SpawnedRobot
 from checker.ros.topics import comparable
 from checker.ros.unread import unread_parts
+
+_OF_WORLD = re.compile(r"/world/([^/]{1,200})/")
 
 
 class Simulation(Record, eq=False, dict=True):
@@ -118,6 +121,17 @@ class Simulation(Record, eq=False, dict=True):
         own = (server.own_world for server in self.servers)
         names += [file.removesuffix(".sdf") for file in own if file]
         return frozenset(names) if all(names) and not self.unknown_worlds else frozenset()
+
+    def missing_world(self, name: str) -> str:
+        """Return the world of a topic or service that the launch file does not load; else empty.
+
+        Args:
+            name: `/world/yard/clock`.
+        """
+        named = _OF_WORLD.match(f"/{name.strip('/')}")
+        if named is None or not self.is_whole or not self.world_names:
+            return ""
+        return named.group(1) if named.group(1) not in self.world_names else ""
 
     def topics_of(self, entry: BridgeEntry) -> list[SimulatedTopic]:
         """Return what is behind the topic of a bridge, whatever world and model are called."""

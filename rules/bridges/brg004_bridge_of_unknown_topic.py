@@ -15,7 +15,7 @@ Source: gz-sensors and Gazebo's systems, their default topics.
 
 import posixpath
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from checker.base.resources import table
 from checker.launch.ros1.bridge import Direction
@@ -28,6 +28,7 @@ from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 _OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
+_CLOCK = "Clock"
 _FILES_LIMIT = 100
 _SEVERAL = 2
 _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
@@ -38,7 +39,8 @@ _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empt
 def check(package: Package, simulations: Simulations) -> Findings:
     """Report topics that no robot, model or world has, if all of them are known.
 
-    It is an error if several bridges, and no other ones, are for the robot's topics.
+    It is an error if several bridges, and no other ones, are for the robot's topics, and for the
+    clock of another world.
     """
     for simulation in simulations.launched:
         if simulation.unknown_topics:
@@ -47,10 +49,22 @@ def check(package: Package, simulations: Simulations) -> Findings:
         own = [it for it in entries if not _OF_THE_WORLD.match(it.gz_topic)]
         faults = [(it, fault) for it in own if (fault := _fault(package, simulation, it))]
         in_vain = len(faults) == len(own) >= _SEVERAL
-        for entry, fault in faults:
+        for entry, fault in (*faults, *_of_other_worlds(simulation, entries)):
+            is_grave = in_vain or entry.gz_name == _CLOCK
             yield finding(
-                entry.passed.gz_topic, fault, severity=Severity.ERROR if in_vain else None
+                entry.passed.gz_topic, fault, severity=Severity.ERROR if is_grave else None
             )
+
+
+def _of_other_worlds(
+    simulation: Simulation, entries: Iterable[BridgeEntry]
+) -> Iterator[tuple[BridgeEntry, str]]:
+    """Yield the bridges of topics of a world that the launch file does not load."""
+    for entry in entries:
+        missing = simulation.missing_world(entry.gz_topic)
+        if missing and _OF_THE_WORLD.match(entry.gz_topic):
+            worlds = ", ".join(sorted(simulation.world_names))
+            yield entry, f"{entry.gz_topic}: there is no world {missing!r}; expected {worlds}"
 
 
 def _fault(package: Package, simulation: Simulation, entry: BridgeEntry) -> str:
@@ -185,6 +199,7 @@ GOOD = [
 ]
 BAD = [
     _entry("/lidar", *_SCAN, _MARK),
+    _entry("/world/yard/clock", "rosgraph_msgs/msg/Clock", "gz.msgs.Clock", _MARK),
     {**_entry("/lidar", *_SCAN, _MARK), "urdf/mast.xacro": _MAST},
     _entry("/odom", *_ODOMETRY, _MARK),
     _entry("/model/my_rover/odometry", *_ODOMETRY, _MARK),

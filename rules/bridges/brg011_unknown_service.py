@@ -9,7 +9,6 @@ Fix: write the type as the message names it, and the name of the world in its fi
 Source: ros_gz_bridge, mappings.py and `create_service_bridge`.
 """
 
-import re
 from collections.abc import Iterator
 
 from checker.base.words import and_list
@@ -18,8 +17,6 @@ from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import meant_service, service_messages
 from checker.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
-
-_OF_WORLD = re.compile(r"/world/([^/]{1,200})/")
 
 
 @rule("BRG011", "unknown-service", Severity.ERROR, Concern.INTERFACE)
@@ -55,13 +52,12 @@ def _types(service: BridgedService) -> Iterator[Finding]:
 
 def _world(service: BridgedService, simulation: Simulation) -> Iterator[Finding]:
     """Report a service of a world of another name than those that the launch file loads."""
-    named = _OF_WORLD.match(f"/{service.name.value.strip('/')}")
-    worlds = simulation.world_names
-    if named and worlds and named.group(1) not in worlds and simulation.is_whole:
+    missing = simulation.missing_world(service.name.value)
+    if missing:
         yield finding(
             service.name,
-            f"the service is of the world {named.group(1)!r}, but the launch file loads "
-            f"{and_list([*sorted(worlds)])}",
+            f"the service is of the world {missing!r}, but the launch file loads "
+            f"{and_list(sorted(simulation.world_names))}",
             severity=Severity.WARNING,
         )
 
