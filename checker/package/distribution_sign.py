@@ -63,9 +63,15 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 def former_distribution(package: Package) -> str:
     """Return the clause that a package is for a distribution before Humble; else empty."""
     sign = package.distribution_sign
-    if sign is None or sign.distro not in _BEFORE_HUMBLE:
+    if sign is None or not former_name(package):
         return ""
     return f"{sign.words}, whose packages are not known"
+
+
+def former_name(package: Package) -> str:
+    """Return the distribution before Humble that a package is for: `foxy`; else empty."""
+    sign = package.distribution_sign
+    return sign.distro if sign is not None and sign.distro in _BEFORE_HUMBLE else ""
 
 
 def sign_of_paths(package: Package) -> DistributionSign | None:

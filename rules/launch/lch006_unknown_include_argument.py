@@ -1,8 +1,9 @@
 """An argument that the included launch file neither declares nor uses.
 
 It is accepted without a message and has no effect: with a misspelt name, the default is used. The
-usual launch files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are checked too;
-other files that are not available, and files that include such files, are not.
+usual launch files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are checked too,
+except in packages for Foxy and Galactic, whose arguments have other names; other files that are not
+available, and files that include such files, are not.
 
 Fix: correct the name, or leave the argument out.
 Source: launch, `IncludeLaunchDescription`: arguments become configurations, declared or not;
@@ -10,16 +11,20 @@ navigation2, slam_toolbox and ros_gz, humble to lyrical: arguments of their laun
 """
 
 from checker.base.words import Suggestions
-from checker.launch.ros2.graph import Ros2Launch, display_path
+from checker.launch.ros2.graph import Include, Ros2Launch, display_path
+from checker.launch.ros2.known_files import known_file
+from checker.package.distribution_sign import former_name
+from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("LCH006", "unknown-include-argument", Severity.INFO, Concern.INTERFACE)
-def check(launch: Ros2Launch) -> Findings:
+def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report arguments of includes that the included file does not use."""
+    is_former = bool(former_name(package))
     for graph in launch.entries:
         for include in graph.includes:
-            if include.accepts is None:
+            if include.accepts is None or (is_former and _is_of_others(include)):
                 continue
             names = Suggestions(include.accepts)
             for name, value in include.arguments.items():
@@ -31,6 +36,11 @@ def check(launch: Ros2Launch) -> Findings:
                         f"nor uses argument {name!r}{names.hint(name)}",
                         severity=Severity.WARNING if near else None,
                     )
+
+
+def _is_of_others(include: Include) -> bool:
+    """Return whether the arguments of a file are those of Humble and later distributions."""
+    return bool(include.reason) and known_file(include.target.value) is not None
 
 
 _OTHER = """<launch>
@@ -57,6 +67,11 @@ GOOD = [
     {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "graph")},
     {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "a").replace("bringup_", "a_")},
     {"@ros2": True, "launch/view.launch.xml": _OTHER, "launch/all.launch.xml": _INCLUDE},
+    {
+        "@ros2": True,
+        "README.md": "Tested with ROS 2 Foxy.\n",
+        "launch/all.launch.xml": _NAV2.replace("@", "map_file"),
+    },
     {
         "@ros2": True,
         "launch/view.launch.xml": _OTHER.replace(
