@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache, cached_property
 from itertools import takewhile
 from types import MappingProxyType
@@ -91,6 +91,24 @@ def _is_one_slip(name: str, known: str) -> bool:
     rest = name[begin : len(name) - end], known[begin : len(known) - end]
     is_swap = len(rest[0]) == 2 and rest[0] == rest[1][::-1]
     return is_swap or max(map(len, rest)) <= 1
+
+
+def slip_of(name: str, known: Iterable[str]) -> str | None:
+    """Return the one of the packages beside a package of which a name is a misspelling.
+
+    Neighbouring letters may be in the wrong order, or one be missing or too many. Packages that lie
+    side by side often differ in a digit or in one letter on purpose.
+    """
+    near = [
+        other
+        for other in known
+        if len(name) >= _SHORTEST
+        and name[:_PREFIX] == other[:_PREFIX]
+        and _is_one_slip(name, other)
+        if sorted(name) == sorted(other) or len(name) != len(other)
+        if [*filter(str.isdigit, name)] == [*filter(str.isdigit, other)]
+    ]
+    return near[0] if len(near) == 1 else None
 
 
 @cache

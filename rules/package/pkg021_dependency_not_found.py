@@ -6,7 +6,9 @@ the distribution that the package names, and one that never was a package: `ros2
 program of controller_manager, `ament_python` a build type, and `opencv-python` a name of pip, for
 which rosdep has `python3-opencv`. Other names are infos: the package
 may be built from source that is not available here, for example if only an older distribution has
-released it. Dependencies with a `condition` are skipped.
+released it. Of Foxy and Galactic it is not known what they have released: in packages for these,
+only names that they are known not to have are reported. Dependencies with a `condition` are
+skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and document that in the
 README.
@@ -15,9 +17,10 @@ ros2/ros2cli#428 and ros2/ros2_documentation#508, about `ament_python`;
 DoosanRobotics/doosan-robot2#188 and autowarefoundation/vision_pilot#370, about Eigen3 and opencv.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from checker.base.resources import table
+from checker.package.distribution_sign import former_name
 from checker.package.manifests import Dependency, Paperwork
 from checker.package.package import Package
 from checker.package.released import (
@@ -25,6 +28,7 @@ from checker.package.released import (
     distributions_with,
     is_listed,
     is_of_system,
+    slip_of,
 )
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 
@@ -34,10 +38,13 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Report misspelt names one by one, and the others in one finding."""
     if paperwork.manifest is None or not is_listed(context.distro):
         return
+    former, beside = former_name(package), package.workspace.packages
+    distro = former or context.distro
     absent = [
         dependency
         for dependency in paperwork.manifest.dependencies
         if not dependency.is_conditional and not _is_found(package, dependency, context.distro)
+        if not former or _never_had(dependency.package.value, beside)
     ]
     names, seen, others = ReleasedNames(context.distro), set[str](), list[Dependency]()
     for dependency in absent:
@@ -49,18 +56,17 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             declared = paperwork.manifest.depends_on(mistaken.get("instead", ""))
             yield _no_package(dependency, mistaken, declared=declared)
             continue
-        meant = None if distributions_with(name) else names.correction_of(name)
-        if meant is None:
+        meant = slip_of(name, beside) or names.correction_of(name)
+        if meant is None or distributions_with(name):
             others.append(dependency)
         else:
             yield finding(
                 dependency.package,
-                f"neither {context.distro.capitalize()} nor rosdep has {name!r}; did you mean "
-                f"{meant!r}?",
+                f"neither {distro.capitalize()} nor rosdep has {name!r}; did you mean {meant!r}?",
                 key=name,
                 fix=rename(dependency.package, meant),
             )
-    yield from _elsewhere(others, context)
+    yield from _elsewhere(others, context, distro)
 
 
 def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
@@ -71,6 +77,14 @@ def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
         or is_of_system(name)
         or package.workspace.package(name) is not None
     )
+
+
+def _never_had(name: str, beside: Iterable[str]) -> bool:
+    """Return whether it is known that no distribution before Humble had a package, either."""
+    names = table("removed_packages")
+    removed = names["names"].get(name, {"before_humble": True})
+    is_older = removed.get("before_humble", False)
+    return not is_older or name in names["no_packages"] or slip_of(name, beside) is not None
 
 
 def _no_package(dependency: Dependency, mistaken: Mapping[str, str], *, declared: bool) -> Finding:
@@ -87,7 +101,7 @@ def _no_package(dependency: Dependency, mistaken: Mapping[str, str], *, declared
     )
 
 
-def _elsewhere(dependencies: list[Dependency], context: Context) -> Iterator[Finding]:
+def _elsewhere(dependencies: list[Dependency], context: Context, distro: str) -> Iterator[Finding]:
     if dependencies:
         first, *others = dependencies
         names = ", ".join(map(_package_phrase, dependencies))
@@ -98,7 +112,7 @@ def _elsewhere(dependencies: list[Dependency], context: Context) -> Iterator[Fin
         )
         yield finding(
             first.package,
-            f"ROS 2 {context.distro.capitalize()} and rosdep have no {noun} {names}: "
+            f"ROS 2 {distro.capitalize()} and rosdep have no {noun} {names}: "
             "expected in the workspace",
             severity=Severity.WARNING if replaced else Severity.INFO,
             related=[(other.package, "and this") for other in others],
@@ -140,6 +154,10 @@ GOOD = [
     _package('<depend condition="$ROS_VERSION == 1">roscpp</depend>'),
     {**_package("<depend>rclcpp</depend>"), "Dockerfile": "FROM ros:iron\n"},
     {
+        **_package("<depend>joint_state_controller</depend><depend>acme_msgs</depend>"),
+        "README.md": "Tested with ROS 2 Foxy.\n",
+    },
+    {
         **_package("<depend>acme_msgs</depend>"),
         "../acme_msgs/package.xml": "<package><name>acme_msgs</name></package>",
     },
@@ -148,7 +166,16 @@ BAD = [
     _package(f"<exec_depend>forward_position_controller</exec_depend>{_MARK}"),
     _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
+    {
+        **_package(f"<exec_depend>acme_tolos</exec_depend>{_MARK}"),
+        "../acme_tools/package.xml": "<package><name>acme_tools</name></package>",
+        "README.md": "Tested with ROS 2 Foxy.\n",
+    },
     _package(f"<exec_depend>rviz</exec_depend>{_MARK}"),
+    {
+        **_package(f"<exec_depend>rviz</exec_depend>{_MARK}"),
+        "README.md": "Tested with ROS 2 Galactic.\n",
+    },
     _package(f"<exec_depend>ros2_control_node</exec_depend>{_MARK}"),
     _package(f"<buildtool_depend>ament_python</buildtool_depend>{_MARK}"),
     _package(f"<depend>OpenCV</depend>{_MARK}"),
