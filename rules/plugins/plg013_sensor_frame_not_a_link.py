@@ -7,7 +7,8 @@ mapping and navigation drop the messages.
 It is reported for descriptions in URDF, and plugins that publish what their sensor measures. Frames
 that a launch file or a program of the package publishes are right, and so are links of another
 description that is loaded. Names with a namespace are not judged, nor any name where a launch file
-sets `frame_prefix`.
+sets `frame_prefix`. The frame of the link `/lens` is `lens`: tf2 removes a slash in front from each
+transform that it gets, and refuses to look up a frame that begins with one.
 
 Fix: write the name of the link; of a camera, that of its optical link.
 Source: gazebo_ros, `SensorFrameID`; BRG009 reports the same in Gazebo Sim.
@@ -20,6 +21,7 @@ from checker.base.words import Suggestions
 from checker.launch.ros2.graph import is_known
 from checker.model.components import Sensor
 from checker.model.robot import Robot
+from checker.model.sensing.kind import frame_of
 from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.robots.urdf_files import UrdfFiles
@@ -40,13 +42,16 @@ def check(robot: Robot, files: UrdfFiles, package: Package, context: Context) ->
     if package.workspace.launches_with("frame_prefix"):
         return
     robots = (robot, *(it.robot for it in files.descriptions if not it.unloaded))
-    links = {*_OF_EVERY_ROBOT, *(name for each in robots for name in each.links_by_name)}
-    suggestions = Suggestions(sorted(robot.links_by_name))
+    links = {
+        *_OF_EVERY_ROBOT,
+        *map(frame_of, (link for each in robots for link in each.links_by_name)),
+    }
+    suggestions = Suggestions(sorted(map(frame_of, robot.links_by_name)))
     for sensor, frame in _stated_frames(robot):
         name = frame.value.strip()
         if name in links or "/" in name or not is_known(name) or _is_published(package, name):
             continue
-        meant = suggestions.closest(name) or sensor.link
+        meant = suggestions.closest(name) or frame_of(sensor.link)
         yield finding(
             frame,
             f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in the frame "
@@ -93,7 +98,17 @@ _STATIC = """<launch><node pkg="tf2_ros" exec="static_transform_publisher"
   args="0 0 0 0 0 0 upper_arm lens"/></launch>
 """
 _MARK = "  <!-- ^ PLG013 -->"
+_SLASH = {
+    **_lidar("lens"),
+    "@urdf": """  <link name="/lens"/>
+  <joint name="lens_joint" type="fixed">
+    <parent link="upper_arm"/><child link="/lens"/>
+  </joint>
+"""
+    + str(_lidar("lens")["@urdf"]),
+}
 GOOD = [
+    _SLASH,
     _lidar("upper_arm"),
     _lidar("arm_1/lens"),
     _lidar("lens", plugin="camera"),

@@ -80,13 +80,29 @@ def frame_elements(release: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*first, "gz_frame_id", "ignition_frame_id", "frame_id")))
 
 
+_CAMERA_INFO_ONLY = ("citadel", "dome", "fortress")
+"""Releases that write the optical frame into camera_info only."""
+
+
 def stated_frame(sensor: Element, release: str) -> Located[str] | None:
-    """Return the frame that a sensor states, in the spelling of whichever release."""
+    """Return the frame that a sensor states, in the spelling of whichever release.
+
+    From Garden on, the messages of a camera are in its `<optical_frame_id>`, if it has one.
+    """
+    camera = sensor.child("camera") if release not in _CAMERA_INFO_ONLY else None
+    optical = camera.child("optical_frame_id") if camera is not None else None
+    if optical is not None and optical.text.value.strip():
+        return optical.text
     for name in frame_elements(release):
         child = sensor.child(name)
         if child is not None and child.text.value.strip():
             return child.text
     return None
+
+
+def frame_of(link: str) -> str:
+    """Return the frame of a link: tf2 removes one slash in front."""
+    return link.removeprefix("/")
 
 
 def _spellings(entries: list[dict[str, list[str]]]) -> frozenset[str]:
@@ -106,6 +122,7 @@ class SensorType(enum.StrEnum):
     CPU_LIDAR = "lidar"
     IMU = "imu"
     MAGNETOMETER = "magnetometer"
+    NAVSAT = "navsat"
     AIR_PRESSURE = "air_pressure"
     ALTIMETER = "altimeter"
     CONTACT = "contact"
