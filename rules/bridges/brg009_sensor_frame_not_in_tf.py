@@ -3,12 +3,14 @@
 Unless the sensor states the frame of its messages, Gazebo calls it `<model>::<link>::<sensor>`, and
 the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher publishes the links under
 their own names: RViz shows nothing, and mapping and navigation drop the messages. It is reported
-for lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
-same description, unless a launch file of the workspace names the frame.
+for lidars, cameras, IMUs, magnetometers and receivers of satellite navigation that the launch file
+bridges, of a robot whose transforms come from the same description, unless a launch file of the
+workspace names the frame. From Garden on, `<optical_frame_id>` of a `<camera>` names it too.
 
 Fix: write `<gz_frame_id>` (in Fortress `<ignition_frame_id>`, from Ionic on `<frame_id>`) with the
 name of the link into the sensor; of a camera, that of its optical link.
-Source: gz-sensors, frame of messages; ros_gz_project_template issue 23, gz-sensors issue 306.
+Source: gz-sensors, frame of messages and CameraSensor::OpticalFrameId;
+ros_gz_project_template issue 23, gz-sensors issue 306.
 """
 
 from checker.finding import Fix
@@ -17,7 +19,7 @@ from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.sensing.kind import SensorType, frame_elements, stated_frame
+from checker.model.sensing.kind import SensorType, frame_elements, frame_of, stated_frame
 from checker.package.package import Package
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot
@@ -26,6 +28,7 @@ from checker.source.xml_insertion import append_to
 
 _STATIC = ("static_transform_publisher", "tf2_ros::StaticTransformBroadcasterNode")
 _PUBLISHES_POSES = "PosePublisher"
+_WITH_FRAME = (SensorType.IMU, SensorType.MAGNETOMETER, SensorType.NAVSAT)
 
 
 @rule("BRG009", "sensor-frame-not-in-tf", Severity.WARNING, Concern.INTERFACE)
@@ -63,7 +66,8 @@ def _frame(sensor: Sensor, robot: Robot) -> str:
     below = (tie for tie in robot.tree.ties if tie.parent == sensor.link)
     fixed = [tie.child for tie in below if tie.joint.type.value == "fixed"]
     optical = [name for name in fixed if "optical" in name.lower()]
-    return optical[0] if len(optical) == 1 and sensor.kind.takes_pictures else sensor.link
+    shows = len(optical) == 1 and sensor.kind.takes_pictures
+    return frame_of(optical[0] if shows else sensor.link)
 
 
 def _stated(sensor: Sensor, line: str, frame: str) -> Fix | None:
@@ -95,7 +99,7 @@ def _is_unknown_static(node: Node) -> bool:
 
 
 def _counts(sensor: Sensor) -> bool:
-    return sensor.kind.is_lidar or sensor.kind.takes_pictures or sensor.kind is SensorType.IMU
+    return sensor.kind.is_lidar or sensor.kind.takes_pictures or sensor.kind in _WITH_FRAME
 
 
 def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
@@ -109,7 +113,8 @@ def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
 
 def _is_unknown(frame: str, spawned: SpawnedRobot) -> bool:
     name = frame.strip()
-    return is_known(name) and "/" not in name and name not in spawned.robot.links_by_name
+    links = map(frame_of, spawned.robot.links_by_name)
+    return is_known(name) and "/" not in name and name not in links
 
 
 _FRAME = "<gz_frame_id>lidar_link</gz_frame_id>"
@@ -135,6 +140,23 @@ _ROVER = f"""<robot name="rover">
   </gazebo>
 </robot>
 """
+_MAGNETOMETER = '<sensor name="compass" type="magnetometer">'
+_PASSED = """- topic_name: /{}
+  ros_type_name: sensor_msgs/msg/{}
+  gz_type_name: gz.msgs.{}
+  direction: GZ_TO_ROS
+"""
+
+
+def _other(sensor: str, inside: str, *passed: str, mark: str = "") -> dict[str, object]:
+    """Return a rover with a sensor that a bridge passes: its topic and both messages."""
+    text = _ROVER.replace(_FRAME, inside).replace(_SENSOR, sensor + mark)
+    return {"@bridge": _PASSED.format(*passed), "urdf/rover.urdf": text}
+
+
+_CAMERA = '<sensor name="camera" type="camera">'
+_IMAGE = ("scan", "Image", "Image")
+_OPTICAL = "<camera><optical_frame_id>{}</optical_frame_id></camera>".format
 _PUBLISHED = """Node(package="tf2_ros", executable="static_transform_publisher",
   arguments=["0", "0", "0", "0", "0", "0", "lidar_link", "rover/base_link/lidar"]),
 """
@@ -149,9 +171,22 @@ GOOD = [
     {**_rover(""), "@launch": {'executable="robot_state_publisher"': 'executable="other"'}},
     {**_rover(""), "@bridge": "[]\n"},
     {**_rover(""), "launch/slam.launch.xml": _ELSEWHERE},
+    _other(_CAMERA, _OPTICAL("lidar_link"), *_IMAGE),
+    _other(_MAGNETOMETER, _FRAME, "scan", "MagneticField", "Magnetometer"),
+    {"@bridge": True, "urdf/rover.urdf": _ROVER.replace('"lidar_link"', '"/lidar_link"')},
 ]
 BAD = [
     _rover("", " <!-- ^ BRG009 -->"),
     _rover("<gz_frame_id>laser</gz_frame_id> <!-- ^ BRG009 -->"),
     {**_rover("", " <!-- ^ BRG009 -->"), "@launch": _OTHER},
+    _other(_CAMERA, _OPTICAL("lens") + " <!-- ^ BRG009 -->", *_IMAGE),
+    _other(_MAGNETOMETER, "", "scan", "MagneticField", "Magnetometer", mark=" <!-- ^ BRG009 -->"),
+    _other(
+        '<sensor name="gnss" type="navsat">',
+        "",
+        "scan",
+        "NavSatFix",
+        "NavSat",
+        mark=" <!-- ^ BRG009 -->",
+    ),
 ]

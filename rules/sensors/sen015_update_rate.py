@@ -14,7 +14,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
-EXEMPT = (SensorType.CONTACT, SensorType.OTHER)
+EXEMPT = (SensorType.CONTACT, SensorType.NAVSAT, SensorType.OTHER)
 """Sensors that measure on events, and those that SEN001 reports."""
 CHEAP = (
     SensorType.IMU,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from checker.finding import Edit, Severity
-from checker.model.sensing.kind import sensor_types
+from checker.model.sensing.kind import sensor_types, stated_frame
 from checker.rule import Context, Finding
 from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
@@ -99,3 +99,17 @@ def test_the_fix_renames_the_type_and_the_element(
     whole = mended(f"{before}{text}</link></model></sdf>", found.fix.edits)
     expected = LIDAR.format(after).replace("ray>", "lidar>")
     assert whole == f"{before}{expected}</link></model></sdf>"
+
+
+@pytest.mark.parametrize(
+    ("release", "frame"),
+    [("fortress", "body"), ("harmonic", "lens"), ("ionic", "lens"), ("", "lens")],
+)
+def test_a_camera_is_in_its_optical_frame_from_garden_on(release: str, frame: str) -> None:
+    camera = """<sensor name="eye" type="camera">
+  <gz_frame_id>body</gz_frame_id>
+  <camera><optical_frame_id>lens</optical_frame_id></camera>
+</sensor>"""
+    stated = stated_frame(sdf(f'<link name="body">{camera}</link>').sensors[0].element, release)
+    assert stated is not None
+    assert stated.value == frame
