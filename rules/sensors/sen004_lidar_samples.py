@@ -1,10 +1,10 @@
 """A lidar whose samples per row differ from those of the real device at this rate.
 
 The model sees more or fewer points than the real robot, and too many slow down the simulation of
-all robots. A VLP-16 measures 1800 points per row at 10 Hz and 900 at 20 Hz. The number 10000 comes
-from an old template, together with a scan resolution of 0.1, and was copied into many robots. A
-lidar that scans only part of a turn may have a proportional number of samples. If the device's
-figure was never compared with a datasheet, the finding is an info.
+all robots. A VLP-16 measures 1800 to 1875 points per row at 10 Hz and 900 at 20 Hz. The number
+10000 comes from an old template, together with a scan resolution of 0.1, and was copied into many
+robots. A lidar that scans only part of a turn may have a proportional number of samples. If the
+device's figure was never compared with a datasheet, the finding is an info.
 
 Fix: write the number of samples that the device measures at the model's `<update_rate>`.
 Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json` has
@@ -143,6 +143,7 @@ _SHEET = "# Rover\n### Sensors\n* Velodyne VLP-16 lidar, modeled by `gpu_lidar` 
 
 GOOD = [
     _lidar("1800" + _END),
+    _lidar("1875" + _END),
     _lidar("900" + _END, rate=20),
     _lidar("900" + _END, angle=1.5708),
     _lidar("512" + _END, name="os1_lidar"),
