@@ -120,6 +120,8 @@ def test_steering_controllers_in_both_spellings(tmp_path: Path) -> None:
         assert drive.kingpin_width is not None
         assert (drive.wheel_base.value, drive.kingpin_width.value) == (1.0, 0.5)
         assert (drive.wheel_separation.value, drive.wheel_radius.value) == (0.6, 0.1)
+        # The old names are distances of wheels, not of steering joints.
+        assert drive.kingpin_tag == ("steering_track_width" if name == "new" else "")
 
 
 def test_rear_wheels_may_steer(tmp_path: Path) -> None:

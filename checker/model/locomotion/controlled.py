@@ -21,6 +21,8 @@ _TRACTION = ("traction_joints_names", "rear_wheels_names", "traction_joint_name"
 _STEERING = ("steering_joints_names", "front_wheels_names", "steering_joint_name")
 _TRACTION_WIDTH = ("traction_track_width", "rear_wheel_track", "wheel_track")
 _STEERING_WIDTH = ("steering_track_width", "front_wheel_track")
+_OF_WHEELS = ("front_wheel_track", "rear_wheel_track")
+"""Humble's widths, those between wheels. Of the steered axle, its controllers do not use them."""
 _RADIUS = (
     *("traction_wheels_radius", "traction_wheel_radius"),
     *("rear_wheels_radius", "rear_wheel_radius", "wheel_radius"),
@@ -216,6 +218,7 @@ def _steered(named: _Named) -> WheelDrive:
     wheels = named.wheels(Side.LEFT, *names(*_TRACTION), steering=joints)
     radius = named.first(*names(*_RADIUS))
     width = named.first(*names(*_TRACTION_WIDTH))
+    steered = named.first(*names(*_STEERING_WIDTH)) or width
     span = named.controller.span
     # One wheel that steers turns about the middle, as that of a tricycle.
     pair = bool(width) and len(joints) > 1
@@ -232,7 +235,7 @@ def _steered(named: _Named) -> WheelDrive:
         separation_tag=width,
         radius_tag=radius,
         base_tag="wheelbase",
-        kingpin_tag=named.first(*names(*_STEERING_WIDTH)) or width,
+        kingpin_tag="" if steered in _OF_WHEELS else steered,
         slips=False,
     )
 

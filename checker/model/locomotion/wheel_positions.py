@@ -198,7 +198,7 @@ def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     ]
     left, right = ([place for on, place in places if on is side] for side in Side)
     width = _distance(left, right, _LEFT)
-    if width is not None and drive.kingpin_width is not None:
+    if width is not None and drive.kingpin_width is not None and drive.kingpin_tag:
         what = "steering joints"
         yield CountedDistance(
             drive.plugin, drive.kingpin_tag, drive.kingpin_width, width, what, steers=True
