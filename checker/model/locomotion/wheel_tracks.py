@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
+from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.locomotion.wheel_positions import FARTHEST, middle_of
 
@@ -57,9 +59,26 @@ def wheels_out_of_line(robot: Robot, tolerance: float) -> Iterator[OutOfLine]:
                 yield OutOfLine(far.wheel, near.wheel, step, other)
 
 
+_TILTED = 0.1
+"""Radians by which an axle is turned about the vertical on purpose, or by mistake."""
+
+
+def _across(drive: WheelDrive) -> Vector | None:
+    """Return the direction across the robot: along an axle it is wrong by the axle's own tilt."""
+    axis = drive.axis
+    if axis is None:
+        return None
+    x, y, _ = axis
+    if abs(x) <= _TILTED * abs(y):
+        return (0.0, math.copysign(1.0, y), 0.0)
+    if abs(y) <= _TILTED * abs(x):
+        return (math.copysign(1.0, x), 0.0, 0.0)
+    return axis
+
+
 def _in_order(robot: Robot, drive: WheelDrive, side: Side) -> list[_Placed]:
     """Return the wheels of a side whose place is known, along the robot."""
-    if (axis := drive.axis) is None:
+    if (axis := _across(drive)) is None:
         return []
     placed = []
     for wheel in drive.wheels_on(side):
