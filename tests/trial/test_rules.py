@@ -12,6 +12,7 @@ from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.trial import Leg, Measurement, Repair
 from checker.rule import Severity, Unchecked
 from checker.rulebook.discovery import all_rules
+from checker.rulebook.example_parts import rover as example_rover
 from tests.model.robots import sdf
 from tests.trial.driven import rover, said_by, trial_of
 
@@ -110,6 +111,34 @@ def message(id: str, **said: Any) -> str:
     robot = said.pop("robot", None)
     (found,) = said_by(RULES[id], trial_of(**said), robot)
     return found.message
+
+
+@pytest.mark.parametrize(
+    ("lift", "heading", "severity", "words"),
+    [
+        (
+            3e-3,
+            0.001,
+            WARNING,
+            "; wheel 'rr_wheel' is 3 mm above the level of the others: correct ",
+        ),
+        (3e-3, 0.1, ERROR, "the height of 'rr_joint'"),
+        (9e-3, 0.001, ERROR, "; wheel 'rr_wheel' is 9 mm above"),
+        (0.0, 0.001, ERROR, "expected at least 5% of an equal share"),
+    ],
+)
+def test_a_wheel_that_hangs_names_the_one_that_is_off_the_level(
+    lift: float, heading: float, severity: Severity, words: str
+) -> None:
+    text = example_rover().replace(
+        "<pose>-0.2 -0.2 0.1 0 0 0</pose>", f"<pose>-0.2 -0.2 {0.1 + lift} 0 0 0</pose>"
+    )
+    robot = sdf(text[text.index("<link") : text.index("</model>")])
+    hanging = Measurement("load_share", 0.0, "fl_joint")
+    trial = trial_of(hanging, path_sideways=0.0, path_heading=heading)
+    (found,) = said_by(RULES["TRI007"], trial, robot)
+    assert found.severity is severity
+    assert words in found.message
 
 
 def test_speed_that_the_wheel_radius_explains() -> None:
