@@ -4,9 +4,10 @@ TF keeps the last transform that it received. With two publishers of one transfo
 between two places, many times a second; with two parents for one frame the tree is a different one
 each time, and lookups of transforms fail at times. A drive (DiffDrive in Gazebo, a drive plugin of
 Gazebo Classic, a drive controller of ros2_control) and a filter that uses its odometry (`ekf_node`)
-both publish `odom` to the base unless this is switched off in one of them. The joints of the robot
-are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends at
-`base_link` where that is a child of `base_footprint`, is a second transform.
+both publish `odom` to the base unless this is switched off in one of them; `slam_toolbox` and
+`amcl` publish `map` to `odom`, which a `static_transform_publisher` must not. The joints of the
+robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
+at `base_link` where that is a child of `base_footprint`, is a second transform.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.
@@ -16,7 +17,7 @@ Fix: let one of them publish it. With a filter: remove the bridge of Gazebo's tr
 plugin of Gazebo Classic. Without: `publish_tf: false` for the filter. Odometry ends at the root of
 the robot. MoveIt's launch files publish each `<virtual_joint>`: remove one that repeats a joint.
 Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_localization,
-`publish_tf`; ros2_controllers, `enable_odom_tf`.
+`publish_tf`; ros2_controllers, `enable_odom_tf`; slam_toolbox, `transform_publish_period`.
 """
 
 from itertools import combinations
@@ -196,6 +197,29 @@ def _static(words: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "@launch": {_LAUNCHED: _STATIC.replace("@", words).replace("%", mark)}}
 
 
+_SLAM = """<launch>
+  <include file="$(find-pkg-share slam_toolbox)/launch/online_async_launch.py">
+    <arg name="slam_params_file" value="$(find-pkg-share acme_rover_bringup)/config/slam.yaml"/>
+  </include>
+  <node pkg="tf2_ros" exec="static_transform_publisher"
+    args="--frame-id map --child-frame-id odom"/>
+</launch>
+"""
+_SLOW = """slam_toolbox:
+  ros__parameters:
+    transform_publish_period: 0.2  # ^ WIR001
+"""
+
+
+def _mapping(settings: str, mark: str = "") -> dict[str, object]:
+    """Return a launch file that makes a map, and has a static transform of it."""
+    return {
+        "@bridge": True,
+        "launch/slam.launch.xml": _SLAM.replace('_launch.py">', f'_launch.py">{mark}'),
+        "config/slam.yaml": f"slam_toolbox:\n  ros__parameters: {{{settings}}}\n",
+    }
+
+
 def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
     """Return a rover whose base is a child of its footprint, with a filter."""
     urdf = """<robot name="rover">
@@ -288,6 +312,8 @@ def _virtual(parent: str, mark: str = "") -> dict[str, object]:
 
 GOOD = [
     {"@bridge": True},
+    _mapping("transform_publish_period: 0.0"),
+    _mapping("odom_frame: odometry"),
     _included_example("True", "amcl: {ros__parameters: {}}"),
     _included_example("False", "amcl: {ros__parameters: {tf_broadcast: false}}"),
     _component("false"),
@@ -325,6 +351,8 @@ GOOD = [
     _classic(f'filename="libgazebo_ros_diff_drive.so">{_TF.format("false")}'),
 ]
 BAD = [
+    _mapping("mode: mapping", _XML_MARK),
+    {**_mapping(""), "config/slam.yaml": _SLOW},
     _virtual("base_link", _XML_MARK),
     _included_example("False", "amcl: {ros__parameters: {}}", _XML_MARK),
     _component("true", _XML_MARK),

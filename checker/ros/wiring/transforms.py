@@ -9,6 +9,7 @@ from checker.launch.ros1.bridge import Direction
 from checker.model.components import Plugin
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
+from checker.model.values import parse_number
 from checker.ros.simulation import Simulation
 from checker.ros.wiring.controllers import RunController
 from checker.ros.wiring.nodes import WiredNode
@@ -26,6 +27,8 @@ _FRAMES = {
 _CONTROLLERS = ("DiffDriveController", "OmniWheelDriveController")
 """Those whose transforms go to /tf itself; others publish them on their own topic."""
 
+_NOT_ZERO = "!0"
+"""In the table of nodes: the number must be another one than 0."""
 _CLASSIC = {
     "gazebo_ros_ackermann_drive": ("publish_odom_tf", "false", "base_footprint"),
     "gazebo_ros_diff_drive": ("publish_odom_tf", "false", "base_footprint"),
@@ -142,10 +145,19 @@ def _of_node(node: WiredNode) -> Iterator[Transform]:
     if node.facts is None or not node.knows_parameters:
         return
     for parent, child, wanted in node.facts.transforms:
-        if all(node.fill_in(f"{{{name}}}") == node.fill_in(it) for name, it in wanted.items()):
+        if all(_is_so(node, name, value) for name, value in wanted.items()):
             frames, topic = (node.fill_in(parent), node.fill_in(child)), node.resolve(TOPIC)
             switch = next(iter(wanted))
             span = node.settings[switch].span if switch in node.settings else node.node.span
             if frames[0] and frames[1] and topic:
-                cure = f"state `{switch}: false` for {node.label}"
+                off = "0.0" if wanted[switch] == _NOT_ZERO else "false"
+                cure = f"state `{switch}: {off}` for {node.label}"
                 yield Transform(frames[0], frames[1], topic, span, node.label, cure, node)
+
+
+def _is_so(node: WiredNode, parameter: str, wanted: str) -> bool:
+    """Return whether a parameter is known to have the value that a transform needs."""
+    value = node.fill_in(f"{{{parameter}}}")
+    if wanted == _NOT_ZERO:
+        return value is not None and parse_number(value) not in (None, 0.0)
+    return value == node.fill_in(wanted)
