@@ -7,7 +7,8 @@ parameter such as `output_file` says that the node writes it. Where a launch fil
 parameter, it may replace the value: this is an info. Below the `WORKDIR` of a Dockerfile, the path
 works in its container alone. The placeholder of a template, `/path/to/your/arm.urdf`, is on no
 machine. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters and the files that a
-command line gives a node to read are judged, and those in commands of ROS 2.
+command line gives a node to read are judged, and those in commands of ROS 2; also the
+files that a launch file opens, or gives to xacro, for a parameter: the launch stops without them.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`. In ROS 1
@@ -36,6 +37,7 @@ _FOLDER = re.compile(r"""["'](/(?:home|Users)/[^"'\n]{1,300})["']""")
 _READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
 _ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
+_OPENING = ("$(file-content ", "$(command ")
 _BY_LAUNCH = {"yaml_filename": "map"}
 """Arguments of Nav2's own launch files that replace parameters of another name."""
 
@@ -71,12 +73,12 @@ def _is_wrong(text: Located[str], parameter: str = "") -> bool:
 
 
 def _written_part(text: Located[str]) -> Located[str] | None:
-    """Return the text itself, or the folder of the machine that a launch file joins it from."""
+    """Return the text itself, or the path or folder on the machine that it is made of."""
     if text.value in text.span.text:
         return text
     source = text.span.source
     for found in _FOLDER.finditer(source.text):
-        if text.value.startswith(f"{found[1].rstrip('/')}/"):
+        if text.value == found[1] or text.value.startswith(f"{found[1].rstrip('/')}/"):
             return Located(found[1], Span(source, *found.span(1)))
     return None
 
@@ -94,6 +96,14 @@ def _in_ros_2(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
                     yield "the parameter file", Located(it.path, it.span)
                 elif isinstance(it.value, str) and not is_written(it.name):
                     yield f"parameter {it.name}", Located(it.value, it.span)
+                    yield from _opened(it.name, it.value, it.span)
+
+
+def _opened(name: str, value: str, span: Span) -> Iterator[tuple[str, Located[str]]]:
+    """Yield the files that the launch file opens, or has a command read, for a parameter."""
+    if value.startswith(_OPENING):
+        for word in value.partition(" ")[2].rstrip(")").split():
+            yield f"the file of parameter {name}", Located(word.strip("'\""), span)
 
 
 def _commanded(graph: LaunchGraph) -> Iterator[tuple[str, Located[str]]]:
@@ -208,8 +218,19 @@ def generate_launch_description():
     node = Node(package="arm_sim", executable="sim", parameters=[{"model": model}])
     return LaunchDescription([node])
 """
+_OPENED = """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    path = "/home/ann/ws/src/arm/urdf/arm.urdf"  # ^ WIR014
+    text = open(path).read()
+    node = Node(package="arm_sim", executable="sim", parameters=[{"robot_description": text}])
+    return LaunchDescription([node])
+"""
 BAD = [
     {"@ros2": True, "launch/sim.launch.py": _JOINED},
+    {"@ros2": True, "launch/sim.launch.py": _OPENED},
     {
         "@ros2": "        ExecuteProcess(cmd=['gzserver', '/home/ann/ws/src/arm/hall.world']),"
         "  # ^ WIR014"
