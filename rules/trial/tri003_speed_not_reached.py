@@ -5,18 +5,20 @@ Usually `wheel_radius` is not the radius of the wheels, a wheel joint's limit of
 is too low, or the wheels slip because they carry too little load. With a limit of 0 the robot does
 not move. A part that is fixed to the body and slides on the ground, such as a ball for a caster,
 needs friction near 0: the drag of one with `mu` 1 makes the robot hop in the trial; in Gazebo Sim
-it may drive at full speed and not turn at all. This is a warning.
+it may drive at full speed and not turn at all. This is a warning. Where all axles lie along x, the
+robot drives along y, but its commands, odometry and navigation mean x as forward (REP 103).
 
-Fix: set `wheel_radius` to the radius of the wheels' collisions, raise the limits of the wheel
-joints to those of the motors, give what slides `<mu>` and `<mu2>` (URDF: `<mu1>` and `<mu2>` in
-`<gazebo reference>`) of 0.001, and check friction and loads.
+Fix: mend the cause that the message names. Where it names none, set `wheel_radius` to the radius of
+the wheels' collisions, raise the limits of the wheel joints to those of the motors, give what
+slides `<mu>` and `<mu2>` (URDF: `<mu1>` and `<mu2>` in `<gazebo reference>`) of 0.001, and check
+friction and loads.
 Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 of the command.
 Gazebo Sim's physics engine DART keeps joints within their velocity and effort limits.
 """
 
 from checker.model.locomotion.locomotion import DriveKind
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.rulebook.example_parts import rover
 from checker.source.text import Located
 
@@ -55,6 +57,9 @@ def check(
     off = abs(ratio - 1.0)
     if off <= warning_beyond:
         return
+    if abs(ratio) < _CREEPS and _axles_along_x(driven):
+        yield _drives_along_y(driven, ratio * leg.linear, leg.linear)
+        return
     reached = round(ratio * leg.linear, 3) + 0.0
     limited = _limited(driven) if ratio < 1.0 else None
     cause, place, fastest = limited or (*_cause(driven, ratio, warning_beyond), None)
@@ -63,7 +68,7 @@ def check(
         place or driven.drive,
         f"the robot drives at {reached:g} m/s when commanded to drive at {leg.linear:.3g} m/s: a "
         f"difference of {off:.0%}, expected at most {warning_beyond:.0%}{cause or dragged}",
-        severity=_severity(driven, off > error_beyond, dragged=bool(dragged)),
+        severity=_severity(driven, far=off > error_beyond, dragged=bool(dragged)),
         key="speed_ratio",
         related=[
             *([(fastest, "the drive's maximum speed")] if fastest else []),
@@ -73,7 +78,29 @@ def check(
     )
 
 
-def _severity(driven: SettledTrial, far: bool, *, dragged: bool) -> Severity:
+_CREEPS = 0.2
+"""Share of the command; a robot that drives along y is slower along x."""
+_ALONG = 0.9
+"""Part of an axis of length 1 along x."""
+
+
+def _axles_along_x(driven: SettledTrial) -> bool:
+    axes = [wheel.axis for wheel in driven.robot.locomotion.wheels]
+    return bool(axes) and all(axis is not None and abs(axis[0]) > _ALONG for axis in axes)
+
+
+def _drives_along_y(driven: SettledTrial, reached: float, commanded: float) -> Finding:
+    return finding(
+        driven.drive,
+        f"the robot drives along y, not along x (REP 103), since the axles of its wheels lie along "
+        f"x: it reaches {round(reached, 3) + 0.0:g} m/s along x when commanded to drive at "
+        f"{commanded:.3g} m/s; turn the joints of the wheels, or the base, by 90°",
+        severity=_severity(driven, far=True, dragged=False),
+        key="speed_ratio path_sideways",
+    )
+
+
+def _severity(driven: SettledTrial, *, far: bool, dragged: bool) -> Severity:
     if not driven.robot.is_for_gazebo:
         return Severity.INFO if dragged else Severity.WARNING
     return Severity.ERROR if far and not dragged else Severity.WARNING

@@ -24,11 +24,11 @@ _WHEEL = """
 <link name="{name}"><pose>{x} {y} 0.1 0 0 0</pose>
 <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>
 <joint name="{name}_joint" type="revolute"><parent>base_link</parent><child>{name}</child>
-<axis><xyz>0 {axis} 0</xyz></axis></joint>"""
+<axis><xyz>{axis}</xyz></axis></joint>"""
 
 
 def rover(
-    *, left: str = "left", right: str = "right", axis: int = 1, wheel_radius: float = 0.1
+    *, left: str = "left", right: str = "right", axis: str = "0 1 0", wheel_radius: float = 0.1
 ) -> Robot:
     """Return a robot on four wheels whose drive names the wheels of `left` as its left ones."""
     places = {"left": 0.2, "right": -0.2}

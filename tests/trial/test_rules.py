@@ -151,6 +151,16 @@ def test_speed_that_the_wheel_radius_explains() -> None:
     assert said.endswith("; wheel_radius is 0.2 m, but the wheels have a radius of 0.1 m")
 
 
+def test_a_robot_whose_axles_lie_along_x_drives_along_y() -> None:
+    sideways = rover(axis="1 0 0")
+    (found,) = said_by(RULES["TRI003"], trial_of(speed_ratio=0.004, path_sideways=20.0), sideways)
+    assert found.message.startswith("the robot drives along y, not along x (REP 103)")
+    assert found.message.endswith("turn the joints of the wheels, or the base, by 90°")
+    assert found.key == "speed_ratio path_sideways"
+    said = message("TRI003", speed_ratio=0.5, robot=sideways)
+    assert "REP 103" not in said
+
+
 def test_what_slides_is_named_where_a_robot_is_slow() -> None:
     slow = trial_of(Measurement("drag", 0.3, "base_link"), speed_ratio=0.5)
     (found,) = said_by(RULES["TRI003"], slow)
@@ -166,7 +176,11 @@ def test_what_slides_is_named_where_a_robot_is_slow() -> None:
 @pytest.mark.parametrize(
     ("robot", "figures", "words"),
     [
-        (rover(axis=-1), {"speed_ratio": -1.0, "yaw_ratio": -0.3}, "the wheels' axes are reversed"),
+        (
+            rover(axis="0 -1 0"),
+            {"speed_ratio": -1.0, "yaw_ratio": -0.3},
+            "the wheels' axes are reversed",
+        ),
         (
             rover(left="right", right="left"),
             {"speed_ratio": 1.0, "yaw_ratio": -0.3},
