@@ -4,13 +4,17 @@ The plugin computes the wheel rate from the speed and `wheel_radius`. If the rad
 large, the robot is 10 % slower than commanded and its odometry is 10 % wrong. No accepted package
 that we checked has this fault.
 
-Fix: set the plugin's `<wheel_radius>` to the radius of the wheels' collisions, in metres.
-Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.2 m by default.
+Fix: set the parameter that the message names to the radius of the wheels' collisions, or to twice
+the radius if it is a diameter, in metres. The drive of Gazebo Classic for ROS 2 reads one
+`<wheel_diameter>` for each pair of wheels.
+Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive, 0.2 m by default;
+gazebo_ros_diff_drive.cpp, 0.15 m by default.
 """
 
 from collections.abc import Iterator
 
 from checker.formats.corrections import rewrite
+from checker.model.components import Plugin
 from checker.model.locomotion.locomotion import Wheel, WheelDrive
 from checker.model.locomotion.wheels import is_misaligned
 from checker.model.robot import Robot
@@ -53,10 +57,9 @@ def _worst(
     # As many digits as the message has.
     true = float(f"{wheel.radius or 0.0:.4g}")
     tag = drive.diameter_tag or drive.radius_tag
-    says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
     yield finding(
         stated,
-        f"{drive.plugin.label} {says} {stated.value * times:g} m, but wheel "
+        f"{drive.plugin.label} {_says(drive, tag)} {stated.value * times:g} m, but wheel "
         f"{wheel.link.name.value!r} has a {length} of {(wheel.radius or 0.0) * times:.4g} m"
         + (f" ({differing} wheels differ)" if differing > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,
@@ -65,6 +68,16 @@ def _worst(
         related=[(wheel.link, "the wheel")],
         fix=rewrite([(stated, true)], times) if differing == len(off) else None,
     )
+
+
+def _says(drive: WheelDrive, tag: str) -> str:
+    """Return what a drive says of its wheels: Classic's plugin has a diameter for each pair."""
+    if drive.wheel_radius.stated:
+        return f"has {tag}"
+    plugin = drive.plugin
+    if isinstance(plugin, Plugin) and any(plugin.at(tag)):
+        return f"states <{tag}> for other pairs of wheels only; its default is"
+    return f"states no {tag}; its default is"
 
 
 def _rover(radius: str, shape: str = "", plugin: str = "DiffDrive") -> str:

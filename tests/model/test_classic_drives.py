@@ -7,6 +7,8 @@ import pytest
 from checker.model.locomotion.locomotion import DriveKind, Side, WheelDrive
 from checker.model.locomotion.motion_limits import bounded_motions
 from checker.model.robot import Robot
+from checker.rule import Finding
+from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf, urdf
 
 JOINTS = ("front_left", "front_right", "rear_left", "rear_right")
@@ -164,3 +166,20 @@ class TestUndriven:
 
         assert caster.steering is not None
         assert caster.steering.name.value == "pivot"
+
+
+def test_the_diameter_of_one_pair_is_not_that_of_the_other() -> None:
+    ball = '<collision><geometry><sphere radius="0.15"/></geometry></collision>'
+    wheels = "".join(map(wheel, JOINTS)).replace(
+        '_wheel"/>\n<joint', f'_wheel">{ball}</link><joint'
+    )
+    one = ROS_2.replace("<wheel_diameter>0.4</wheel_diameter>", "")
+    robot = rover(f'<plugin name="any" filename="{DIFF}">{one}</plugin>', wheels)
+    (rule,) = (rule for rule in all_rules() if rule.id == "GEO004")
+
+    (found,) = rule.check(robot)
+    assert isinstance(found, Finding)
+    assert found.message.startswith(
+        "gazebo_ros_diff_drive states <wheel_diameter> for other pairs of wheels only; its default "
+        "is 0.15 m, but wheel 'rear_left_wheel' has a diameter of 0.3 m"
+    )
