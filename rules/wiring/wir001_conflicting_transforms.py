@@ -24,11 +24,14 @@ from itertools import combinations
 
 from checker.model.components import Joint
 from checker.ros.wiring.frames import is_static
+from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.transforms import Transform
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import DRIVEN_URDF, tf_bridge
 
+_ByFrame = dict[tuple[str, str], list[Transform]]
+"""Transforms by their child and topic."""
 _MOST = 8
 """Publishers of one frame that are compared."""
 
@@ -36,7 +39,7 @@ _MOST = 8
 @rule("WIR001", "conflicting-transforms", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report each two publishers of a transform, or of two parents of one frame."""
-    by_frame: dict[tuple[str, str], list[Transform]] = {}
+    by_frame: _ByFrame = {}
     for transform in wiring.transforms:
         by_frame.setdefault((transform.child, transform.topic), []).append(transform)
     for same in by_frame.values():
@@ -44,20 +47,33 @@ def check(wiring: Wiring) -> Findings:
             if first.source is not second.source and not isinstance(first.source, Joint):
                 yield finding(
                     first.span,
-                    f"{_fault(first, second)}: {_cure(first, second)}",
+                    f"{_fault(first, second)}: {_cure(first, second, by_frame)}",
                     key=f"{first.child} {first.by} {second.by}",
                     related=[(second.span, f"{second.by} publishes {second}")],
                 )
 
 
-def _cure(first: Transform, second: Transform) -> str:
+def _cure(first: Transform, second: Transform, by_frame: _ByFrame) -> str:
     """Return what to do; a joint is never at fault, and its robot starts at its root.
 
     A filter is there to publish, so what it filters stops, and a constant transform beside it.
     """
     if isinstance(second.source, Joint):
-        return first.cure if first.parent == second.parent else second.cure or first.cure
+        is_same = first.parent == second.parent
+        return first.cure if is_same else _to_root(first, second, by_frame) or first.cure
     return second.cure if is_static(second) else first.cure
+
+
+def _to_root(first: Transform, joint: Transform, by_frame: _ByFrame) -> str:
+    """Return how odometry ends at the root of the robot, where another publisher may be, too."""
+    if not first.names_child or not joint.root:
+        return joint.cure
+    there = by_frame.get((joint.root, first.topic), ())
+    others = [it for it in there if it.parent == first.parent and it.source is not first.source]
+    if others and not isinstance(first.source, WiredNode):
+        return first.cure
+    line = f"write `{first.names_child.format(joint.root)}`, the root of the robot"
+    return f"{line}, and {others[0].cure}" if others else line
 
 
 def _fault(first: Transform, second: Transform) -> str:
@@ -220,6 +236,11 @@ def _mapping(settings: str, mark: str = "") -> dict[str, object]:
     }
 
 
+_FILE_OF_WORDS = """        Node(package="robot_localization", executable="ekf_node", arguments=[%
+            "--ros-args", "--params-file", os.path.join(HERE, "config", "ekf.yaml")]),
+"""
+
+
 def _on_footprint(settings: str, mark: str = "") -> dict[str, object]:
     """Return a rover whose base is a child of its footprint, with a filter."""
     urdf = """<robot name="rover">
@@ -324,6 +345,10 @@ GOOD = [
         'remappings=[("/tf_static", "tf_static")'
     ),
     _on_footprint("base_link_frame: base_footprint"),
+    {
+        **_on_footprint("base_link_frame: base_footprint"),
+        "@launch": {_LAUNCHED: _LAUNCHED + _FILE_OF_WORDS.replace("%", "")},
+    },
     _filter("publish_tf: false"),
     _filter("world_frame: map"),
     _filter("base_link_frame: base_footprint"),
@@ -360,6 +385,10 @@ BAD = [
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
     _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),
     _on_footprint("publish_tf: true", _MARK),
+    {
+        **_on_footprint("world_frame: odom"),
+        "@launch": {_LAUNCHED: _LAUNCHED + _FILE_OF_WORDS.replace("%", _MARK)},
+    },
     {
         **_filter("world_frame: odom"),
         "@bridge": True,

@@ -31,12 +31,13 @@ def joint_transforms(node: WiredNode, robot: Robot) -> Iterator[Transform]:
         return
     children = {joint.child.value for joint in robot.joints}
     roots = [link.name.value for link in robot.links if link.name.value not in children]
-    cure = f"name {prefix}{roots[0]}, the root of the robot, there" if len(roots) == 1 else ""
+    root = prefix + roots[0] if len(roots) == 1 else ""
+    cure = f"name {root}, the root of the robot, there" if root else ""
     for joint in robot.joints:
         parent, child = (_frame(prefix + end.value) for end in (joint.parent, joint.child))
         if topic := topics[joint.type.value == "fixed"]:
             by = f"joint {joint.name.value!r}"
-            yield Transform(parent, child, topic, joint.span, by, cure, joint)
+            yield Transform(parent, child, topic, joint.span, by, cure, joint, root=root)
 
 
 def static_transforms(node: WiredNode) -> Iterator[Transform]:

@@ -52,6 +52,9 @@ class Transform(Record, eq=False):
         by: The publisher, for a message.
         cure: The way to switch it off, for a message.
         source: The node, plugin or controller.
+        names_child: The setting of the publisher that names the child, with `{}` for its name;
+            empty if that is not known.
+        root: Of a joint, the root of its robot, if that is known.
     """
 
     parent: str
@@ -61,6 +64,8 @@ class Transform(Record, eq=False):
     by: str
     cure: str
     source: object
+    names_child: str = ""
+    root: str = ""
 
     def __str__(self) -> str:
         """Return it as messages write it."""
@@ -124,7 +129,8 @@ def _of_classic(plugin: Plugin) -> Iterator[Transform]:
         parent, child = values.get("odometry_frame", "odom"), values.get("robot_base_frame", child)
         span = text.span if (text := stated[switch]) is not None else plugin.span
         by, cure = f"plugin {plugin.filename.value}", f"state `<{switch}>false</{switch}>`"
-        yield Transform(parent, child, TOPIC, span, by, cure, plugin)
+        names_child = "<robot_base_frame>{}</robot_base_frame>"
+        yield Transform(parent, child, TOPIC, span, by, cure, plugin, names_child)
 
 
 def _of_controller(run: RunController) -> Iterator[Transform]:
@@ -138,7 +144,8 @@ def _of_controller(run: RunController) -> Iterator[Transform]:
         for name, default in (("odom_frame_id", "odom"), ("base_frame_id", "base_link"))
     )
     cure = f"state `enable_odom_tf: false` for {controller.label}"
-    yield Transform(parent, child, topic, controller.span, controller.label, cure, controller)
+    by, names_child = controller.label, "base_frame_id: {}"
+    yield Transform(parent, child, topic, controller.span, by, cure, controller, names_child)
 
 
 def _of_node(node: WiredNode) -> Iterator[Transform]:
@@ -152,7 +159,17 @@ def _of_node(node: WiredNode) -> Iterator[Transform]:
             if frames[0] and frames[1] and topic:
                 off = "0.0" if wanted[switch] == _NOT_ZERO else "false"
                 cure = f"state `{switch}: {off}` for {node.label}"
-                yield Transform(frames[0], frames[1], topic, span, node.label, cure, node)
+                named = f"{_naming(node, child)}: {{}}"
+                by = node.label
+                yield Transform(frames[0], frames[1], topic, span, by, cure, node, named)
+
+
+def _naming(node: WiredNode, reference: str) -> str:
+    """Return the parameter that decides a name; the default of one may be the value of another."""
+    name = reference.strip("{}")
+    default = node.facts.defaults.get(name, "") if node.facts is not None else ""
+    is_another = default.startswith("{") and name not in node.settings
+    return _naming(node, default) if is_another else name
 
 
 def _is_so(node: WiredNode, parameter: str, wanted: str) -> bool:

@@ -32,6 +32,7 @@ from checker.launch.ros2.graph import (
     LaunchFaultKind,
     Node,
     NodeKind,
+    ParameterFile,
     Parameters,
     Process,
     Unread,
@@ -50,6 +51,7 @@ from checker.source.text import Located
 if TYPE_CHECKING:
     from checker.launch.ros2.actions.visitor import Visitor
 
+_ROS = "--ros-args"
 OLD_KEYWORDS: Mapping[str, str] = MappingProxyType(
     {"node_name": "name", "node_executable": "executable", "node_namespace": "namespace"}
 )
@@ -76,7 +78,8 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
     parameters, unread = _parameters(made, context)
     arguments = [*words_of(made.values.get("arguments"), context, made.span, unread)]
     rest = words_of(made.values.get("ros_arguments"), context, made.span, unread)
-    arguments += [Located("--ros-args", made.span, stated=False)] if (ros := [*rest]) else []
+    arguments += [Located(_ROS, made.span, stated=False)] if (ros := [*rest]) else []
+    words, files = _files_of_words([*arguments, *ros])
     remaps = remaps_of(made, context, unread)
     name = made.values.get("name")
     environment = chosen_value(made.values.get("additional_env"))
@@ -89,8 +92,8 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
             executable=text_of(made, "executable", context, unread),
             name=text_of(made, "name", context, unread) if name is not None else None,
             namespace=namespace_of(made, context),
-            arguments=(*arguments, *ros),
-            parameters=(*context.state.parameters, *parameters),
+            arguments=tuple(words),
+            parameters=(*files, *context.state.parameters, *parameters),
             remaps=remaps,
             environment=texts_of(environment, context, made.span),
             unread=tuple(unread),
@@ -103,6 +106,19 @@ def node(visitor: Visitor, made: Made, context: Context) -> None:
     )
     _keywords(made, context)
     visitor.later_events(made, context, ending=made.span)
+
+
+def _files_of_words(words: Words) -> tuple[Words, list[ParameterFile]]:
+    """Return the words of a command line without the parameter files, and these.
+
+    They stand behind `--ros-args`, and before what launch writes there of the node's parameters.
+    """
+    values = [word.value for word in words]
+    start = values.index(_ROS) if _ROS in values else len(values)
+    places = [it for it in range(start, len(values) - 1) if values[it] == "--params-file"]
+    files = [ParameterFile(values[it + 1], False, words[it + 1].span) for it in places]
+    taken = {at for place in places for at in (place, place + 1)}
+    return [word for at, word in enumerate(words) if at not in taken], files
 
 
 def load(visitor: Visitor, made: Made, context: Context) -> None:
