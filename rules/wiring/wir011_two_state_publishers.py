@@ -5,13 +5,14 @@ is chance: if only one of them knows the controllers or the prefix, RViz, the co
 MoveIt gets the other at times. Parameters that are set by the node's name reach one of them.
 
 Usually a launch file starts one, and includes another that starts one as well. It is reported for
-nodes that start with the defaults of all arguments.
+nodes that start with the defaults of all arguments; one that gets no description ends by itself
+(WIR027).
 
 Fix: remove one, or give the included launch file an argument that leaves it out.
 Source: ROS 2, node names: each node of a graph needs a name of its own; robot_state_publisher.
 """
 
-from checker.ros.wiring.frames import STATE_PUBLISHER
+from checker.ros.wiring.frames import STATE_PUBLISHER, may_get_description
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -22,7 +23,8 @@ def check(wiring: Wiring) -> Findings:
     """Report each further robot_state_publisher of one full name."""
     first: dict[str, WiredNode] = {}
     for node in wiring.nodes:
-        if node.program != STATE_PUBLISHER or not node.full_name:
+        publishes = node.program == STATE_PUBLISHER and may_get_description(node.node)
+        if not publishes or not node.full_name:
             continue
         before = first.setdefault(node.full_name, node)
         if before is not node:
@@ -47,5 +49,10 @@ def _example(name: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "@launch": {_HEAD: _HEAD + _NODE.format(name), **own}}
 
 
-GOOD = [_example(' namespace="second",')]
+_ENDING = 'LaunchDescription([\n        Node(package="robot_state_publisher", executable="@"),\n'
+
+GOOD = [
+    _example(' namespace="second",'),
+    {"@bridge": True, "@launch": {_HEAD: _ENDING.replace("@", "robot_state_publisher")}},
+]
 BAD = [_example("", "  # ^ WIR011")]

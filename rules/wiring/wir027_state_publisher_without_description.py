@@ -6,16 +6,17 @@ and its transforms, so RViz shows nothing, and what reads `robot_description` wa
 Of a node that does not start by default it is a warning. The description may be a parameter, a file
 of parameters or an argument of the node; a node whose parameters are not all known is not reported.
 
-Fix: give the node the parameter `robot_description`, usually the output of xacro.
+Fix: give the node the parameter `robot_description`, usually the output of xacro; remove a second
+node.
 Source: robot_state_publisher, README: the parameter must be set when the node starts, or it fails
 to start; `description_from_topic` (ros/robot_state_publisher#234).
 """
 
-from checker.launch.ros2.graph import Node, NodeKind, Ros2Launch
+from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
 from checker.ros.transforms import STATE_PUBLISHER
+from checker.ros.wiring.frames import may_get_description
 from checker.rule import Concern, Findings, Severity, finding, rule
 
-_SOURCES = ("robot_description", "description_from_topic")
 _LINE = (
     "parameters=[{'robot_description': ParameterValue(Command(['xacro ', FILE]), value_type=str)}]"
 )
@@ -26,23 +27,22 @@ def check(launch: Ros2Launch) -> Findings:
     """Report nodes robot_state_publisher that nothing gives a description."""
     for graph in launch.entries:
         for node in graph.nodes:
-            if node.package.value == STATE_PUBLISHER and not _may_get_description(node):
+            if node.package.value == STATE_PUBLISHER and not may_get_description(node):
+                cure = "remove it" if _is_second(node, graph) else f"expected {_LINE}"
                 yield finding(
                     node.executable,
                     "robot_state_publisher ends when it starts, since it gets no "
-                    f"robot_description: expected {_LINE}",
+                    f"robot_description: {cure}",
                     severity=None if node.starts else Severity.WARNING,
                 )
 
 
-def _may_get_description(node: Node) -> bool:
-    """Return whether anything may give a node its description: not all is known, or it is given."""
-    return bool(
-        node.kind is NodeKind.INCLUDED
-        or node.unread
-        or node.arguments
-        or node.parameter_files
-        or any(node.parameter(name) for name in _SOURCES)
+def _is_second(node: Node, graph: LaunchGraph) -> bool:
+    """Return whether another node of the launch publishes the robot already."""
+    return any(
+        it.package.value == STATE_PUBLISHER and it.namespace == node.namespace
+        for it in graph.nodes
+        if it.starts and may_get_description(it)
     )
 
 
@@ -80,7 +80,12 @@ GOOD = [
     _python(', arguments=["/tmp/rover.urdf"]'),
     _python(", parameters=[made_elsewhere()]"),
 ]
+_SECOND = (
+    '</node>\n  <node pkg="robot_state_publisher" exec="robot_state_publisher">\n'
+    '    <param name="robot_description" value="&lt;robot name=\'rover\'/&gt;"/>'
+)
 BAD = [
+    _example(f"  <!-- ^ WIR027 -->{_SECOND}"),
     _example("  <!-- ^ WIR027 -->"),
     _example('<param name="use_sim_time" value="true"/>  <!-- ^ WIR027 -->'),
     _python("", "  # ^ WIR027"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.launch.ros2.graph import is_known
+from checker.launch.ros2.graph import Node, NodeKind, is_known
 from checker.model.robot import Robot
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.transforms import Transform
@@ -13,9 +13,21 @@ STATE_PUBLISHER = "robot_state_publisher/robot_state_publisher"
 _STATIC_PUBLISHER = "tf2_ros/static_transform_publisher"
 _STATIC, _SUFFIX = "/tf_static", "_static"
 _PREFIX = "frame_prefix"
+_DESCRIPTIONS = ("robot_description", "description_from_topic")
 _OPTIONS = ("--frame-id", "--child-frame-id")
 _POSITIONAL = (8, 9)
 """Words of the form without options: a place, an attitude of three or four numbers, two frames."""
+
+
+def may_get_description(node: Node) -> bool:
+    """Return whether a robot_state_publisher may get a robot: one is given, or not all is known."""
+    return bool(
+        node.kind is NodeKind.INCLUDED
+        or node.unread
+        or node.arguments
+        or node.parameter_files
+        or any(node.parameter(name) for name in _DESCRIPTIONS)
+    )
 
 
 def joint_transforms(node: WiredNode, robot: Robot) -> Iterator[Transform]:
