@@ -1,13 +1,15 @@
-"""Gazebo gets a robot with wheels that nothing turns.
+"""Gazebo gets a robot with wheels or joints that nothing moves.
 
-The robot stands in the world, reads no velocity, and publishes no odometry: navigation and mapping
-that are started beside it wait for it. The description was written for RViz, or for the real robot.
+A rover stands in the world, reads no velocity, and publishes no odometry: navigation and mapping
+that are started beside it wait for it. The joints of an arm swing freely, so it collapses, and no
+command reaches them. The description was written for RViz, or for the real robot.
 
 It is reported where the description that a launch file spawns has no plugin outside of its sensors
 and no `<ros2_control>`.
 
 Fix: add a drive: `libgazebo_ros_diff_drive.so` in Gazebo Classic, `gz-sim-diff-drive-system` in
-Gazebo Sim, or `<ros2_control>` with the plugin that reads it; and the sensors that are needed.
+Gazebo Sim, or `<ros2_control>` with the plugin that reads it, which arms need; and the sensors that
+are needed.
 Source: gazebo_plugins; gz-sim, systems/diff_drive; gz_ros2_control.
 """
 
@@ -17,32 +19,40 @@ from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _FEWEST = 2
-"""Wheels on joints that turn without end."""
+"""Wheels on joints that turn without end, or joints of an arm."""
+_OF_ARMS = ("revolute", "prismatic")
 
 
 @rule("WIR020", "spawned-without-drive", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
-    """Report spawned robots that have wheels, and neither a plugin nor ros2_control."""
+    """Report spawned robots that move, and have neither a plugin nor ros2_control."""
     for spawned in wiring.spawned:
-        wheels = _idle_wheels(spawned) if spawned.node.starts else []
-        if len(wheels) >= _FEWEST:
-            robot = spawned.robot
-            yield finding(
-                spawned.node.span,
-                f"Gazebo gets robot {robot.name.value!r} without a drive: no plugin and no "
-                f"ros2_control turns {and_list(wheels)}",
-                related=[(robot.name.span, "the robot")],
-            )
+        robot = spawned.robot
+        if not spawned.node.starts or _is_moved(spawned):
+            continue
+        wheels = {link.scoped_name for link in robot.wheels}
+        idle = [it for it in robot.tree.ties if it.joint.type.value == "continuous"]
+        rolling = [repr(it.child) for it in idle if it.child in wheels]
+        joints = [it.name.value for it in robot.joints if it.type.value in _OF_ARMS]
+        if len(rolling) >= _FEWEST:
+            lacks = f"a drive: no plugin and no ros2_control turns {and_list(rolling)}"
+        elif len(joints) >= _FEWEST:
+            some = f"{joints[0]!r} to {joints[-1]!r}"
+            lacks = f"control: no plugin and no ros2_control holds its {len(joints)} joints, {some}"
+        else:
+            continue
+        yield finding(
+            spawned.node.span,
+            f"Gazebo gets robot {robot.name.value!r} without {lacks}",
+            related=[(robot.name.span, "the robot")],
+        )
 
 
-def _idle_wheels(spawned: SpawnedRobot) -> list[str]:
-    """Return the quoted names of wheels of a robot without anything that could turn them."""
+def _is_moved(spawned: SpawnedRobot) -> bool:
+    """Return whether anything may move the robot, or nothing has to."""
     robot = spawned.robot
-    if robot.plugins or spawned.control is not None or robot.element.child("ros2_control"):
-        return []
-    wheels = {link.scoped_name for link in robot.wheels}
-    turning = (tie for tie in robot.tree.ties if tie.joint.type.value == "continuous")
-    return [repr(tie.child) for tie in turning if tie.child in wheels]
+    has_control = spawned.control is not None or robot.element.child("ros2_control") is not None
+    return bool(robot.plugins) or has_control or robot.is_static
 
 
 _LAUNCH = """<launch>
@@ -76,6 +86,21 @@ _LIDAR = """<gazebo reference="base_link"><sensor name="lidar" type="ray">
   <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so"/>
 </sensor></gazebo>
 """
+_ARM = """<link name="{0}"/><joint name="{0}_joint" type="revolute">
+  <parent link="{1}"/><child link="{0}"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="9" velocity="1"/>
+</joint>
+"""
+_UPPER, _FOREARM = _ARM.format("upper", "base_link"), _ARM.format("forearm", "upper")
 _MARK = "  <!-- ^ WIR020 -->"
-GOOD = [_rover(_DRIVE), _rover("", "", "caster"), _rover('<ros2_control name="c" type="system"/>')]
-BAD = [_rover("", _MARK), _rover(_LIDAR, _MARK)]
+GOOD = [
+    _rover(_DRIVE),
+    _rover("", "", "caster"),
+    _rover(_UPPER, "", "caster"),
+    _rover('<ros2_control name="c" type="system"/>'),
+]
+BAD = [
+    _rover("", _MARK),
+    _rover(_LIDAR, _MARK),
+    _rover(_UPPER + _FOREARM, _MARK, "caster"),
+]

@@ -90,13 +90,20 @@ class KnownParameter(Record, rename={"distros": "in"}):
         type: `double`, `string_array`, …
         distros: The distributions that know it; all of its controller when empty.
         default: Its default; None if it has none.
+        default_by: Its default in distributions that have another one.
         validation: Names of its validators.
     """
 
     type: str = ""
     distros: tuple[str, ...] = ()
     default: Any = None
+    default_by: Mapping[str, Any] = {}
     validation: tuple[str, ...] = ()
+
+
+    def default_in(self, distribution: str) -> Any:
+        """Return its default in a distribution; None if it has none."""
+        return self.default_by.get(_column(distribution), self.default)
 
 
 class ControllerType(Record):
