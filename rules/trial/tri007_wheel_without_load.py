@@ -3,7 +3,7 @@
 The wheel spins without traction: the robot has less driving force than its motors suggest, and
 drifts to one side on uneven ground. The wheel's collision is missing or too small, or one wheel is
 higher or lower than the others: of four wheels, the one that hangs may be the neighbour of that.
-Where this is a few millimetres and the robot drives straight all the same, it is a warning.
+Where this is a few millimetres and the robot still drives straight, it is a warning.
 
 Fix: put all wheels on one plane: correct the height of the joint that the message names, or the
 radius of its wheel's collision; give a wheel without a collision one.
