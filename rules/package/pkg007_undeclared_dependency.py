@@ -16,7 +16,8 @@ package.xml misspells the package of a team or plugin: it is reported if a packa
 is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
 not declared, if it is near to one of them. What a description names that no launch file loads,
 beside one that is loaded, does not count. If a package is not available, and this package has
-every file that it uses of it, the name is taken as the former name of this package.
+every file that it uses of it, or its name in another order, the name is taken as the former name of
+this package.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
 those that the build uses, too; write the package's own name instead of its former one.
@@ -64,6 +65,7 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
+_RELEASE = re.compile(r"\Aros[12]\Z")
 _ROS_CORE = (
     r"(?:actionlib|diagnostic|geometry|nav|sensor|shape|std|stereo|trajectory|visualization)_msgs"
     r"|std_srvs|rclcpp(?:_action|_lifecycle)?|rclpy|launch(?:_ros|_xml|_yaml)?|ros2launch|pluginlib"
@@ -136,11 +138,11 @@ def check(
         name = use.package_name
         if name in (package.name, manifest.name.value) or use.place in copied:
             continue
-        if name in former:
+        if name in former or _has_words_of(package, name):
             if not manifest.depends_on(name):
                 yield finding(
                     use.place,
-                    _renaming_message(package, use),
+                    _renaming_message(package, use, has_files=name in former),
                     severity=Severity.INFO,
                     key=name,
                     covered_by=("LCH001", "REF002"),
@@ -175,11 +177,23 @@ def _plugins(package: Package, context: Context) -> Iterator[Use]:
             yield use
 
 
-def _renaming_message(package: Package, use: Use) -> str:
-    return (
-        f"{use.package_name} is not available, and {package.name} has all files that are used of "
-        f"it: expected {package.name}, if it was renamed"
-    )
+def _renaming_message(package: Package, use: Use, *, has_files: bool) -> str:
+    name = use.package_name
+    why = f", and {package.name} has all files that are used of it" if has_files else ""
+    return f"{name} is not available{why}: expected {package.name}, if it was renamed"
+
+
+def _has_words_of(package: Package, name: str) -> bool:
+    """Return whether a package that exists nowhere is named by the words of this one.
+
+    It is the name that this package had, for example for ROS 1.
+    """
+    exists = package.workspace.package(name) is not None or distributions_with(name)
+    return not exists and _words_of(name) == _words_of(package.declared_name)
+
+
+def _words_of(name: str) -> list[str]:
+    return sorted(_RELEASE.sub("ros", word) for word in re.split("[_-]", name))
 
 
 def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
@@ -524,6 +538,13 @@ BAD = [
     },
     {"launch/vehicle_topics.launch": _launch("subt_ros"), "@reported": [".:1"]},
     # Its own former name.
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "urdf/arm.urdf.xacro": _HAND.replace("@", "  <!-- ^ PKG007 -->").replace(
+            "acme_hand", "arm_acme_bringup"
+        ),
+    },
     {
         "launch/a.launch": "<launch/>",
         "launch/b.launch": _launch("rover_description", "  <!-- ^ PKG007 -->"),
