@@ -171,7 +171,7 @@ _SHARED = re.compile(
 _MESSAGES = re.compile(r"^[ \t]{0,40}from[ \t]{1,8}([a-z]\w{0,199})\.(?:msg|srv|action)[ \t]", re.M)
 _MODULES = re.compile(
     r"^(?:from|import)[ \t]{1,8}"
-    r"(cv_bridge|image_geometry|message_filters|sensor_msgs_py|tf_transformations)\b",
+    r"(cv_bridge|image_geometry|message_filters|rclpy|sensor_msgs_py|tf_transformations)\b",
     re.M,
 )
 """Packages of ROS whose module in Python has the package's name; an indented import is optional."""

@@ -4,7 +4,7 @@ A package that package.xml does not name is not installed with the robot: launch
 submission, the bridge to ROS, or the package of a node are then missing where the robot runs.
 Comments do not count, nor launch files of ROS 1 in a package of ROS 2. In ROS 2 this holds for the
 packages of nodes, components, included launch files, parameter files, `xacro` commands, `$(find …)`
-and `package://` in robot descriptions, and for messages and a few modules of ROS, such as
+and `package://` in robot descriptions, and for `rclpy`, messages and a few modules of ROS, such as
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
 packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
 of controllers and Gazebo's hardware, unless another package of the workspace declares them. One of
@@ -178,9 +178,9 @@ def _plugins(package: Package, context: Context) -> Iterator[Use]:
 
 
 def _renaming_message(package: Package, use: Use, *, has_files: bool) -> str:
-    name = use.package_name
-    why = f", and {package.name} has all files that are used of it" if has_files else ""
-    return f"{name} is not available{why}: expected {package.name}, if it was renamed"
+    own = package.declared_name
+    why = f", and {own} has all files that are used of it" if has_files else ""
+    return f"{use.package_name} is not available{why}: expected {own}, if it was renamed"
 
 
 def _has_words_of(package: Package, name: str) -> bool:
@@ -503,6 +503,11 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "acme_arm_bringup/look.py": "import sensor_msgs_py.point_cloud2 as clouds\n",
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
+        "acme_arm_bringup/stop.py": "import rclpy\nfrom rclpy.node import Node\n",
     },
     {
         "@ros2": _BRIDGE,
