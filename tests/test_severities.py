@@ -222,7 +222,22 @@ FRICTION = """
 </collision>
 """
 LOST = '<gazebo reference="caster">{}</gazebo>'
+SHIFTED = """<link name="tip"><collision>
+  <origin pry="{}"/><geometry><box size="1 1 1"/></geometry>
+</collision></link>
+<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>"""
+CLASSIC_2 = {
+    "@profile": "gazebo-classic",
+    "@ros2": True,
+    "urdf/arm.urdf.xacro": None,
+    "show.py": "image_raw = 'front/image'\n",
+}
+EYE = """<sensor name="eye" type="camera">
+  <plugin filename="libgazebo_ros_camera.so" name="eye"><imageTopicName>{}</imageTopicName></plugin>
+</sensor>"""
 PICTURE = '<visual name="v"><geometry><box><size>{}</size></box></geometry></visual>'
+POINT = """<collision name="c">
+  <geometry><sphere><radius>{}</radius></sphere></geometry></collision>"""
 SCENERY = """<sdf version="1.6"><model name="walls">{}<link name="link">
 <collision name="c"><geometry><mesh><uri>meshes/a.obj</uri></mesh></geometry></collision>
 </link></model></sdf>
@@ -266,6 +281,11 @@ CASES: list[tuple[str, Example, str]] = [
     ),
     ("URD006", {"@urdf": LOST.format("<mu1>0.9</mu1><mu2>1.2</mu2><kp>1e6</kp>")}, "warning"),
     ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "error"),
+    ("URD006", {"@urdf": LOST.format("<mu1>1</mu1><slip1>0</slip1>")}, "info"),
+    ("URD015", {"@urdf": SHIFTED.format("0 0 0")}, "info"),
+    ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
+    ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("image_raw")}, "warning"),
+    ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("front/image")}, "error"),
     ("URD006", {"@urdf": LOST.format('<sensor name="eye" type="camera"/>')}, "error"),
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
     ("KIN016", ARM, "info"),
@@ -333,6 +353,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("GEO008", PICTURE.format("1 1 0"), "warning"),
     ("GEO008", PICTURE.format("1 0 0"), "error"),
     ("GEO008", PICTURE.format("1 1 0").replace("visual", "collision"), "error"),
+    ("GEO008", POINT.format(0), "info"),
+    ("GEO008", POINT.format(-1), "error"),
     ("MSH006", {"@fragment": PAINTED.format(""), **UNPAINTED}, "warning"),
     ("MSH006", {"@fragment": PAINTED.format(GREY), **UNPAINTED}, "info"),
     ("MSH004", {"model.sdf": SCENERY.format(""), **FINE}, "warning"),
@@ -393,6 +415,16 @@ def test_classic_sets_positions_without_force(profile: str, severity: str, tmp_p
     settings = Settings(profile=profile, profile_chosen=True, select=("KIN007",), distro="humble")
     (report,) = check_package(package, settings).packages
     assert [str(finding.severity) for finding in report.findings] == [severity]
+
+
+def test_a_stray_model_config_loses_no_model(tmp_path: Path) -> None:
+    (tmp_path / "model.config").write_text(MADE)
+    settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=("PKG004",))
+    (report,) = check_package(tmp_path, settings).packages
+    assert [str(finding.severity) for finding in report.findings] == ["warning"]
+    (tmp_path / "wood.png").write_bytes(b"")
+    (report,) = check_package(tmp_path, settings).packages
+    assert [str(finding.severity) for finding in report.findings] == ["error"]
 
 
 def test_bridges_that_reach_nothing_of_the_robot_are_errors(tmp_path: Path) -> None:

@@ -5,7 +5,8 @@ mirrors a mesh: this is useful for a visual, but the surface of a collision beco
 accepted package that we checked has this fault.
 
 A visual whose size or scale is zero along one axis is shown flat, and may be meant so, as a picture
-on the ground: this is a warning.
+on the ground: this is a warning. A ball of radius 0 as a collision touches nothing, and the engines
+take it: this is an info.
 
 Fix: write the length in metres as a positive number; mirror a mesh in the mesh file.
 Source: SDFormat specification, geometry: lengths are above 0.
@@ -25,7 +26,10 @@ _ALONG_AXES = ("scale", "size")
 
 @rule("GEO008", "non-positive-size", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
-    """Report lengths that are not above 0; mirrored collisions, flat visuals are warnings."""
+    """Report lengths that are not above 0; mirrored collisions, flat visuals are warnings.
+
+    A collision that is a ball of radius 0 is an info.
+    """
     for link in robot.links:
         for collision in link.collisions:
             whose = f"{collision.name.value!r} of {link.name.value!r}"
@@ -43,11 +47,14 @@ def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Findi
             mirrored = name == "scale" and number.value < 0
             if not number.value <= 0 or (mirrored and not touches):
                 continue
+            point = touches and geometry.shape == "sphere" and number.value == 0
+            plain = Severity.INFO if point else Severity.ERROR
             yield finding(
                 number,
                 f"{name} of {geometry.shape} {whose} is {number.value:g}, expected more than 0"
-                + (": the mesh is mirrored" if mirrored else ""),
-                severity=Severity.WARNING if mirrored or flat else Severity.ERROR,
+                + (": the mesh is mirrored" if mirrored else "")
+                + (": it touches nothing" if point else ""),
+                severity=Severity.WARNING if mirrored or flat else plain,
                 key="mirrored" if mirrored else "",
                 fix=rewrite([(number, -number.value)]) if number.value and not mirrored else None,
             )
@@ -87,4 +94,9 @@ BAD = [
 </cylinder></geometry></collision>
 """,
     _MIRRORED.format("collision", "  <!-- ^ GEO008 -->"),
+    """
+<collision name="c"><geometry><sphere>
+  <radius>0</radius>  <!-- ^ GEO008 -->
+</sphere></geometry></collision>
+""",
 ]

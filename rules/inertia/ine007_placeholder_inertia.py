@@ -2,7 +2,8 @@
 
 Exporters write the unit tensor by default: a hand-sized part with 1 kg·m² turns as if it weighed a
 ton. If links of different mass or size share one tensor, it is copied and right for at most one of
-them; if most of them are alike, for these, and only the others are reported.
+them; if most of them are alike, for these, and only the others are reported. Of a model for Gazebo
+without a sensor, a plugin or moving joints, such as a box in a world, it is an info.
 
 Fix: compute the moments of each link, with CAD or with the formula of the most similar solid.
 Source: Model Migration Guide; review of exported models.
@@ -54,7 +55,8 @@ def _is_scenery(robot: Robot) -> bool:
     """Return whether a model for Gazebo has no sensor or plugin, and hardly a moving joint."""
     moving = sum(joint.type.value != "fixed" for joint in robot.joints)
     bare = not (robot.sensors or robot.plugins or robot.controllers)
-    return bare and robot.conventions.read_by_gazebo and 2 * moving < len(robot.joints)
+    stiff = not moving or 2 * moving < len(robot.joints)
+    return bare and stiff and robot.conventions.read_by_gazebo
 
 
 def _placeholders(

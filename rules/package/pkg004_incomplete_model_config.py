@@ -3,8 +3,9 @@
 Gazebo opens the file that `<sdf>` names; of several, the one with the newest version that it
 supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
 missing, or a `.gitignore` keeps it out of the repository, as one that a program writes, it is a
-warning. Fuel shows the other entries, including the contact of the author: a submission needs them
-(a warning), for other models they are an info.
+warning, and so is a model.config alone in its folder, as an editor leaves it. Fuel shows the other
+entries, including the contact of the author: a submission needs them (a warning), for other models
+they are an info.
 
 Fix: add what is missing of name, version, author with name and email, description, and
 `<sdf version="…">model.sdf</sdf>` with the version that the model file states.
@@ -58,7 +59,8 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             key="sdf",
             fix=_model_file_fix(package, context.sdf_version),
         )
-    yield from _missing_files(package, config, _target_entry(config, context.reads))
+    chosen = _target_entry(config, context.reads)
+    yield from _missing_files(package, config, chosen, is_subt=context.is_subt)
     for author in config.authors:
         for text in (author.name, author.email):
             if _TO_DO.match(text.value):
@@ -82,7 +84,7 @@ def _target_entry(config: ModelConfig, reads: str) -> SdfEntry | None:
 
 
 def _missing_files(
-    package: Package, config: ModelConfig, chosen: SdfEntry | None
+    package: Package, config: ModelConfig, chosen: SdfEntry | None, *, is_subt: bool
 ) -> Iterator[Finding]:
     for entry in config.sdf:
         path = posixpath.normpath(entry.file.value)
@@ -96,12 +98,15 @@ def _missing_files(
         meant = same[0] if len(same) == 1 else ""
         hint = f"; did you mean {alike[0]}?" if alike else ""
         ignored = ignored_by(package, path) if written else ""
+        # No model is lost where the folder has nothing else.
+        stray = len(package.index.files) == 1 and not is_subt
+        harmless = chosen not in (None, entry) or ignored or stray
         if ignored:
             hint = f": {ignored} keeps it out of the repository"
         yield finding(
             entry.file,
             f"model.config names {written or 'no file'}, but this file does not exist{hint}",
-            severity=None if chosen in (None, entry) and not ignored else Severity.WARNING,
+            severity=Severity.WARNING if harmless else None,
             fix=replace_text(entry.file, meant, Safety.UNSAFE) if meant else None,
         )
 

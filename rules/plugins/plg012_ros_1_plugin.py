@@ -7,8 +7,8 @@ wheel, `<robotNamespace>` leaves all topics in the root namespace.
 Models that are in no package of ROS 2 may be for ROS 1, so they are not judged.
 
 It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
-other parameter of the plugin names; otherwise a warning. So is the topic of a sensor that no other
-file of the package names: all may read the default.
+other parameter of the plugin names; otherwise a warning. So is the topic of a sensor that is the
+default of ROS 2, or that no other file of the package names: all may read the default.
 
 Fix: write the library and the parameters of ROS 2, as the message names them.
 Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).
@@ -43,6 +43,7 @@ from checker.source.xml import Element
 _NAMES_PART = re.compile(r"\w*(?:joint|link_name|body_name|separation|diameter)\w*")
 _WORD = re.compile(r"\w+")
 _ROS = "<ros>"
+_DEFAULT = re.compile(r"<ros><remapping>(?:<camera_name>/)?(?P<topic>[\w/]+):=")
 _OUTPUT = re.compile(r"(?:image|camera|depth|point)\w*Topic\w*|topicName")
 _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 
@@ -108,6 +109,9 @@ def _replacement(instead: str) -> str:
 def _is_missed(plugin: Plugin, instead: str | None, value: str) -> bool:
     """Return whether the plugin acts on another thing, since it does not state the parameter."""
     if instead is None or value.strip() in ("", "/"):
+        return False
+    default = _DEFAULT.match(instead)
+    if default is not None and value.strip() == default["topic"]:
         return False
     if instead.startswith(_ROS):
         return plugin.element.child("ros") is None

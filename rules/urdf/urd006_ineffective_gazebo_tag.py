@@ -2,9 +2,10 @@
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
 change a colour, contacts or a friction of at least 0.5, near Gazebo's default of 1, is a warning,
-and so is one in a file of macros, whose user may have the link. It is an info where no launch file
-of the workspace starts anything, as in the examples of a library of dynamics, and for a link below
-an `xacro:if` that is false. A sensor under a joint is an error, as Gazebo makes none. A
+and so is one in a file of macros, whose user may have the link. It is an info where all that the
+tag has are the defaults of contacts, such as a friction of 1 and no slip, where no launch file of
+the workspace starts anything, as in the examples of a library of dynamics, and for a link below an
+`xacro:if` that is false. A sensor under a joint is an error, as Gazebo makes none. A
 `<ros2_control>` inside a `<gazebo>` is not read, so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
@@ -20,7 +21,7 @@ from msgspec.structs import replace
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.formats.urdf.description import GazeboTag, UrdfDescription
-from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS, simulates
+from checker.formats.urdf.extensions import OF_JOINTS, OF_LINKS, simulates, states_defaults
 from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.names import BRACES
 from checker.model.robot import Robot
@@ -67,12 +68,18 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint",
                 names,
-                severity=None if is_whole and simulates(tag.element) else Severity.WARNING,
+                severity=_severity(tag, is_whole=is_whole),
                 key=name,
             )
             yield replace(found, fix=found.fix or _with_ending(tag, robot))
         else:
             yield from _useless(tag, robot, in_gazebo=in_gazebo)
+
+
+def _severity(tag: GazeboTag, *, is_whole: bool) -> Severity | None:
+    if states_defaults(tag.element):
+        return Severity.INFO
+    return None if is_whole and simulates(tag.element) else Severity.WARNING
 
 
 def _with_ending(tag: GazeboTag, robot: Robot) -> Fix | None:

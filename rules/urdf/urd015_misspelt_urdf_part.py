@@ -20,14 +20,15 @@ _ONLY_LOOKS = "link/visual"
 def check(description: UrdfDescription) -> Findings:
     """Report unknown names that resemble one that is missing there.
 
-    What only changes how a part looks is a warning, and so is a description for RViz.
+    What only changes how a part looks is a warning, and so is a description for RViz. An attribute
+    of zeros in `<origin>` is an info: they count without it too.
     """
     for part in misspelt_parts(description.document):
         harmless = description.for_rviz or part.path.startswith(_ONLY_LOOKS)
         yield finding(
             part.span,
             f"URDF readers do not know {part.name} in <{part.parent}>; did you mean {part.meant}?",
-            severity=Severity.WARNING if harmless else None,
+            severity=Severity.INFO if part.is_zero else Severity.WARNING if harmless else None,
             key=f"{part.parent}/{part.name}",
             fix=Fix(Safety.UNSAFE, part.edits) if part.edits else None,
         )
@@ -49,4 +50,5 @@ BAD = [
     _tip(f"<colision>{_MARK}{_BOX}</colision>"),
     _tip(f'<collision>{_BOX}<origin xzy="0 0 1"/>{_MARK}</collision>'),
     _tip(f"<visual>{_MARK}<geometri/></visual>"),
+    _tip(f'<collision>{_BOX}<origin pry="0 0 0"/>{_MARK}</collision>'),
 ]

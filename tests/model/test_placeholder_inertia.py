@@ -77,3 +77,20 @@ def test_moments_of_one_formula_are_one_finding(tmp_path: Path) -> None:
     assert found.severity is Severity.WARNING
     said = [place.message or found.message for place in found.places]
     assert [text.split()[1] for text in said] == ["'d'", "'c'", "'b'"]
+
+
+@pytest.mark.parametrize(
+    ("part", "severity"),
+    [("", Severity.INFO), ('<sensor name="s" type="imu"/>', Severity.WARNING)],
+)
+def test_the_unit_tensor_of_a_prop_is_an_info(
+    tmp_path: Path, part: str, severity: Severity
+) -> None:
+    ones = "<ixx>1</ixx><iyy>1</iyy><izz>1</izz>"
+    (tmp_path / "crate.sdf").write_text(f"""<sdf version="1.9"><model name="crate">
+<link name="crate"><inertial><mass>2</mass><inertia>{ones}</inertia></inertial>{part}
+  <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>
+</link></model></sdf>""")
+    settings = Settings(trial=False, select=("INE007",), profile="gazebo-harmonic")
+    (report,) = check_package(tmp_path / "crate.sdf", settings).packages
+    assert [finding.severity for finding in report.findings] == [severity]

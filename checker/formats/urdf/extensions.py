@@ -70,3 +70,25 @@ def simulates(tag: Element) -> bool:
     frictions = (extension_number(tag, "mu1"), extension_number(tag, "mu2"))
     slips = any(number is not None and number.value < _GRIPS for number in frictions)
     return slips or not _WITHOUT_EFFECT.issuperset(child.tag for child in tag.children)
+
+
+_DEFAULTS = {
+    "mu1": 1.0,
+    "mu2": 1.0,
+    "slip1": 0.0,
+    "slip2": 0.0,
+    "kp": 1e12,
+    "kd": 1.0,
+    "maxVel": 0.01,
+    "minDepth": 0.0,
+}
+"""What SDFormat has for the contacts of a link that states nothing."""
+
+
+def states_defaults(tag: Element) -> bool:
+    """Return whether all that a `<gazebo>` tag has is what counts without it."""
+    numbers = {child.tag: extension_number(tag, child.tag) for child in tag.children}
+    return bool(numbers) and all(
+        number is not None and number.value == _DEFAULTS.get(name)
+        for name, number in numbers.items()
+    )

@@ -71,6 +71,7 @@ class MisspeltPart(Record):
         span: Its place.
         path: The path of the tag around it.
         edits: What writes the other name; none where it is not sure.
+        is_zero: Whether it is an attribute of zeros, which counts without it too.
     """
 
     name: str
@@ -79,6 +80,7 @@ class MisspeltPart(Record):
     span: Span
     path: str
     edits: tuple[Edit, ...] = ()
+    is_zero: bool = False
 
 
 @cache
@@ -155,7 +157,8 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
             meant = _suggestion(name, lost) if name not in spec else None
             if text is not None and meant is not None:
                 edits = (element.attribute_name_span(name).replacement(meant),)
-                yield MisspeltPart(name, element.tag, meant, text.span, path, edits)
+                zero = element.tag == "origin" and _are_zeros(text.value)
+                yield MisspeltPart(name, element.tag, meant, text.span, path, edits, zero)
 
 
 def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
@@ -187,13 +190,25 @@ def _further_shapes(geometry: Element, path: str, owner: Element) -> Iterator[St
 def _changes_nothing(part: Element) -> bool:
     """Return whether an element has the same effect as without it."""
     if part.tag == "origin":
-        numbers = f"{part.get('xyz') or ''} {part.get('rpy') or ''}".split()
-        return all(parse_number(number) == 0 for number in numbers)
+        return _are_zeros(f"{part.get('xyz') or ''} {part.get('rpy') or ''}")
     return part.text.value.strip() in table("urdf_spec")["elsewhere"]["defaults"].get(part.tag, ())
+
+
+def _without_origin(part: Element, link: Element) -> str:
+    """Return the tag right before a part of a link, of one that may have an origin and has none."""
+    before = link.children[link.children.index(part) - 1] if link.children[0] is not part else None
+    placed = before is not None and before.tag in (*_SEVERAL, "inertial")
+    return before.tag if before and placed and before.child("origin") is None else ""
+
+
+def _are_zeros(text: str) -> bool:
+    return all(parse_number(number) == 0 for number in text.split())
 
 
 def _advice(part: Element, path: str, owner: Element) -> str | None:
     """Return what to write instead of an element that readers ignore; None if it is unknown."""
+    if path == "link" and part.tag == "origin" and (before := _without_origin(part, owner)):
+        return f"move it into the <{before}> before it, if it is to place that"
     elsewhere = table("urdf_spec")["elsewhere"]
     other: Mapping[str, str] = elsewhere["other"]
     if text := other.get(f"{path}/{part.tag}") or other.get(part.tag):
