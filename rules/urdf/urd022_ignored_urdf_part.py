@@ -1,9 +1,10 @@
 """An element in a link or joint of a URDF that no reader reads there.
 
 URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
-it no friction, a `<gazebo>` tag inside a link loads no plugin, and `<joint_properties>` adds no
-damping. A `<geometry>` has one shape: urdfdom takes its first, MuJoCo a box before a mesh. Elements
-that only other programs read, such as `<contact>` of Bullet, are not reported.
+it no friction, a `<gazebo>` or `<plugin>` inside a link loads no plugin, a `<collision>` inside a
+`<visual>` touches nothing, and `<joint_properties>` adds no damping. A `<geometry>` has one shape:
+urdfdom takes its first, MuJoCo a box before a mesh. Elements that only other programs read, such as
+`<contact>` of Bullet, are not reported.
 
 Fix: write the element where the message says.
 Source: urdfdom, link.cpp and joint.cpp; MuJoCo, xml_urdf.cc; sdformat's parser_urdf.cc, which takes
@@ -55,6 +56,9 @@ BAD = [
     _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
     _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
     _lamp(f"<visual>{_TWO}</visual>"),
+    _lamp(f'<plugin name="lift" filename="liblift.so"/>{_MARK}'),
+    _lamp(f"<visual><geometry><box size='1 1 1'/></geometry>\n<collision/>{_MARK}\n</visual>"),
+    _lamp(_BOX.replace("@", "") + f'\n<origin xyz="0 0 1"/>{_MARK}'),
     _lamp(_BOX.replace("/></g", f"/>\n<origin xyz='0 0 1'/>{_MARK}\n</g").replace("@", "")),
     _lamp("", f'<joint_properties damping="1"/>{_MARK}\n<stopErp>0.2</stopErp>{_MARK}'),
 ]
