@@ -73,6 +73,7 @@ class Settings(Record):
         suppress: Findings that do not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
+        gazebo: Release of Gazebo that a package is made for, if it is not that of the distribution.
         target_reason: Reason for the profile or distribution, from the package's content.
     """
 
@@ -96,6 +97,7 @@ class Settings(Record):
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
     distro: str = ""
+    gazebo: str = ""
     target_reason: str = ""
 
     def selects(self, rule: Rule) -> bool:
@@ -148,7 +150,7 @@ class Settings(Record):
             if sign:
                 profile = CLASSIC_MODEL if gazebo == CLASSIC else FORTRESS_MODEL
                 return replace(settings, profile=profile, distro="", target_reason=sign)
-        profile = CLASSIC_MODEL if in_classic else gazebo_profile(settings.distro)
+        profile = CLASSIC_MODEL if in_classic else gazebo_profile(settings.distro, settings.gazebo)
         return replace(settings, profile=profile)
 
     def _with_package(self, package: Package) -> Settings:
@@ -159,7 +161,13 @@ class Settings(Record):
         if not reason and not target.distro:
             usual = profile_of(ROS_2).context.distro
             reason = f"ROS 2 {usual.capitalize()}, as no other was found: --distro chooses one"
-        return replace(self, profile=profile, distro=target.distro, target_reason=reason)
+        return replace(
+            self,
+            profile=profile,
+            distro=target.distro,
+            gazebo=target.gazebo,
+            target_reason=reason,
+        )
 
     @property
     def description(self) -> str:

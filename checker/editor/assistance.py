@@ -115,7 +115,7 @@ def completions(
 def target_of(checked: Checked) -> Context:
     """Return what a package is judged for."""
     settings = checked.settings
-    return profile(settings.profile, settings.distro).context
+    return profile(settings.profile, settings.distro, settings.gazebo).context
 
 
 def _item(found: Completion, document: Document, columns: Columns) -> lsp.CompletionItem:

@@ -13,7 +13,7 @@ from checker.settings import Settings
 def usual_target(package: Package) -> Context:
     """Return the target of a package for which the user names none."""
     settings = Settings().for_package(package)
-    return profile(settings.profile, settings.distro).context
+    return profile(settings.profile, settings.distro, settings.gazebo).context
 
 
 def plugin_releases(target: Context) -> tuple[str, ...]:

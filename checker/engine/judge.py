@@ -36,7 +36,7 @@ class Judge(Record):
     @classmethod
     def from_settings(cls, settings: Settings) -> Judge:
         """Return the judge with the profile that the settings name."""
-        return cls(profile(settings.profile, settings.distro), settings)
+        return cls(profile(settings.profile, settings.distro, settings.gazebo), settings)
 
     @property
     def context(self) -> Context:

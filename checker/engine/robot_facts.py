@@ -104,7 +104,7 @@ def _unread_files(subject: Subject) -> Iterator[NotRead]:
 def _robot(
     robot: Robot, overview: Mapping[str, Any], control: RobotControl | None, settings: Settings
 ) -> RobotFacts:
-    release = profile(settings.profile, settings.distro).context.release
+    release = profile(settings.profile, settings.distro, settings.gazebo).context.release
     known_topics = settings.profile != _ROS_1
     unweighed = robot.unweighed
     shown = {name: value for name, value in overview.items() if name not in ("robot", "file")}

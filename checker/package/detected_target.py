@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.package.distribution_sign import sign_of_paths
+from checker.package.gazebo_sign import release_sign
 from checker.package.mentions import has_word
 from checker.package.simulator_signs import CLASSIC, IGNITION, LATER, ROS_GZ, classic_start
 
@@ -28,11 +29,13 @@ class DetectedTarget(Record):
         is_classic: Whether the simulator is Gazebo Classic.
         distro: ROS 2 distribution; empty if unknown.
         reason: The reason, for the report: `Gazebo Classic 11: a.launch.py:3 names gzserver`.
+        gazebo: The release of Gazebo where it is another one than that of the distribution.
     """
 
     is_classic: bool = False
     distro: str = ""
     reason: str = ""
+    gazebo: str = ""
 
 
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
@@ -120,13 +123,26 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
         known = _known_distribution(distro or _OLDEST)
         return DetectedTarget(True, known, classic_reason(classic))
     if named is not None:
-        return DetectedTarget(
-            False, _known_distribution(distro), f"ROS 2 {distro.capitalize()}: {named.words}"
-        )
+        gazebo, where = ("", "") if IGNITION in signs else _another_gazebo(package, distro)
+        release = f" and Gazebo {gazebo.capitalize()}" if gazebo else ""
+        words = f"{named.words}, {where}" if gazebo else named.words
+        reason = f"ROS 2 {distro.capitalize()}{release}: {words}"
+        return DetectedTarget(False, _known_distribution(distro), reason, gazebo)
     if IGNITION in signs and {*signs} <= {IGNITION, LATER, ROS_GZ} and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)
+
+
+def _another_gazebo(package: Package, distro: str) -> tuple[str, str]:
+    """Return a release that README names and the distribution does not come with, and where.
+
+    It is one for which the distribution has a bridge as well: Harmonic on Humble.
+    """
+    release, words = release_sign(package)
+    pairs = {entry["release"]: entry["ros"] for entry in table("gazebo_releases")["releases"]}
+    usual = pairs.get(release, {}).get(distro, "default")
+    return ("", "") if usual == "default" else (release, words)
 
 
 def _classic_start(package: Package) -> str:

@@ -18,12 +18,13 @@ _DISTROS = "foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling"
 _BEFORE_HUMBLE = ("foxy", "galactic")
 _BEFORE_NOETIC = "indigo|jade|kinetic|lunar|melodic"
 _BEFORE = (
-    r"(?:\bros[ -]?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}|\bros_distribution\W{1,4}"
-    r"|\$\{\w{1,60}:?-)"
+    r"(?:\bros(?:[ -]|%20)?2?[ :_/-]{1,3}|\b(?:\w{0,40}_)?ros_distro\W{1,4}"
+    r"|\bros_distribution\W{1,4}|\$\{\w{1,60}:?-)"
 )
-_NAMED = re.compile(rf"{_BEFORE}\(?({_DISTROS})\b\}}?", re.IGNORECASE)
+_NAMED = re.compile(rf"{_BEFORE}\(?({_DISTROS})\b(?!%)\}}?", re.IGNORECASE)
 _NAMED_OF_ROS_1 = re.compile(rf"{_BEFORE}\(?({_BEFORE_NOETIC}|noetic)\b\}}?", re.IGNORECASE)
-"""`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`."""
+"""`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`, and a badge,
+`badge/ROS%202-Humble-blue`, but not one of several, `Humble%20|%20Jazzy`."""
 _INSTALLED = re.compile(rf"/opt/ros/({_DISTROS})\b")
 _WITH_PATHS = re.compile(r"\.(?:urdf|xacro|sdf|world|launch|py|xml|ya?ml|sh)\Z")
 _CONTAINER = re.compile(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from checker.package.files_above import files_above, own_files
+from checker.package.files_above import README, files_above, own_files
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -30,6 +30,27 @@ _OTHER = re.compile(
     r"|\bignition[ -](?:citadel|dome|edifice|gazebo[345]\b)",
     re.IGNORECASE,
 )
+
+
+_RELEASE = re.compile(
+    r"\b(?:gazebo(?:[ -]?sim)?|gz(?:[ -]sim)?|ignition|ros[-_]gz|gz_version)[ _=:-]{0,3}"
+    r"(fortress|garden|harmonic|ionic|jetty)\b(?!%)",
+    re.IGNORECASE,
+)
+"""`Gazebo Harmonic`, `gz-harmonic`, `GZ_VERSION=harmonic`, and the badge `Gazebo-Harmonic-blue`."""
+
+
+def release_sign(package: Package) -> tuple[str, str]:
+    """Return the release of Gazebo that README files alone name, and where; else nothing."""
+    for sources in (own_files(package, README), *files_above(package, README)):
+        named = [(it, match) for it in sources for match in _RELEASE.finditer(it.text)]
+        if len({match[1].lower() for _, match in named}) == 1:
+            source, match = named[0]
+            words = f"{source.where(match.start())} names {match.group()}"
+            return match[1].lower(), words
+        if named:
+            break
+    return "", ""
 
 
 def classic_sign(package: Package) -> str:

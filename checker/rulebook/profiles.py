@@ -47,12 +47,13 @@ def profile_names() -> tuple[str, ...]:
     return tuple(name for name in table("profiles") if not name.startswith("_"))
 
 
-def profile(name: str, distro: str = "") -> Profile:
+def profile(name: str, distro: str = "", gazebo: str = "") -> Profile:
     """Return a profile.
 
     Args:
         name: The name of the profile.
         distro: ROS 2 distribution, for a profile that is about one; its own default when empty.
+        gazebo: Release of Gazebo in place of that of the distribution.
 
     Raises:
         KeyError: There is no profile or no distribution of that name.
@@ -63,7 +64,7 @@ def profile(name: str, distro: str = "") -> Profile:
     if context.release == "classic":
         context = replace(context, distro=distro or entry["distro"] if "distro" in entry else "")
     elif "distro" in entry:
-        context = _for_distro(context, distro or entry["distro"])
+        context = _for_distro(context, distro or entry["distro"], gazebo)
     return Profile(
         name,
         entry["title"],
@@ -79,14 +80,14 @@ def distro_names() -> tuple[str, ...]:
     return tuple(entry["distro"] for entry in table("gazebo_releases")["ros"])
 
 
-def gazebo_profile(distro: str) -> str:
+def gazebo_profile(distro: str, gazebo: str = "") -> str:
     """Return the profile of the Gazebo release of a distribution, or the usual one."""
-    return f"gazebo-{profile('ros2', distro).context.release}"
+    return f"gazebo-{profile('ros2', distro, gazebo).context.release}"
 
 
-def _for_distro(context: Context, distro: str) -> Context:
-    """Return the context with the Gazebo release that a distribution comes with."""
+def _for_distro(context: Context, distro: str, gazebo: str) -> Context:
+    """Return the context with the Gazebo release given, or that a distribution comes with."""
     releases = {entry["distro"]: entry["gazebo"] for entry in table("gazebo_releases")["ros"]}
     reads = {it["release"]: it["sdf_version"] for it in table("gazebo_releases")["releases"]}
-    release = releases[distro]
+    release = gazebo or releases[distro]
     return replace(context, distro=distro, release=release, reads=reads[release])

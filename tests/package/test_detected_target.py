@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.engine.judge import Judge
 from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.package.workspace import Workspace
@@ -83,6 +84,8 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ),
         ({"@ros2": True, "README.md": "ROS 2 Humble or ROS 2 Jazzy\n"}, ("ros2", "")),
         ({"@ros2": True, "README.md": "Keep rolling, an iron rule.\n"}, ("ros2", "")),
+        ({"@ros2": True, "README.md": "![](badge/ROS%202-Humble-blue)\n"}, ("ros2", "humble")),
+        ({"@ros2": True, "README.md": "![](badge/ROS%202-Humble%20|%20Jazzy-blue)"}, ("ros2", "")),
     ],
 )
 def test_content_tells(
@@ -446,3 +449,28 @@ def test_a_package_of_ros_1_states_what_starts_gazebo(
         place.write_text(text)
     settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
     assert (settings.profile, settings.target_reason) == ("urdf", expected)
+
+
+@pytest.mark.parametrize(
+    ("readme", "more", "gazebo", "release"),
+    [
+        ("ROS 2 Humble and Gazebo Harmonic", {}, "harmonic", "harmonic"),
+        ("ROS 2 Humble\n![](badge/Gazebo-Harmonic-orange)", {}, "harmonic", "harmonic"),
+        ("ROS 2 Humble, apt install gz-harmonic", {}, "harmonic", "harmonic"),
+        ("ROS 2 Humble and Gazebo Fortress", {}, "", "fortress"),
+        ("ROS 2 Humble, Gazebo Fortress or Gazebo Harmonic", {}, "", "fortress"),
+        ("ROS 2 Humble and Gazebo Jetty", {}, "", "fortress"),
+        ("ROS 2 Humble, see gazebosim.org/docs/harmonic", {}, "", "fortress"),
+        ("ROS 2 Humble and Gazebo Harmonic", {URDF: IGNITION_PLUGIN}, "", "fortress"),
+        ("ROS 2 Jazzy and Gazebo Harmonic", {}, "", "harmonic"),
+    ],
+)
+def test_a_readme_names_another_gazebo_than_that_of_the_distribution(
+    readme: str, more: Mapping[str, object], gazebo: str, release: str, tmp_path: Path
+) -> None:
+    files = {"@ros2": True, "README.md": f"{readme}\n", **more}
+    settings = Settings().for_package(opened(tmp_path, files))
+    assert settings.gazebo == gazebo
+    assert Judge.from_settings(settings).context.release == release
+    if gazebo:
+        assert settings.target_reason.startswith("ROS 2 Humble and Gazebo Harmonic: README.md:")
