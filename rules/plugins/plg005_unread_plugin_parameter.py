@@ -1,7 +1,8 @@
 """A plugin parameter that its plugin never reads.
 
 The parameter has no effect, and Gazebo prints no message. For example, `<odometry_topic>` leaves a
-differential drive at its default topic, because the drive reads `<odom_topic>`.
+differential drive at its default topic, because the drive reads `<odom_topic>`. The plugin for the
+slip of wheels reads elements below `<wheel>`, of its attributes `link_name` alone.
 
 Fix: write the parameter as the plugin reads it, or remove it.
 Source: parameters that the source code of each system reads (`gazebo_plugins.json`);
@@ -17,7 +18,7 @@ from checker.model.components import Plugin
 from checker.model.plugin_library import PluginLibrary, library_stem, plugin_libraries
 from checker.model.robot import Robot
 from checker.ros.wiring.classic import classic_endpoints
-from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 
 _FREE = ("include", "sdf")
@@ -65,6 +66,8 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
         library = libraries.get(stem)
         if library is None or library.parameters is None:
             continue
+        if _SLIPS in library.parameters:
+            yield from _attributes_of_wheels(plugin)
         suggestions = Suggestions(sorted(library.parameters))
         of_ros_1 = _of_ros_1(stem) if context.is_classic else frozenset()
         # PLG012 reports those of ROS 1.
@@ -79,6 +82,25 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
             message = f"{plugin.label} does not read {and_list(hinted)}"
             severity = Severity.INFO if of_no_harm else None
             yield from (finding(element, message, severity=severity) for element in elements)
+
+
+_SLIPS = "slip_compliance_lateral"
+_OF_WHEEL = {"lateral": _SLIPS, "longitudinal": "slip_compliance_longitudinal"}
+
+
+def _attributes_of_wheels(plugin: Plugin) -> Iterator[Finding]:
+    """Yield values that are written as attributes of a wheel, where elements are read."""
+    for wheel in plugin.element.all("wheel"):
+        for name in wheel.attributes:
+            tag = next((tag for way, tag in _OF_WHEEL.items() if way in name), "")
+            text = wheel.attribute(name)
+            if tag and text is not None:
+                yield finding(
+                    text,
+                    f"{plugin.label} does not read the attribute {name} of <wheel>, so the wheel "
+                    f"does not slip: write <{tag}>{text.value}</{tag}> below <wheel>",
+                    key=f"{plugin.label} {name}",
+                )
 
 
 def _used_topics(robot: Robot, plugin: Plugin) -> Collection[str]:
@@ -131,7 +153,15 @@ def _classic(parameters: str) -> dict[str, str]:
     return {"@profile": "gazebo-classic", "@fragment": text}
 
 
+def _slip(wheel: str) -> dict[str, str]:
+    text = f'<plugin filename="libgazebo_ros_wheel_slip.so" name="slip">\n{wheel}\n</plugin>'
+    return {"@fragment": text, "@profile": "gazebo-classic"}
+
+
 GOOD = [
+    _slip(
+        '<wheel link_name="left"><slip_compliance_lateral>0.01</slip_compliance_lateral></wheel>'
+    ),
     _classic("<ros><remapping>odom:=wheel/odom</remapping></ros><left_joint>l</left_joint>"),
     _drive("<odom_topic>odometry</odom_topic>"),
     """
@@ -151,6 +181,7 @@ GOOD = [
     '<plugin filename="libOfSomebody.so" name="somebody::Else"><any>1</any></plugin>',
 ]
 BAD = [
+    _slip('<wheel link_name="left" lateral_slip_compliance="0.01"/>  <!-- ^ PLG005 -->'),
     _drive("<odometry_topic>odometry</odometry_topic>  <!-- ^ PLG005 -->"),
     """
 <plugin filename="ignition-gazebo-tracked-vehicle-system"
