@@ -72,7 +72,7 @@ def _to_root(first: Transform, joint: Transform, by_frame: _ByFrame) -> str:
     others = [it for it in there if it.parent == first.parent and it.source is not first.source]
     if others and not isinstance(first.source, WiredNode):
         return first.cure
-    line = f"write `{first.names_child.format(joint.root)}`, the root of the robot"
+    line = f"write `{first.names_child.replace('{}', joint.root)}`, the root of the robot"
     return f"{line}, and {others[0].cure}" if others else line
 
 
