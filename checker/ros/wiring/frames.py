@@ -64,7 +64,7 @@ def static_transforms(node: WiredNode) -> Iterator[Transform]:
         frames = words[-2:]
     if len(frames) == len(_OPTIONS):
         parent, child = map(_frame, frames)
-        span, cure = node.node.span, f"remove this {node.node.executable.value}"
+        span, cure = node.node.span, f"remove {node.label}"
         word = node.node.arguments[-1]
         if word.span.source.file.endswith(".srdf"):
             # MoveIt's launch file starts one for each virtual joint.
