@@ -19,12 +19,7 @@ from checker.rulebook.example_parts import rover
 
 @rule("TRI007", "wheel-without-load", Severity.ERROR, Concern.ROBOT, judges=("load_share",))
 def check(
-    driven: SettledTrial,
-    *,
-    warning_below: float = 0.05,
-    error_below: float = 0.002,
-    slight: float = 0.005,
-    slight_of_radius: float = 0.05,
+    driven: SettledTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:
     """Report wheels that carry far less than an equal share of the weight.
 
@@ -33,14 +28,11 @@ def check(
             wheels); a wheel that carries less is a warning.
         error_below: Share of an equal part of the weight; a wheel that carries less is an error
             instead of a warning.
-        slight: Metres that a wheel may be off the level of the others for it to stay a warning,
-            if the robot drives straight.
-        slight_of_radius: The same as a share of the wheel's radius; the smaller one counts.
     """
     uneven = _most_uneven(driven)
     harmless = (
         uneven is not None
-        and abs(uneven.off) <= min(slight, slight_of_radius * _radius(uneven))
+        and abs(uneven.off) <= min(_SLIGHT, _SLIGHT_OF_RADIUS * _radius(uneven))
         and _drives_straight(driven)
     )
     for load in driven.trial.all("load_share"):
@@ -59,6 +51,8 @@ def check(
 
 _LEAST = 5e-4
 """Metres; less than this lets no wheel hang."""
+_SLIGHT, _SLIGHT_OF_RADIUS = 0.005, 0.05
+"""Metres, and a share of the wheel's radius: less harms no robot that drives straight."""
 _STRAIGHT = {"path_sideways": 0.02, "path_heading": 0.035}
 """What TRI004 accepts."""
 
