@@ -1,10 +1,10 @@
-"""An element in a link or joint of a URDF that no reader reads there.
+"""An element in a robot, link or joint of a URDF that no reader reads there.
 
 URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
-it no friction, a `<gazebo>` or `<plugin>` inside a link loads no plugin, a `<collision>` inside a
-`<visual>` touches nothing, and `<joint_properties>` adds no damping. A `<geometry>` has one shape:
-urdfdom takes its first, MuJoCo a box before a mesh. Elements that only other programs read, such as
-`<contact>` of Bullet, are not reported.
+it no friction, a `<plugin>` outside of `<gazebo>` is not loaded, nor is a `<gazebo>` in a link, a
+`<collision>` inside a `<visual>` touches nothing, and `<joint_properties>` adds no damping. A
+`<geometry>` has one shape: urdfdom takes its first, MuJoCo a box before a mesh. Elements that only
+other programs read, such as `<contact>` of Bullet, are not reported.
 
 Fix: write the element where the message says.
 Source: urdfdom, link.cpp and joint.cpp; MuJoCo, xml_urdf.cc; sdformat's parser_urdf.cc, which takes
@@ -18,13 +18,17 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 
 @rule("URD022", "ignored-urdf-part", Severity.WARNING, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
-    """Report elements of SDF, of Gazebo and of the robot that are written in links and joints."""
+    """Report elements of SDF, of Gazebo and of the robot that are written in links and joints.
+
+    It is an error for a plugin: what it would do is missing.
+    """
     for part in stray_parts(description.document) if not description.for_rviz else ():
         tag, around = part.element.tag, part.path.rpartition("/")[2]
         owner = part.owner.get("name")
         yield finding(
             part.element,
             f"URDF readers ignore <{tag}> in <{around}> of {owner!r}: {part.advice}",
+            severity=Severity.ERROR if tag == "plugin" else None,
             key=f"{around}/{tag}",
         )
 
@@ -56,6 +60,7 @@ BAD = [
     _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
     _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
     _lamp(f"<visual>{_TWO}</visual>"),
+    {"@urdf": f'<plugin name="lift" filename="liblift.so"/>{_MARK}'},
     _lamp(f'<plugin name="lift" filename="liblift.so"/>{_MARK}'),
     _lamp(f"<visual><geometry><box size='1 1 1'/></geometry>\n<collision/>{_MARK}\n</visual>"),
     _lamp(_BOX.replace("@", "") + f'\n<origin xyz="0 0 1"/>{_MARK}'),

@@ -162,7 +162,13 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
 
 
 def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
-    """Yield elements of `<robot>`, `<gazebo>` and SDF that are written in links and joints."""
+    """Yield elements of `<robot>`, `<gazebo>` and SDF that are written in links and joints.
+
+    Also plugins that are in `<robot>` itself.
+    """
+    root = document.root
+    for plugin in root.all("plugin"):
+        yield StrayPart(plugin, root.tag, root, table("urdf_spec")["elsewhere"]["other"]["plugin"])
     for element, path in _descendants(document):
         if "/" not in path:
             owner = element

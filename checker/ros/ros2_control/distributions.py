@@ -100,7 +100,6 @@ class KnownParameter(Record, rename={"distros": "in"}):
     default_by: Mapping[str, Any] = {}
     validation: tuple[str, ...] = ()
 
-
     def default_in(self, distribution: str) -> Any:
         """Return its default in a distribution; None if it has none."""
         return self.default_by.get(_column(distribution), self.default)
