@@ -62,6 +62,12 @@ class ReportedRobot(Record):
         faultless = word in ("ok", "not judged")
         return TrialVerdict("not driven", why_not) if why_not and faultless else TrialVerdict(word)
 
+    @property
+    def is_object(self) -> bool:
+        """True if it has no joint, sensor or plugin: a barrel of a world, not a robot."""
+        counts = [self.facts.get(name) for name in ("joints", "sensors", "plugins")]
+        return counts == [0, 0, 0]
+
 
 def robots_of(package: PackageReport) -> list[ReportedRobot]:
     """Return the robots of a package; one without facts where nothing is known of any."""

@@ -388,7 +388,10 @@ def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) ->
 def _robots(package: PackageReport, palette: Palette) -> Iterator[str]:
     """Show the trial of the robot and what is known of it; of several robots, each in short."""
     robots = robots_of(package)
+    objects = [it.name for it in robots if it.is_object] if len(robots) > 1 else []
     for robot in robots:
+        if objects and robot.is_object:
+            continue
         facts = [fact.phrase for fact in facts_in_words(robot.facts)]
         if len(robots) == 1 and robot.trial:
             yield from trial_text(robot.trial, palette)
@@ -399,6 +402,9 @@ def _robots(package: PackageReport, palette: Palette) -> Iterator[str]:
         if len(robots) > 1 and robot.trial:
             rows = rows_of(robot.trial["measurements"])
             yield from _table([row for row in rows if row.is_fault], palette)
+    if objects:
+        names = shortened(and_list(objects), _TEXT_LIMIT)
+        yield plain(f"{count(len(objects), 'object')} without joints, sensors and plugins: {names}")
 
 
 def verdict_text(package: PackageReport, palette: Palette) -> str:

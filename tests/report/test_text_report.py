@@ -306,6 +306,15 @@ def test_facts_have_their_units() -> None:
     assert "robot rover, mass 18.4 kg, 10 links, 1 joint, no drive detected\n" in shown
 
 
+def test_objects_of_a_world_take_one_line() -> None:
+    robot = {"robot": "rover", "joints": 2, "sensors": 0, "plugins": 1}
+    objects = [{"robot": name, "joints": 0, "sensors": 0, "plugins": 0} for name in ("cone", "can")]
+    shown = text(replace(PACKAGE, facts=robot, other_robots=tuple(objects)))
+    assert "robot rover, 2 joints" in shown
+    assert "robot cone" not in shown
+    assert "2 objects without joints, sensors and plugins: cone and can\n" in shown
+
+
 def test_inherited_parts_name_their_source() -> None:
     parts = (
         InheritedPart("model", "base", at_hand=True),
