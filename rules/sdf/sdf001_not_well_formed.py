@@ -4,12 +4,12 @@ A parser stops at the first such error, so the simulator or roslaunch refuses th
 Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration, `--` inside a
 comment, `&` for `&amp;`, `<` for `&lt;` inside a value, control characters and a second root
 element. In files that only Gazebo, pluginlib, Nav2 or MoveIt reads these are infos; the other
-parsers of ROS refuse them. A script `NAME.launch` that begins with `#!` is not XML, and is not
-checked. So are faults of files in a folder of tests whose name says that a test expects them
-(`invalid_tree.urdf`), and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An
-empty file that no launch file names is a warning, unless a xacro file that is loaded includes it;
-so are such an SRDF, and a fragment of a URDF
-without `<robot>`, which other programs paste into a robot.
+parsers of ROS refuse them. A script `NAME.launch` that begins with `#!`, and a launch file in
+Python of that name, which `ros2 launch` reads as well, are not XML, and are not checked. So are
+faults of files in a folder of tests whose name says that a test expects them (`invalid_tree.urdf`),
+and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty file that no launch
+file names is a warning, unless a xacro file that is loaded includes it; so are such an SRDF, and a
+fragment of a URDF without `<robot>`, which other programs paste into a robot.
 
 Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
@@ -22,6 +22,7 @@ from collections.abc import Iterator
 
 from checker.base.files import NotReadable, TooLarge
 from checker.finding import Fix, Safety
+from checker.launch.ros2.package_files import is_python_launch
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.robots.candidates import including
@@ -68,8 +69,9 @@ def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
 
 
 def _refused(path: str, fault: XmlFault, package: Package) -> Iterator[Finding]:
-    if path.endswith(".launch") and fault.span.source.text.startswith("#!"):
-        return  # a script
+    source = fault.span.source
+    if path.endswith(".launch") and (source.text.startswith("#!") or is_python_launch(source)):
+        return  # a script, or a launch file in Python
     if not fault.span.source.text.strip():
         yield _empty(path, fault, package)
     elif _FOLDERS & set(path.split("/")) and _PLACEHOLDER.search(fault.span.source.text):
@@ -139,6 +141,7 @@ def _top(path: str) -> Span:
 
 GOOD = [
     {"test/drive.launch": "#! /usr/bin/env python3\nimport launch\n"},
+    {"launch/arm.launch": "import launch\n\ndef generate_launch_description():\n    pass\n"},
     {"worlds/example.sdf": "<sdf version='1.6'><world name='w'/></sdf>"},
     {"rviz/rviz.config": "Panels:\n  - Class: rviz_common/Displays\n"},
 ]

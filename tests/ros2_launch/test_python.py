@@ -584,3 +584,12 @@ return LaunchDescription([
     assert isinstance(parameter, Parameter)
     assert str(parameter.value).endswith("config/arm.urdf.xacro tool:=none)")
     assert not parameter.substituted  # a text is not parsed as YAML
+
+
+def test_a_file_named_launch_may_be_in_python(read: Read, tmp_path: Path) -> None:
+    text = python("return LaunchDescription([Node(package='rviz2', executable='rviz2')])")
+    graph = read(text, "launch/arm.launch")
+    assert [node.package.value for node in graph.nodes] == ["rviz2"]
+    assert not graph.faults
+    with open_input(tmp_path / NAME) as opened:
+        assert [*launch_files(opened.packages[0])] == ["launch/arm.launch"]

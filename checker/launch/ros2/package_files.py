@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 
 from checker.base.files import NotReadable
 from checker.formats.xacro.files import ROOT, local_path
@@ -10,6 +11,18 @@ from checker.launch.ros2.graph import SharePath, is_known, share_path
 from checker.package.installed import installed_as, source_of
 from checker.package.package import Package
 from checker.source.text import SourceText
+
+PYTHON_ENTRY = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
+
+
+def is_python_launch(source: SourceText) -> bool:
+    """Return whether a launch file is in Python; `ros2 launch` reads one named `.launch`, too.
+
+    It gives such a file to its reader of XML first, and where this fails, to that of Python.
+    """
+    path = source.file.lower()
+    named = path.endswith(".launch") and PYTHON_ENTRY.search(source.text) is not None
+    return path.endswith(".py") or named
 
 
 def local_file(package: Package, path: str) -> str | None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.parts import NotAvailable
 from checker.launch.ros2.graph import LaunchFaultKind, LaunchGraph, Ros2Launch
+from checker.launch.ros2.package_files import PYTHON_ENTRY, is_python_launch
 from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.source.text import SourceText
@@ -16,7 +17,6 @@ from checker.source.xml import XmlDocument
 FILES_LIMIT = 150
 OTHERS_LIMIT = 20
 """Launch files of other packages that are read for one that they name."""
-_PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 _YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
 _ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
 _ROS_2 = re.compile(r"""\$\((?:find-pkg-share|var)\s|<node\b[^>]{0,1000}\sexec\s{0,8}=""")
@@ -106,8 +106,10 @@ def launch_files(package: Package) -> Iterator[str]:
         if package.lies_in_unit(path):
             continue
         if lower.endswith(".py") and "launch" in lower:
-            if _holds(package, path, _PYTHON):
+            if _holds(package, path, PYTHON_ENTRY):
                 yield path
+        elif lower.endswith(".launch") and _is_python(package, path):
+            yield path
         elif lower.endswith((".launch.yaml", ".launch.yml", "_launch.yaml", "_launch.yml")):
             if _holds(package, path, _YAML):
                 yield path
@@ -115,6 +117,11 @@ def launch_files(package: Package) -> Iterator[str]:
             lower.endswith((".launch", ".xml")) and "launch" in lower and is_ros2_xml(package, path)
         ):
             yield path
+
+
+def _is_python(package: Package, path: str) -> bool:
+    source = package.read(path)
+    return isinstance(source, SourceText) and is_python_launch(source)
 
 
 def _holds(package: Package, path: str, pattern: re.Pattern[str]) -> bool:

@@ -143,7 +143,7 @@ class LaunchReader:
     def _visit_file(self, source: SourceText, context: Context) -> None:
         before, self._context = self._context, context
         try:
-            if source.file.endswith(".py"):
+            if package_files.is_python_launch(source):
                 description = read_python(source, self._allowance, self, self._found)
             else:
                 description = read_markup(self._package, source, context, self._found)
