@@ -25,6 +25,8 @@ _NAMED = re.compile(rf"{_BEFORE}\(?({_DISTROS})\b(?!%)\}}?", re.IGNORECASE)
 _NAMED_OF_ROS_1 = re.compile(rf"{_BEFORE}\(?({_BEFORE_NOETIC}|noetic)\b\}}?", re.IGNORECASE)
 """`ros:humble-perception`, `ROS_DISTRO=humble`, `/opt/ros/humble`, `${TAG:-humble}`, and a badge,
 `badge/ROS%202-Humble-blue`, but not one of several, `Humble%20|%20Jazzy`."""
+_OF_PACKAGES = re.compile(rf"\bros-({_DISTROS})-[a-z*<]")
+"""`ros-humble-xacro`, as a command installs it."""
 _INSTALLED = re.compile(rf"/opt/ros/({_DISTROS})\b")
 _WITH_PATHS = re.compile(r"\.(?:urdf|xacro|sdf|world|launch|py|xml|ya?ml|sh)\Z")
 _CONTAINER = re.compile(
@@ -47,14 +49,15 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 
     A container file counts before CI, and both before the README. Files at the top of the folder
     with the package's siblings count like its own; those of the folders around it, as far as the
-    user gave them, only where these name none, or name one of several that these name. Where
-    nothing else names one, paths do, as in `file:///opt/ros/humble/share`.
+    user gave them, only where these name none, or name one of several that these name. Of several
+    in a text, the one counts whose packages it installs. Where nothing else names one, paths do,
+    as in `file:///opt/ros/humble/share`.
     """
     nearest, *further = files_above(package, NAMES) or [()]
     several: set[str] = set()
     for sources in ((*own_files(package, NAMES), *nearest), *further):
         signs = _signs(sources, _NAMED)
-        one = _only(signs)
+        one = _only(signs) or _only(_signs(sources, _OF_PACKAGES))
         if one is not None:
             return one if not several or one.distro in several else None
         several |= {sign.distro for sign in signs}

@@ -19,7 +19,7 @@ README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 _LEVELS = 8
 _SIZE_LIMIT = 500_000
 _ITEMS = 5_000
-_PLACES = (".", ".devcontainer", ".github/workflows")
+_PLACES = (".", ".devcontainer", ".docker", ".github/workflows", "docker")
 
 
 def own_files(package: Package, names: re.Pattern[str]) -> list[SourceText]:

@@ -83,6 +83,14 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
             ("ros2", "jazzy"),
         ),
         ({"@ros2": True, "README.md": "ROS 2 Humble or ROS 2 Jazzy\n"}, ("ros2", "")),
+        (
+            {
+                "@ros2": True,
+                "README.md": "For ROS 2 Jazzy, not ROS 2 Humble:\napt install ros-jazzy-xacro\n",
+            },
+            ("ros2", "jazzy"),
+        ),
+        ({"@ros2": True, "../docker/arm.Dockerfile": "FROM ros:lyrical\n"}, ("ros2", "lyrical")),
         ({"@ros2": True, "README.md": "Keep rolling, an iron rule.\n"}, ("ros2", "")),
         ({"@ros2": True, "README.md": "![](badge/ROS%202-Humble-blue)\n"}, ("ros2", "humble")),
         ({"@ros2": True, "README.md": "![](badge/ROS%202-Humble%20|%20Jazzy-blue)"}, ("ros2", "")),
