@@ -4,8 +4,9 @@ Paths are planned as if the robot were a circle with this radius around its base
 reaches beyond the circle on all sides, it hits obstacles beside these paths. Often the value is
 copied from the parameters of a smaller robot.
 
-It is reported where the launch file has one robot_state_publisher, and its robot is known, for a
-costmap without `footprint`. The base is the link of `robot_base_frame`, or one that is fixed to it,
+It is reported for a costmap without `footprint` where the launch file has one robot_state_publisher,
+and its robot is known. A launch file without one is run beside the others of the package: the
+radius is reported if it is too small for the robots of all of them. The base is the link of `robot_base_frame`, or one that is fixed to it,
 by the box around its collisions; a base that the circle reaches beyond on one side is not reported.
 
 Fix: write half the diagonal of the base, which the message names, or its `footprint`.
@@ -13,44 +14,59 @@ Source: navigation2, nav2_costmap_2d: `footprint`, `robot_radius`, `robot_base_f
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from checker.model.geometry.boxes import Box
 from checker.model.robot import Robot
 from checker.ros.wiring.frames import STATE_PUBLISHER
 from checker.ros.wiring.inputs import costmap_of
 from checker.ros.wiring.parameters import Setting
-from checker.ros.wiring.wiring import Wiring
+from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _NONE = ("", "[]")
 
 
 @rule("WIR013", "robot-radius-too-small", Severity.WARNING, Concern.INTERFACE)
-def check(wiring: Wiring, *, part: float = 0.95) -> Findings:
+def check(wirings: Wirings, *, part: float = 0.95) -> Findings:
     """Report a `robot_radius` of a costmap that is less than the base of the robot.
 
     Options:
         part: Radius of a costmap divided by that of the largest circle around the base frame that
             is within the base; less is reported.
     """
-    publishers = [node for node in wiring.every_node if node.program == STATE_PUBLISHER]
-    if len(publishers) != 1 or len(wiring.described) != 1:
-        return
-    _, robot = wiring.described[0]
-    for node in wiring.nodes:
-        name, settings = costmap_of(node)
-        radius, footprint = settings.get("robot_radius"), settings.get("footprint")
-        if radius is None or (footprint is not None and footprint.text not in _NONE):
+    for wiring in wirings.all:
+        robots = _robots((wiring,)) if _publishers(wiring) else _robots(wirings.all)
+        if _publishers(wiring) > 1 or not robots:
             continue
-        bases = [*_bases(robot, _base_frame(settings))]
-        value, (inner, outer, link) = radius.value, max(bases, default=(0.0, 0.0, ""))
-        if isinstance(value, int | float) and value < part * inner:
-            yield finding(
-                radius.span,
-                f"robot_radius of {name} is {value:g} m, but link {link!r} reaches {inner:.3g} m "
-                f"or more to each side: expected {math.ceil(100 * outer) / 100:g} m, around it",
-            )
+        for node in wiring.nodes:
+            name, settings = costmap_of(node)
+            radius, footprint = settings.get("robot_radius"), settings.get("footprint")
+            if radius is None or (footprint is not None and footprint.text not in _NONE):
+                continue
+            value, (inner, outer, link) = radius.value, _least_base(robots, _base_frame(settings))
+            if isinstance(value, int | float) and value < part * inner:
+                yield finding(
+                    radius.span,
+                    f"robot_radius of {name} is {value:g} m, but link {link!r} reaches {inner:.3g} "
+                    f"m or more to each side: expected {math.ceil(100 * outer) / 100:g} m, "
+                    "around it",
+                )
+
+
+def _publishers(wiring: Wiring) -> int:
+    return sum(node.program == STATE_PUBLISHER for node in wiring.every_node)
+
+
+def _robots(wirings: Sequence[Wiring]) -> list[Robot]:
+    """Return the robots whose transforms launch files publish; none if one is not known."""
+    known = all(_publishers(each) == len(each.described) for each in wirings)
+    return [robot for each in wirings for _, robot in each.described] if known else []
+
+
+def _least_base(robots: Sequence[Robot], frame: str) -> tuple[float, float, str]:
+    """Return the circles within and around the base of the smallest robot, and its link."""
+    return min(max(_bases(robot, frame), default=(0.0, 0.0, "")) for robot in robots)
 
 
 def _base_frame(settings: Mapping[str, Setting]) -> str:
@@ -106,10 +122,32 @@ def _example(
     }
 
 
+_NAVIGATION = """import os
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+HERE = os.path.join(os.path.dirname(__file__), "..")
+
+
+def generate_launch_description():
+    return LaunchDescription(["""
+
+
+def _launched_apart(radius: str) -> dict[str, object]:
+    """Return the same with the nodes of Nav2 in a launch file of their own."""
+    launch = {"launch/navigation.launch.py": f"{_NAVIGATION}{_SERVER}])\n"}
+    return {name: it for name, it in _example(radius).items() if name != "@launch"} | launch
+
+
 GOOD = [
     _example("0.25"),
     _example("0.1", x=0.32),
     _example("0.1", joint="continuous"),
+    _launched_apart("0.25"),
     _example("0.1", more='      footprint: "[[0.4, 0.25], [0.4, -0.25], [-0.4, 0.0]]"\n'),
 ]
-BAD = [_example("0.2  # ^ WIR013"), _example("0.1  # ^ WIR013", x=0.2)]
+BAD = [
+    _example("0.2  # ^ WIR013"),
+    _example("0.1  # ^ WIR013", x=0.2),
+    _launched_apart("0.2  # ^ WIR013"),
+]
