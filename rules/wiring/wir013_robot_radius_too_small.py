@@ -4,10 +4,11 @@ Paths are planned as if the robot were a circle with this radius around its base
 reaches beyond the circle on all sides, it hits obstacles beside these paths. Often the value is
 copied from the parameters of a smaller robot.
 
-It is reported for a costmap without `footprint` where the launch file has one robot_state_publisher,
-and its robot is known. A launch file without one is run beside the others of the package: the
-radius is reported if it is too small for the robots of all of them. The base is the link of `robot_base_frame`, or one that is fixed to it,
-by the box around its collisions; a base that the circle reaches beyond on one side is not reported.
+It is reported for a costmap without `footprint` where the launch file has one
+robot_state_publisher, and its robot is known. A launch file without one is started beside the
+others of the package: there the radius is reported if it is too small for the robots of all. The
+base is the link of `robot_base_frame`, or one that is fixed to it, by the box around its
+collisions; a base that the circle reaches beyond on one side is not reported.
 
 Fix: write half the diagonal of the base, which the message names, or its `footprint`.
 Source: navigation2, nav2_costmap_2d: `footprint`, `robot_radius`, `robot_base_frame`.
