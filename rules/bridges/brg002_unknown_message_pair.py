@@ -4,7 +4,8 @@ The bridge warns "Failed to create a bridge" and continues, and the topic has no
 converts a fixed list of pairs, written as `package/msg/Name` and `gz.msgs.Name`; the names are
 case-sensitive. The list of this rule ends in October 2024: a pair that is not similar to one of the
 list is a warning or an info. An entry beside another that passes the same topic is needless: a
-warning.
+warning. Where the message of Gazebo is in the place of that of ROS, the finding names the line to
+write.
 
 Fix: write the pair that the finding names.
 Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
@@ -15,7 +16,8 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from checker.base.words import and_list
-from checker.launch.ros2.bridges.entry import GZ_PREFIXES, BridgeEntry
+from checker.finding import Fix
+from checker.launch.ros2.bridges.entry import GZ_PREFIXES, MARKS, BridgeEntry, gz_name
 from checker.launch.ros2.graph import is_known
 from checker.ros.bridge_types import (
     all_ros_types,
@@ -25,7 +27,17 @@ from checker.ros.bridge_types import (
     ros_types,
 )
 from checker.ros.simulation import Simulations
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    rename,
+    rule,
+)
 from checker.source.text import Located
 
 _AS_LISTED = ("", "humble", "jazzy")
@@ -60,7 +72,9 @@ def _needless(found: Finding, topic: str) -> Finding:
 def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Finding]:
     ros, gz = entry.passed.ros_type, entry.passed.gz_type
     partners = ros_types(entry.gz_name)
-    if not gz.value.startswith(GZ_PREFIXES) or not partners:
+    if ros.value.startswith(GZ_PREFIXES) and gz.value in ros_types(gz_name(ros.value)):
+        yield _swapped(entry)
+    elif not gz.value.startswith(GZ_PREFIXES) or not partners:
         yield _unknown_message(gz, ros.value)
     elif ros.value not in partners and not behind.intersection(gz_messages(ros.value)):
         expected = and_list(partners)
@@ -72,6 +86,21 @@ def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Findi
             yield finding(ros, f"{said}; it knows {expected}", severity=severity)
         else:
             yield finding(ros, f"{said}; it knows {expected}", severity=Severity.WARNING)
+
+
+def _swapped(entry: BridgeEntry) -> Finding:
+    """Report messages of ROS and Gazebo that are in each other's places."""
+    passed, ros, gz = entry.passed, entry.passed.gz_type, entry.passed.ros_type
+    said = "the two types are swapped, that of ROS comes first: write"
+    topic = passed.ros_topic
+    if ros.span is not gz.span:  # an entry of a file
+        edits = (ros.span.replacement(gz.value), gz.span.replacement(ros.value))
+        expected = f"ros_type_name: {ros.value}, gz_type_name: {gz.value}"
+        return finding(gz, f"{said} {expected}", fix=Fix(Safety.UNSAFE, edits))
+    mark = next(mark for mark, way in MARKS.items() if way is entry.direction)
+    wanted = f"{topic.value}@{ros.value}{mark}{gz.value}"
+    written = Located(f"{topic.value}@{gz.value}{mark}{ros.value}", topic.span)
+    return finding(topic, f"{said} {wanted}", fix=rename(written, wanted))
 
 
 def _unknown_message(gz: Located[str], ros: str) -> Finding:
@@ -124,12 +153,21 @@ BAD = [
     _entry("sensor_msgs/msg/Imu", "ign_msgs.IMU", "ign_msgs.IMU"),
     _entry("sensor_msgs/msg/Imu", "gz.msgs.Imu", "gz.msgs.Imu"),
     _entry("sensor_msgs/msg/Imu", "gz.msgs.Odometry", "sensor_msgs/msg/Imu"),
+    _entry("gz.msgs.Odometry", "nav_msgs/msg/Odometry", "gz.msgs.Odometry"),
     _entry("acme_msgs/msg/Pulse", "gz.msgs.Odometry", "acme_msgs/msg/Pulse"),
     _entry("acme_msgs/msg/Pulse", "acme.msgs.Pulse", "acme.msgs.Pulse"),
     {
         "@bridge": True,
         "@launch": {
             "arguments=[]": 'arguments=["/a@sensor_msgs/Imu[gz.msgs.IMU"],  # ^ BRG002\n#',
+        },
+    },
+    {
+        "@bridge": True,
+        "@launch": {
+            "arguments=[]": (
+                'arguments=["/tf@gz.msgs.Pose_V[tf2_msgs/msg/TFMessage"],  # ^ BRG002\n#'
+            ),
         },
     },
 ]

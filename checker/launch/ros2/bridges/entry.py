@@ -12,7 +12,7 @@ from checker.source.text import Located, Span
 
 GZ_PREFIXES = ("gz.msgs.", "ignition.msgs.")
 _GRAMMAR = "<topic>@<ros type>@<gz type>, with [ or ] for the second @"
-_MARKS = {"@": Direction.BOTH, "[": Direction.TO_ROS, "]": Direction.TO_IGN}
+MARKS = {"@": Direction.BOTH, "[": Direction.TO_ROS, "]": Direction.TO_IGN}
 _SERVICE = re.compile(r"/srv/")
 
 
@@ -150,16 +150,16 @@ def read_argument(word: Located[str]) -> Passed | BridgedService | BridgeFault:
         kind, *messages = (Located(text, word.span) for text in rest.split("@"))
         return BridgedService(Located(topic, word.span), kind, tuple(messages))
     # The program looks for a second @ first, then for [, then for ].
-    mark = next((mark for mark in _MARKS if rest.find(mark) > 0), None)
+    mark = next((mark for mark in MARKS if rest.find(mark) > 0), None)
     if mark is None:
         return fault("it has no second '@', '[' or ']' between the types")
     ros_type, _, gz_type = rest.partition(mark)
-    if not gz_type or any(other in gz_type for other in _MARKS):
+    if not gz_type or any(other in gz_type for other in MARKS):
         return fault("it names no message of Gazebo" if not gz_type else "it has too many marks")
 
     def located(text: str) -> Located[str]:
         return Located(text, word.span)
 
     return Passed(
-        located(topic), located(topic), located(ros_type), located(gz_type), _MARKS[mark], word.span
+        located(topic), located(topic), located(ros_type), located(gz_type), MARKS[mark], word.span
     )
