@@ -2,9 +2,10 @@
 
 libsdformat copies unknown elements with a warning, and nothing reads them, so their content has no
 effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the name
-resembles a known one, or if it would change how the part moves; an element that only changes the
-look of a part, and one that resembles an element that the target does not read (such as
-`<always_on>`), is a warning, and so is a parameter of a plugin of Gazebo Classic. A file of an
+resembles one that is allowed there, or if it would change how the part moves; an element that only
+changes the look of a part, and one that resembles an element that the target does not read (such as
+`<always_on>`), is a warning, and so is a parameter of a plugin of Gazebo Classic. Of a name that is
+allowed elsewhere, the message names the place, if there is one alone. A file of an
 older version is read as one of the newest version: elements of that version are known, too.
 Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008 reports a known
 element in the wrong place, SEN028 those that name the frame of a sensor.
@@ -20,7 +21,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.formats.sdf.document import SdfDocument
-from checker.formats.sdf.schema import all_tags
+from checker.formats.sdf.schema import all_tags, holders_of, parents_of
 from checker.formats.sdf.unread import GRAVE_PARENTS, is_appearance, is_unread
 from checker.model.sensing.kind import frame_ids
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
@@ -45,11 +46,11 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if element.tag in _plugin_parameters() and not sure:
             yield _of_plugin(element, element.parent or sdf.root)
             continue
-        near = siblings.closest(element.tag) or anywhere.closest(element.tag)
+        near = siblings.closest(element.tag)
         parent = element.parent or sdf.root
         meant = near is not None and not is_unread(near, context.release)
         grave = (meant or parent.tag in GRAVE_PARENTS) and not is_appearance(element)
-        hint = f"; did you mean <{near}>?" if near else ""
+        hint = f"; did you mean <{near}>?" if near else _elsewhere(element, anywhere, sdf.version)
         yield finding(
             element,
             f"<{element.tag}> in <{parent.tag}> is not an element of SDF "
@@ -58,6 +59,17 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             key=f"{parent.tag}/{element.tag}",
             fix=_renaming_fix(element, sure) if sure and sure not in there[parent] else None,
         )
+
+
+def _elsewhere(element: Element, anywhere: Suggestions, version: str) -> str:
+    """Return where the one element that may be meant belongs; nothing if that is not certain."""
+    tag = anywhere.correction(element.tag)
+    places = parents_of(version).get(tag, ()) if tag else ()
+    if len(places) != 1:
+        return ""
+    holders = holders_of(version, places[0], tag or "")
+    place = f"{holders[0]}/{places[0]}" if len(holders) == 1 else places[0]
+    return f"; if <{tag}> is meant, it belongs in <{place}>"
 
 
 @cache
@@ -119,4 +131,6 @@ BAD = [
   <distortionK1>0</distortionK1>  <!-- ^ SDF003 -->
 </sensor>
 """,
+    # A warning: what it resembles is not allowed there either.
+    '<link name="arm"><m2>0.5</m2>  <!-- ^ SDF003 --></link>',
 ]
