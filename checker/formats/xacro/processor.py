@@ -105,7 +105,8 @@ def expand(
 
 
 def _unavailable(package: str) -> dict[str, Any]:
-    return {"unread": f"{package} is not available"}
+    cure = "give its parent folder with --package-path DIR"
+    return {"unread": f"package {package} is not available; {cure}"}
 
 
 def _causes(error: BaseException | None) -> list[BaseException]:
