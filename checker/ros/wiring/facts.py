@@ -31,6 +31,8 @@ class NodeFacts(Record):
         waits_for: Services and actions of others that it cannot do without; `{x}` is each item of
             parameter x.
         unless: Parameters with which it may wait for others.
+        lifecycle_from: The first distribution in which it is a lifecycle node, if it was none
+            before.
     """
 
     name: str = ""
@@ -43,6 +45,7 @@ class NodeFacts(Record):
     offers: tuple[str, ...] = ()
     waits_for: tuple[str, ...] = ()
     unless: tuple[str, ...] = ()
+    lifecycle_from: str = ""
 
 
 @cache
