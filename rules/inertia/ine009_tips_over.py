@@ -3,26 +3,30 @@
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. A caster or foot that is drawn there and has no collision
-is named instead of the centre of mass. Shapes within 10 mm of the ground support the robot, meshes
-with their convex hull. A robot on wheels of two sizes leans a little, and stands on both. A robot
-of URDF that stands on legs is not judged, nor is one whose name says that it balances: a controller
-decides how it stands. For a description that no simulator gets, such as one for transforms alone,
-it is an info.
+is named instead of the centre of mass. A robot that leans between 5° and 15° until it rests on
+casters that do not reach the ground does not tip over: a warning names them. Shapes within 10 mm of
+the ground support the robot, meshes with their convex hull. A robot on wheels of two sizes leans a
+little, and stands on both. A robot of URDF that stands on legs is not judged, nor is one whose name
+says that it balances: a controller decides how it stands. For a description that no simulator gets,
+such as one for transforms alone, it is an info.
 
-Fix: give each caster and foot a `<collision>`; check the centre of mass of the heaviest link (the
-pose of its `<inertial>`) and the places of wheels or feet. Also check for a part far outside, or a
-chassis lower than the wheels.
+Fix: give each caster and foot a `<collision>` that reaches the ground: lower a part that is too
+high by its joint, or give it a greater radius. Else check the centre of mass of the heaviest link
+(the pose of its `<inertial>`) and the places of wheels or feet. Also check for a part far outside,
+or a chassis lower than the wheels.
 Source: statics: tip angle = atan(distance to the edge / height of the centre of mass).
 """
 
 import math
 from collections.abc import Iterator, Mapping
 
+from checker.base.words import and_list
 from checker.model.components import Link, Pose
 from checker.model.geometry.placed_shapes import place_shapes
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import Tie
+from checker.physics.mass.leaning import high_parts
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import spanning_tree_of
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -79,9 +83,12 @@ def check(
     standing = "tips over on flat ground" if degrees < 0 else f"tips over at {degrees:.1f}°"
     severity = Severity.ERROR if grave else Severity.WARNING
     place, cause = _bodiless(robot, ground) or _top_heavy(masses, centre, ground, least)
+    message = f"the robot {standing}{cause}"
+    if leaning := _leaning(masses, centre, ground, least):
+        severity, (place, message) = Severity.WARNING, leaning
     yield finding(
         place,
-        f"the robot {standing}{cause}",
+        message,
         severity=Severity.INFO if robot.shown_only else severity,
     )
 
@@ -97,6 +104,22 @@ def _top_heavy(
         heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
         f", expected {least:g}° or more: its centre of mass is at x, y = {at} m, {height}; "
         f"the heaviest link is {heaviest.name.value!r}",
+    )
+
+
+def _leaning(
+    masses: MassProperties, centre: Vector, ground: float, least: float
+) -> tuple[Link, str] | None:
+    """Return the first part that a robot rests on once it leans, and what to say of it."""
+    robot, parts = masses.robot, high_parts(masses.robot, centre, ground)
+    heaviest = max(masses.links, key=lambda name: masses.links[name].mass)
+    if parts is None or heaviest in parts.gaps or math.degrees(parts.tip_angle) < least:
+        return None
+    links = {robot.tree.links[name]: gap for name, gap in parts.gaps.items()}
+    high = [f"{link.name.value!r} is {gap:.3f} m" for link, gap in links.items()]
+    return next(iter(links)), (
+        f"the robot leans up to {math.degrees(parts.lean):.1f}° until it rests on what does not "
+        f"reach the ground: {and_list(high)} above it"
     )
 
 
@@ -175,7 +198,25 @@ _CASTER = f"""
   <pose>0.2 0 -0.15 0 0 0</pose>
   <visual name="v"><geometry><sphere><radius>0.05</radius></sphere></geometry></visual>
 """
+
+
+def _on_two_wheels(height: float, mark: str = "") -> str:
+    """Return a robot on an axle in the middle, between two casters above the ground."""
+    casters = "".join(
+        f"""
+</link>
+<joint name="{name}_joint" type="fixed"><parent>base_link</parent><child>{name}</child></joint>
+<link name="{name}">{mark if name == "front" else ""}
+  <pose>{x} 0 {height - 0.15} 0 0 0</pose>
+  <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision>
+"""
+        for name, x in (("front", 0.3), ("rear", -0.3))
+    )
+    return _rover(0).replace("<pose>0.2", "<pose>0.0").replace("<pose>-0.2", "<pose>0.0") + casters
+
+
 GOOD = [
+    _on_two_wheels(0.01),
     _rover(0),
     _rover(0.05),
     _rover(0, front=0.08),
@@ -186,4 +227,5 @@ BAD = [
     _rover(0, 0.3, mark=_MARK),
     _rover(0, mark=_MARK, front=0.05),
     _rover(0, front=0.05) + _CASTER,
+    _on_two_wheels(0.05, _MARK),
 ]

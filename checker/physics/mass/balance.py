@@ -155,7 +155,7 @@ def _hull(geometry: Geometry, meshes: Meshes) -> list[Vector]:
     return [(a * x, b * y, c * z) for x, y, z in mesh.corners]
 
 
-_TOUCHES = 0.01
+TOUCHES = 0.01
 """Metres above the lowest point up to which points stand on the ground: wheels sink in, and models
 are not drawn more precisely."""
 _DOWN: Vector = (0.0, 0.0, -1.0)
@@ -180,7 +180,7 @@ class Stand(Record):
 def stand_of(robot: Robot) -> Stand:
     """Find what a robot stands on: flat ground below its lowest collision shape."""
     lowest: list[tuple[float, Link, Collision, Transform]] = []
-    for link, collision in _collisions(robot):
+    for link, collision in collisions_of(robot):
         mesh = robot.mesh_of(collision)
         if isinstance(mesh, MeshFault):
             uri = collision.geometry.uri
@@ -192,18 +192,19 @@ def stand_of(robot: Robot) -> Stand:
     ground = min((point[0] for point in lowest), default=None)
     if ground is None:
         return Stand()
-    touching = [point for point in lowest if point[0] <= ground + _TOUCHES]
+    touching = [point for point in lowest if point[0] <= ground + TOUCHES]
     points = [
         (x, y)
         for _, _, collision, pose in touching
         for x, y, z in contact_points(collision.geometry, pose, robot.scaled_meshes)
-        if z <= ground + _TOUCHES
+        if z <= ground + TOUCHES
     ]
     names = frozenset(link.scoped_name for _, link, _, _ in touching)
     return Stand(convex_hull(points), ground, names)
 
 
-def _collisions(robot: Robot) -> Iterator[tuple[Link, Collision]]:
+def collisions_of(robot: Robot) -> Iterator[tuple[Link, Collision]]:
+    """Yield the collisions of a robot, each with its link."""
     for link in robot.links:
         for collision in link.collisions:
             yield link, collision
@@ -219,46 +220,3 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
         return None
     x, y, z = centre
     return math.atan2(margin(stand.polygon, (x, y)), z - stand.height)
-
-
-_LEANS = math.cos(math.radians(5.0))
-"""Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
-
-
-def collision_points(robot: Robot) -> list[Vector]:
-    """Return the points of all collisions that may touch the ground, in metres."""
-    return [
-        point
-        for link, collision in _collisions(robot)
-        if (pose := robot.pose_of_part(link, collision.pose)) is not None
-        for point in contact_points(collision.geometry, pose, robot.scaled_meshes)
-    ]
-
-
-def leaning_polygon(points: Sequence[Vector], centre: Vector) -> tuple[Point, ...]:
-    """Return what carries a robot that may lean a little until other parts carry it, too.
-
-    It rests on the sides of the hull around its collisions that are nearly level and face down.
-
-    Args:
-        points: The points of its collisions, in metres.
-        centre: The centre of mass, in metres.
-    """
-    return convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
-
-
-def _lower_points(points: Sequence[Vector], centre: Vector) -> Iterator[Vector]:
-    """Yield the corners of the hull's lower sides, and the points near these sides."""
-    # Few robots need it, and it takes long to load.
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        # What only wheels carry touches in one plane: with the centre of mass above, it has a hull.
-        hull = ConvexHull([*points, centre])
-    except (QhullError, ValueError):
-        return
-    for x, y, z, offset in hull.equations.tolist():
-        if -z >= _LEANS:
-            for a, b, c in points:
-                if -(x * a + y * b + z * c + offset) <= _TOUCHES:
-                    yield a, b, c

@@ -20,8 +20,6 @@ from checker.model.tree import WORLD
 from checker.physics.mass.balance import (
     Point,
     Stand,
-    collision_points,
-    leaning_polygon,
     stand_of,
     tip_angle,
 )
@@ -32,6 +30,7 @@ from checker.physics.mass.inertia import (
     pseudo_eigenvalue,
     rows_of,
 )
+from checker.physics.mass.leaning import collision_points, leaning_polygon
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.physics.mass.mechanism import (
     Freedom,
