@@ -5,7 +5,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 INSTALL := $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt
-WORKERS ?= auto
+# One more than processors: a quarter of the time a test waits for a process that it started.
+WORKERS ?= $(shell $(PYTHON) -c "import os; print((os.cpu_count() or 1) + 1)")
 # A worker takes neighbouring tests, which share fixtures.
 TEST := $(BIN)/pytest -n $(WORKERS) --dist worksteal
 THOROUGH := --hypothesis-profile=thorough
@@ -71,10 +72,10 @@ format: .venv/dev
 	$(BIN)/ruff format .
 
 bench: .venv/tested $(VIEWER)
-	$(BIN)/python bench/static.py
-	$(BIN)/python bench/trial.py
+	$(BIN)/python -m bench.static
+	$(BIN)/python -m bench.trial
 	$(BIN)/python -m bench.report
-	$(BIN)/python bench/hostile.py
+	$(BIN)/python -m bench.hostile
 	$(BIN)/python -m bench.install
 	$(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
