@@ -52,9 +52,9 @@ def check(masses: MassProperties, simulations: Simulations | None, *, hinges: in
     robot = masses.robot
     is_spawned = simulations is not None and bool(simulations.given(robot))
     root = _loose_root(robot) if is_spawned or robot.is_for_gazebo else ""
-    chain = list(_chain(robot, root)) if root else []
+    chain = _chain(robot, root) if root else ()
     lifting = [it for it in chain if it.type.value in _HINGES and _lifts(robot, it)]
-    if len(lifting) < hinges or not masses.standing <= robot.tree.base:
+    if len(lifting) < hinges or _may_move(robot) or not masses.standing <= robot.tree.base:
         return
     unknown = robot.unweighed or robot.unplaced_part or _unknown_base(robot)
     if unknown:
@@ -75,14 +75,17 @@ def check(masses: MassProperties, simulations: Simulations | None, *, hinges: in
 
 
 def _loose_root(robot: Robot) -> str:
-    """Return the root link of a robot that Gazebo gets and that only its base can carry."""
+    """Return the root link of a robot that nothing holds; empty if it is held, or has several."""
     tree = robot.tree
     roots = [name for name in tree.links if name not in tree.ties_above]
     is_held = robot.is_static or any(tie.parent == WORLD for tie in tree.ties)
-    moves = robot.drives or robot.flies or looks_legged(robot) or robot.balances
-    if len(roots) != 1 or is_held or robot.shown_only or moves or any(map(_carries, _names(robot))):
-        return ""
-    return "" if any(map(body_velocity, robot.plugins)) else roots[0]
+    return "" if len(roots) != 1 or is_held or robot.shown_only else roots[0]
+
+
+def _may_move(robot: Robot) -> bool:
+    """Return whether a robot may move from its place, so that no base has to carry it."""
+    moves = robot.drives or robot.flies or robot.balances or any(map(_carries, _names(robot)))
+    return bool(moves or any(map(body_velocity, robot.plugins)) or looks_legged(robot))
 
 
 def _names(robot: Robot) -> Iterator[str]:
