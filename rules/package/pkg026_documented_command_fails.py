@@ -4,7 +4,11 @@
 installs no such program, or the package has another name by now. Often something was renamed, and
 the first command that a user tries fails.
 
-Fix: write the command with the names that exist.
+A launch file of a package that exists nowhere is reported of a README above several packages that
+names the package only in such commands, where nothing else of the repository brings or uses it:
+neither a submodule, a `.repos` file, a script or a container, nor another package.
+
+Fix: write the command with the names that exist; or write where the package comes from.
 Source: ros2launch, `get_share_file_path_from_package`; roslaunch, `resource_exception`.
 """
 
@@ -13,6 +17,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 from checker.package.files_above import README, files_above, own_files
+from checker.package.manifests import Paperwork
+from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.package.programs import why_no_program
 from checker.package.released import distributions_with
@@ -24,6 +30,12 @@ _COMMAND = re.compile(
     r"([\w./-]{1,200}\.(?:py|xml|ya?ml|launch))\b"
 )
 
+_WORD = re.compile(r"[\w-]+")
+_LISTS = (".gitmodules", ".repos", ".rosinstall")
+_BRINGING = re.compile(
+    r"(?:\A|/)(?:\.gitmodules|[^/]+\.(?:repos|rosinstall|sh|dockerfile)|dockerfile[^/]*)\Z"
+)
+"""Files that may bring packages of other repositories."""
 _RUN = re.compile(r"\bros2[ \t]+run[ \t]+([a-z]\w{1,100})[ \t]+([\w.-]{1,100})")
 
 
@@ -43,6 +55,8 @@ def check(package: Package) -> Findings:
         for source in sources:
             yield from _launches(source, [package])
             yield from _runs(source, [package])
+            if every[1:] and package.root == min(it.root for it in every):
+                yield from _of_no_package(source, every)
 
 
 def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
@@ -64,6 +78,44 @@ def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Findi
                 key=f"{name.text} {file.text}",
                 fix=replace_text(name, holders[0], Safety.UNSAFE),
             )
+
+
+def _of_no_package(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
+    """Report commands of packages that exist nowhere; judged once, for the first package."""
+    first = packages[0]
+    bringing = [text for files in files_above(first, _BRINGING) for text in files]
+    commands = [*_COMMAND.finditer(source.text)]
+    for command in commands:
+        name, file = command.groups()
+        named = sum(_WORD.findall(it.group()).count(name) for it in commands)
+        if (
+            distributions_with(name)
+            or first.named(name) is not None
+            or first.workspace.without_manifest(name)
+            or any(it.declared_name == name or _has(it, file) for it in packages)
+            or _WORD.findall(source.text).count(name) > named
+            or any(_brings(text, name) for text in bringing)
+            or any(_uses(it, name) for it in packages)
+        ):
+            continue
+        yield finding(
+            Span(source, *command.span(1)),
+            f"the command fails: this repository has no package {name}, and ROS has none: write "
+            "where it comes from, or correct the name",
+            key=name,
+        )
+
+
+def _brings(source: SourceText, name: str) -> bool:
+    """Return whether a file may bring a package: a list of repositories names them otherwise."""
+    return source.file.endswith(_LISTS) or has_word(source.text, name)
+
+
+def _uses(package: Package, name: str) -> bool:
+    """Return whether a package depends on another one, or its launch files name that."""
+    manifest = Paperwork(package).manifest
+    depends = manifest is not None and manifest.depends_on(name)
+    return depends or any(has_word(text, name) for text in package.launch_texts.values())
 
 
 def _runs(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
@@ -90,8 +142,22 @@ def _readme(command: str) -> dict[str, object]:
     return {"@ros2": True, "README.md": f"# Arm\n\n```\n{command}\n```\n"}
 
 
+def _above(name: str, more: str = "") -> dict[str, object]:
+    """Return a README above two packages."""
+    return {
+        "@ros2": True,
+        "../acme_tools/package.xml": "<package><name>acme_tools</name></package>",
+        "../acme_tools/launch/tools.launch.py": "",
+        "../README.md": f"Run `ros2 launch {name} sim.launch.py`. {more}\n",
+    }
+
+
 _MARK = "  <!-- ^ PKG026 -->"
 GOOD = [
+    _above("acme_sim", "The package acme_sim is that of our other repository."),
+    {**_above("acme_sim"), "../acme.repos": "repositories: {}\n"},
+    {**_above("acme_tools"), "../acme_tools/launch/sim.launch.py": ""},
+    _above("nav2_bringup"),
     _readme("ros2 launch acme_arm_bringup arm.launch.py use_sim:=true"),
     _readme("ros2 launch nav2_bringup navigation_launch.py"),
     _readme("ros2 run rviz2 rviz2 -d view.rviz"),
@@ -99,6 +165,7 @@ GOOD = [
     {**_readme("ros2 launch acme_arm_bringup sim.launch.py"), "launch/sim.launch.py.in": ""},
 ]
 BAD = [
+    {**_above("acme_sim"), "@reported": ["../README.md:1"]},
     _readme(f"ros2 launch acme_arm_bringup robot.launch.py{_MARK}"),
     _readme(f"ros2 launch acme_arm arm.launch.py{_MARK}"),
     _readme(f"ros2 run acme_arm_bringup watch{_MARK}"),
