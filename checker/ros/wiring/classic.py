@@ -44,6 +44,18 @@ def classic_endpoints(robot: Robot) -> Iterator[Endpoint]:
                 yield _endpoint(plugin, sensor, topic)
 
 
+def unsent_topics(plugin: Plugin) -> Iterator[Endpoint]:
+    """Yield the topics that a plugin does not publish, as it states no parameter that wants them.
+
+    Args:
+        plugin: A plugin that is in no sensor.
+    """
+    for topic in _topics().get(library_stem(plugin.filename.value), ()):
+        is_stated = bool(topic.when) and plugin.element.child(topic.when) is not None
+        if topic.publishes and not is_stated and not _is_on(plugin, topic):
+            yield _endpoint(plugin, None, topic)
+
+
 def unknown_plugin(robot: Robot) -> str:
     """Return which plugin may have topics that the table does not know; else nothing."""
     known = table("gazebo_classic_ros2")["plugins"]
