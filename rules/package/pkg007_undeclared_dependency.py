@@ -14,19 +14,22 @@ Dependencies of a declared metapackage such as ros_gz count as declared. What a 
 the workspace needs where it runs is installed with it, and is an info. The same happens if
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
 is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
-not declared, if it is near to one of them. What a description names that no launch file loads,
-beside one that is loaded, does not count. If a package is not available, and this package has
-every file that it uses of it, or its name in another order, the name is taken as the former name of
-this package.
+not declared, if it is near to one of them; so is one whose messages a node imports, if it exists
+nowhere in a repository of several packages, and nothing there brings it. What a description names
+that no launch file loads, beside one that is loaded, does not count. If a package is not available,
+and this package has every file that it uses of it, or its name in another order, the name is taken
+as the former name of this package.
 
-Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used, `<depend>` for
-those that the build uses, too; write the package's own name instead of its former one.
+Fix: do not declare a package that exists nowhere: remove its import, or add the package. For each
+other package that is used, add `<exec_depend>` (in format 1 `<run_depend>`), `<depend>` for those
+that the build uses, too; write the package's own name instead of its former one.
 Source: REP 149, exec_depend; rosdep installs what package.xml names; package.xml of ros_gz,
 navigation2, nav2_bringup, ros2_control, ros2_controllers, gazebo_ros_pkgs, moveit, rtabmap_ros,
 turtlebot3 and its simulations, and of the variants of ROS (ros_core, ros_base, desktop, perception)
 for Humble to Rolling; in model reviews, authors added the dependency on configuration 1.
 """
 
+import posixpath
 import re
 from collections.abc import Iterator, Mapping
 
@@ -42,6 +45,7 @@ from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, Dependency, PackageManifest, Paperwork
 from checker.package.mentions import has_word
 from checker.package.model_file import own_model
+from checker.package.nowhere import is_nowhere
 from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.released import ReleasedNames, distributions_with, is_of_system
@@ -65,6 +69,7 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
+_IMPORT = "from "
 _RELEASE = re.compile(r"\Aros[12]\Z")
 _ROS_CORE = (
     r"(?:actionlib|diagnostic|geometry|nav|sensor|shape|std|stereo|trajectory|visualization)_msgs"
@@ -155,6 +160,7 @@ def check(
         elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
     yield from _no_such_package(others, context.distro)
+    yield from _not_imported(package, others)
     yield from _distribution(package, manifest, others, bringing, context.release)
     yield from _lender(package, manifest)
     yield from _misspelt(package, manifest)
@@ -307,6 +313,20 @@ def _no_such_package(uses: dict[str, Use], distro: str) -> Iterator[Finding]:
             del uses[name]
             message = f"there is no package {name!r}; did you mean {meant!r}?"
             yield finding(use.place, message, key=name, covered_by=("LCH015",))
+
+
+def _not_imported(package: Package, uses: dict[str, Use]) -> Iterator[Finding]:
+    """Report, and take out, imports from packages that exist nowhere: none can be declared."""
+    for name, use in [*uses.items()]:
+        if use.how.startswith(_IMPORT) and is_nowhere(package, name):
+            del uses[name]
+            yield finding(
+                use.place,
+                f"this repository has no package {name}, and ROS has none: "
+                f"{posixpath.basename(use.place.file)} stops at this import; remove it, or add the "
+                "package",
+                key=name,
+            )
 
 
 def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
@@ -518,6 +538,12 @@ BAD = [
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", mark="  <!-- ^ PKG007 -->"),
         "config/arm.yaml": _CONTROL,
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "../acme_hand/package.xml": _package("acme_hand"),
+        "acme_arm_bringup/stop.py": "from acme_words.msg import Stop  # ^ PKG007\n",
     },
     # Info: the description brings its dependencies, and those of what it depends on.
     {

@@ -17,8 +17,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from checker.package.files_above import README, files_above, own_files
-from checker.package.manifests import Paperwork
-from checker.package.mentions import has_word
+from checker.package.nowhere import is_nowhere
 from checker.package.package import Package
 from checker.package.programs import why_no_program
 from checker.package.released import distributions_with
@@ -31,11 +30,6 @@ _COMMAND = re.compile(
 )
 
 _WORD = re.compile(r"[\w-]+")
-_LISTS = (".gitmodules", ".repos", ".rosinstall")
-_BRINGING = re.compile(
-    r"(?:\A|/)(?:\.gitmodules|[^/]+\.(?:repos|rosinstall|sh|dockerfile)|dockerfile[^/]*)\Z"
-)
-"""Files that may bring packages of other repositories."""
 _RUN = re.compile(r"\bros2[ \t]+run[ \t]+([a-z]\w{1,100})[ \t]+([\w.-]{1,100})")
 
 
@@ -82,21 +76,12 @@ def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Findi
 
 def _of_no_package(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
     """Report commands of packages that exist nowhere; judged once, for the first package."""
-    first = packages[0]
-    bringing = [text for files in files_above(first, _BRINGING) for text in files]
     commands = [*_COMMAND.finditer(source.text)]
     for command in commands:
         name, file = command.groups()
         named = sum(_WORD.findall(it.group()).count(name) for it in commands)
-        if (
-            distributions_with(name)
-            or first.named(name) is not None
-            or first.workspace.without_manifest(name)
-            or any(it.declared_name == name or _has(it, file) for it in packages)
-            or _WORD.findall(source.text).count(name) > named
-            or any(_brings(text, name) for text in bringing)
-            or any(_uses(it, name) for it in packages)
-        ):
+        told = _WORD.findall(source.text).count(name) > named
+        if told or any(_has(it, file) for it in packages) or not is_nowhere(packages[0], name):
             continue
         yield finding(
             Span(source, *command.span(1)),
@@ -104,18 +89,6 @@ def _of_no_package(source: SourceText, packages: Sequence[Package]) -> Iterator[
             "where it comes from, or correct the name",
             key=name,
         )
-
-
-def _brings(source: SourceText, name: str) -> bool:
-    """Return whether a file may bring a package: a list of repositories names them otherwise."""
-    return source.file.endswith(_LISTS) or has_word(source.text, name)
-
-
-def _uses(package: Package, name: str) -> bool:
-    """Return whether a package depends on another one, or its launch files name that."""
-    manifest = Paperwork(package).manifest
-    depends = manifest is not None and manifest.depends_on(name)
-    return depends or any(has_word(text, name) for text in package.launch_texts.values())
 
 
 def _runs(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
