@@ -4,10 +4,12 @@ Without friction a wheel spins in place. Rubber on rock reaches about 1; with a 
 the robot climbs walls that no real robot climbs, and some engines jitter. Engines use different
 defaults for friction that is not stated.
 
-A part that is fixed to the robot, such as a ball in place of a caster, may slide without friction.
+A part that does not roll, such as a ball in place of a caster that is fixed to the robot or turns
+about an upright axis, slides: it may be without friction, and brakes the robot with that of a tyre.
 
-Fix: state `<surface><friction><ode>` with `<mu>` and `<mu2>` of about 0.5 to 1.5 for each collision
-of each wheel; in URDF write `<gazebo reference="WHEEL"><mu1>1</mu1><mu2>1</mu2></gazebo>`.
+Fix: state `<surface><friction><ode>` with `<mu>` and `<mu2>` for each collision of each wheel:
+about 0.5 to 1.5 for one that rolls, 0.001 for a part that slides. In URDF write
+`<gazebo reference="WHEEL"><mu1>1</mu1><mu2>1</mu2></gazebo>`, for what slides with 0.001.
 Source: SDFormat specification, surface/friction: coefficients of Coulomb friction, 1 by default.
 """
 
@@ -19,6 +21,9 @@ from checker.model.components import Collision, Link
 from checker.model.geometry.placed_shapes import place_shapes
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+_UPRIGHT = 0.9
+"""Part along z of an axis about which a wheel swivels, and does not roll."""
 
 
 @rule("GEO009", "wheel-friction", Severity.WARNING, Concern.ROBOT)
@@ -48,7 +53,8 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
         if of_drive or link.scoped_name not in robot.tree.base or not _slides(friction):
             yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
         if friction.first is None:
-            yield _missing(link, shape, of_drive in stating or (not of_drive and bool(stating)))
+            some_state = of_drive in stating or (not of_drive and bool(stating))
+            yield _missing(link, shape, some_state, not of_drive and not _rolls(robot, link))
 
 
 def _slides(friction: Friction) -> bool:
@@ -96,14 +102,24 @@ def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Ite
             )
 
 
-def _missing(link: Link, shape: Collision, some_state: bool) -> Finding:
+def _missing(link: Link, shape: Collision, some_state: bool, slides: bool) -> Finding:
     others = ", but other parts that the robot stands on do" if some_state else ""
+    low = "; it slides, as it does not roll: expected a low one such as 0.001" if slides else ""
     return finding(
         shape,
-        f"collision {shape.name.value!r} of {link.name.value!r} states no friction{others}",
+        f"collision {shape.name.value!r} of {link.name.value!r} states no friction{others}{low}",
         severity=Severity.WARNING if some_state else Severity.INFO,
-        key="missing",
+        key="missing, slides" if slides else "missing",
     )
+
+
+def _rolls(robot: Robot, link: Link) -> bool:
+    """Return whether a link turns about an axis that is not upright."""
+    if link.scoped_name in robot.tree.base:
+        return False
+    joints = (tie.joint for tie in robot.tree.ties_above.get(link.scoped_name, ()))
+    axes = [robot.axis_in_model(joint, axis) for joint in joints for axis in joint.axes]
+    return not axes or any(axis is None or abs(axis[2]) < _UPRIGHT for axis in axes)
 
 
 def _ground(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]]:
@@ -187,5 +203,6 @@ BAD = [
     _rover(_ONE, f"<mu>1</mu><mu2>150</mu2>{_MARK}"),
     _rover(_ONE, f"<mu>-1</mu>{_MARK}"),
     _rover(_ONE, "", mark=_MARK),
+    _rover(_ONE, _ONE) + _wheel("ball_wheel", "", _MARK).replace('"revolute"', '"fixed"'),
     _track(f"<mu>150</mu>{_MARK}"),
 ]
