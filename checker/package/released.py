@@ -75,6 +75,11 @@ class ReleasedNames:
         alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)
         return near if alike else None
 
+    def vendor_of(self, name: str) -> str | None:
+        """Return the package by which the distribution has a library of another name, if any."""
+        vendor = f"{name}_vendor"
+        return vendor if self._distro in distributions_with(vendor) else None
+
 
 def _words(name: str) -> tuple[str, ...]:
     return tuple(sorted(name.split("_")))

@@ -4,11 +4,11 @@
 cannot build it. A misspelt name is a warning, and so is one that another package has replaced in
 the distribution that the package names, and one that never was a package: `ros2_control_node` is a
 program of controller_manager, `ament_python` a build type, and `opencv-python` a name of pip, for
-which rosdep has `python3-opencv`. Other names are infos: the package
-may be built from source that is not available here, for example if only an older distribution has
-released it. Of Foxy and Galactic it is not known what they have released: in packages for these,
-only names that they are known not to have are reported. Dependencies with a `condition` are
-skipped.
+which rosdep has `python3-opencv`. So is a library that the distribution has by another name:
+`orocos_kdl` by `orocos_kdl_vendor`. Other names are infos: the package may be built from source
+that is not available here, for example if only an older distribution has released it. Of Foxy and
+Galactic it is not known what they have released: in packages for these, only names that they are
+known not to have are reported. Dependencies with a `condition` are skipped.
 
 Fix: correct the name; or add the source of the package to the workspace, and document that in the
 README.
@@ -56,7 +56,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             declared = paperwork.manifest.depends_on(mistaken.get("instead", ""))
             yield _no_package(dependency, mistaken, declared=declared)
             continue
-        meant = slip_of(name, beside) or names.correction_of(name)
+        meant = slip_of(name, beside) or names.correction_of(name) or names.vendor_of(name)
         if meant is None or distributions_with(name):
             others.append(dependency)
         else:
@@ -166,6 +166,7 @@ BAD = [
     _package(f"<exec_depend>forward_position_controller</exec_depend>{_MARK}"),
     _package(f"<exec_depend>robot_state_publsher</exec_depend>{_MARK}"),
     _package(f"<exec_depend>gazebo_ros</exec_depend>{_MARK}"),
+    _package(f"<depend>orocos_kdl</depend>{_MARK}"),
     {
         **_package(f"<exec_depend>acme_tolos</exec_depend>{_MARK}"),
         "../acme_tools/package.xml": "<package><name>acme_tools</name></package>",
