@@ -235,6 +235,15 @@ CLASSIC_2 = {
 EYE = """<sensor name="eye" type="camera">
   <plugin filename="libgazebo_ros_camera.so" name="eye"><imageTopicName>{}</imageTopicName></plugin>
 </sensor>"""
+SHOWN = f"""<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="base_link"/>
+  <gazebo reference="base_link">{EYE.format("front/image")}</gazebo>
+</robot>
+"""
+SPAWNED = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': ParameterValue(robot, value_type=str)}]),
+        Node(package='gazebo_ros', executable='spawn_entity.py',
+             arguments=['-entity', 'arm', '-file', '/opt/models/arm.sdf']),"""
 PICTURE = '<visual name="v"><geometry><box><size>{}</size></box></geometry></visual>'
 POINT = """<collision name="c">
   <geometry><sphere><radius>{}</radius></sphere></geometry></collision>"""
@@ -286,6 +295,27 @@ CASES: list[tuple[str, Example, str]] = [
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("image_raw")}, "warning"),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("front/image")}, "error"),
+    (
+        # RViz shows the topic that ROS 2 publishes.
+        "PLG012",
+        {
+            **CLASSIC_2,
+            "@fragment": EYE.format("front/image"),
+            "show.rviz": "Topic: /eye/image_raw\n",
+        },
+        "warning",
+    ),
+    (
+        # Gazebo gets another file.
+        "PLG012",
+        {
+            "@profile": "ros2-classic",
+            "@ros2": SPAWNED,
+            "urdf/arm.urdf.xacro": SHOWN,
+            "show.py": "image = 'front/image'\n",
+        },
+        "warning",
+    ),
     ("URD006", {"@urdf": LOST.format('<sensor name="eye" type="camera"/>')}, "error"),
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
     ("KIN016", ARM, "info"),

@@ -7,16 +7,22 @@ wheel, `<robotNamespace>` leaves all topics in the root namespace.
 Models that are in no package of ROS 2 may be for ROS 1, so they are not judged.
 
 It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
-other parameter of the plugin names; otherwise a warning. So is the topic of a sensor that is the
-default of ROS 2, or that no other file of the package names: all may read the default.
+other parameter of the plugin names; otherwise a warning. So is a parameter in a robot that no
+simulator gets, where launch files spawn another file, and the topic of a sensor that is the default
+of ROS 2, or that no other file of the package names: all may read the default. If another file
+names the topic that ROS 2 publishes, the parameter is to be removed: a remapping would take that
+topic from its reader.
 
-Fix: write the library and the parameters of ROS 2, as the message names them.
+Fix: write the library and the parameters of ROS 2, as the message names them, or remove the
+parameter where it says so.
 Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
+
+from msgspec.structs import replace
 
 from checker.base.resources import table
 from checker.model.components import Plugin
@@ -25,6 +31,8 @@ from checker.model.plugin_library import library_stem, plugin_libraries
 from checker.package.dependencies import available_packages
 from checker.package.package import Package
 from checker.package.target import ros_2_package
+from checker.ros.spawned_files import SpawnedFiles
+from checker.ros.wiring.classic import classic_endpoints
 from checker.rule import (
     Concern,
     Context,
@@ -49,7 +57,9 @@ _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 
 
 @rule("PLG012", "ros-1-plugin", Severity.ERROR, Concern.INTERFACE)
-def check(host: PluginHost, package: Package, context: Context) -> Findings:
+def check(
+    host: PluginHost, package: Package, spawned: SpawnedFiles | None, context: Context
+) -> Findings:
     """Report libraries and parameters that only the plugins of ROS 1 have."""
     if not context.is_classic or ros_2_package(package) is None:
         return
@@ -57,6 +67,7 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
         yield unchecked(host.unread)
     here, renamed = plugin_libraries(context.release), table("gazebo_classic_ros2")["ros_1"]
     built = available_packages(package).libraries()
+    is_shown = host.robot is not None and spawned is not None and spawned.without(host.robot) != ""
     for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
         known: Mapping[str, Any] | None = renamed["libraries"].get(stem)
@@ -69,7 +80,8 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
             if _RATE not in read:
                 names["updateRate"] = _RATE_OF_SENSOR
             lost = {n: names[n] for n in names if n not in read}
-            yield from _parameters(plugin, lost, package)
+            found = _parameters(plugin, lost, package, _sent_topics(host, plugin))
+            yield from map(_slight, found) if is_shown else found
 
 
 def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
@@ -84,8 +96,18 @@ def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
     )
 
 
+def _slight(found: Finding) -> Finding:
+    return replace(found, severity=Severity.WARNING)
+
+
+def _sent_topics(host: PluginHost, plugin: Plugin) -> tuple[str, ...]:
+    """Return the topics that a plugin publishes."""
+    ends = classic_endpoints(host.robot) if host.robot is not None else ()
+    return tuple(end.topic for end in ends if end.owner is plugin and end.publishes)
+
+
 def _parameters(
-    plugin: Plugin, names: Mapping[str, str | None], package: Package
+    plugin: Plugin, names: Mapping[str, str | None], package: Package, sent: Sequence[str]
 ) -> Iterator[Finding]:
     library = library_stem(plugin.filename.value)
     for element in plugin.element.children:
@@ -94,12 +116,27 @@ def _parameters(
         instead = names[element.tag]
         is_grave = _is_missed(plugin, instead, element.value) and _is_read(element, package)
         advice = f"ROS 2 reads {_replacement(instead)}" if instead else "ROS 2 does not read it"
+        if used := _used_topic(instead, sent, package):
+            is_grave, advice = False, f"remove it, as {used[1]} reads {used[0]}, which ROS 2 sends"
         yield finding(
             element,
             f"{library} ignores <{element.tag}>, a parameter of ROS 1: {advice}",
             severity=None if is_grave else Severity.WARNING,
             key=library,
         )
+
+
+def _used_topic(
+    instead: str | None, sent: Iterable[str], package: Package
+) -> tuple[str, str] | None:
+    """Return the topic that the plugin sends by default, and the file that names it."""
+    default = _DEFAULT.match(instead or "")
+    topics = [it for it in sent if default is not None and it.endswith(f"/{default['topic']}")]
+    for source in _sources(package) if topics else ():
+        for topic in topics:
+            if topic in source.text:
+                return topic, source.file
+    return None
 
 
 def _replacement(instead: str) -> str:
@@ -122,10 +159,15 @@ def _is_read(element: Element, package: Package) -> bool:
     """Return whether another file of the package names the text, if it is a topic of a sensor."""
     if not _OUTPUT.fullmatch(element.tag):
         return True
+    topic = element.value.strip()
+    return any(topic in source.text for source in _sources(package))
+
+
+def _sources(package: Package) -> Iterator[SourceText]:
+    """Yield what may name a topic that the package reads."""
     files = package.index.with_suffix(".py", ".xml", ".yaml", ".yml", ".rviz", ".cpp", ".hpp")
     sources = (package.read(file.path) for file in files)
-    topic = element.value.strip()
-    return any(isinstance(it, SourceText) and topic in it.text for it in sources)
+    yield from (source for source in sources if isinstance(source, SourceText))
 
 
 _CLASSIC = {"@profile": "gazebo-classic", "@ros2": True, "urdf/arm.urdf.xacro": None}

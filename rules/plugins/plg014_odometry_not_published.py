@@ -20,6 +20,7 @@ from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.package.package import Package
 from checker.package.target import ros_2_package
+from checker.ros.spawned_files import SpawnedFiles
 from checker.ros.wiring.classic import unsent_topics
 from checker.ros.wiring.endpoints import Endpoint, remap_rule
 from checker.ros.wiring.wiring import Wirings
@@ -32,12 +33,16 @@ _ODOMETRY, _PARAMETER = "nav_msgs/msg/Odometry", "publish_odom"
 
 @rule("PLG014", "odometry-not-published", Severity.WARNING, Concern.INTERFACE)
 def check(
-    host: PluginHost, package: Package, wirings: Wirings | None, context: Context
+    host: PluginHost,
+    package: Package,
+    wirings: Wirings | None,
+    spawned: SpawnedFiles | None,
+    context: Context,
 ) -> Findings:
     """Report drives that do not publish the odometry that they remap or that a node reads."""
     if not context.is_classic or ros_2_package(package) is None:
         return
-    if host.robot is not None and host.robot.shown_only:
+    if host.robot is not None and spawned is not None and spawned.without(host.robot):
         return
     for plugin in host.plugins:
         for topic in unsent_topics(plugin):
