@@ -22,6 +22,7 @@ from checker.ros.control.loaded_parameters import Parameters, controllers_for, l
 from checker.ros.ros2_control.launched import LaunchedControl, launched_files
 from checker.ros.ros2_control.launched import launched_controls as read_launched_controls
 from checker.ros.ros2_control.robot_control import (
+    ConfiguredControllers,
     ControlReader,
     PluginFiles,
     RobotControl,
@@ -77,6 +78,17 @@ def _without_control(files: UrdfFiles) -> str:
         return "no robot is controlled by ros2_control"
     options = " ".join(f"--xacro-arg {value}" for value in values.split())
     return f"a robot is controlled by ros2_control only with {values}: check it with {options}"
+
+
+@part
+def configured_controllers(
+    controls: tuple[RobotControl, ...] | NotAvailable, reader: ControlReader
+) -> tuple[ConfiguredControllers, ...] | NotAvailable:
+    """Return the controllers of each robot, or those of launch files if no robot can be read."""
+    if not isinstance(controls, NotAvailable):
+        return tuple(ConfiguredControllers(it.files, it.robot) for it in controls)
+    files = tuple(reader.launched_files()) if controls.applicable else ()
+    return (ConfiguredControllers(files),) if files else controls
 
 
 @part

@@ -32,7 +32,7 @@ from checker.ros.ros2_control.distributions import (
     controller_types,
     distribution_of,
 )
-from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import ConfiguredControllers
 from checker.rule import (
     Concern,
     Context,
@@ -76,7 +76,7 @@ _INSTEAD: Mapping[str, str] = {
 
 
 @rule("R2C008", "unknown-controller-type", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, context: Context, package: Package) -> Findings:
+def check(control: ConfiguredControllers, context: Context, package: Package) -> Findings:
     """Report types of packages of ros2_controllers that these do not export.
 
     A class of ros2_controllers in a package that nothing declares or holds is a warning.

@@ -24,7 +24,7 @@ from checker.ros.ros2_control.distributions import (
     controller_types,
     distribution_of,
 )
-from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import ConfiguredControllers
 from checker.rule import (
     Concern,
     Context,
@@ -42,7 +42,7 @@ _OF_ALL: Mapping[str, str] = {"update_rate": "int", "use_sim_time": "bool", "is_
 
 
 @rule("R2C010", "invalid-controller-parameter", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, context: Context, package: Package) -> Findings:
+def check(control: ConfiguredControllers, context: Context, package: Package) -> Findings:
     """Report what keeps controllers of ros2_controllers from being configured.
 
     A controller without any block may get its parameters from the spawner: it is a warning, and so

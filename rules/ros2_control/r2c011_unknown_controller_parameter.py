@@ -25,7 +25,7 @@ from checker.ros.ros2_control.distributions import (
     controller_types,
     distribution_of,
 )
-from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import ConfiguredControllers
 from checker.rule import (
     Concern,
     Context,
@@ -49,7 +49,7 @@ _JOINT = re.compile(r"(?P<first>\w+)\.<(?P<list>joints|dof_names)>\.(?P<last>\w+
 
 
 @rule("R2C011", "unknown-controller-parameter", Severity.WARNING, Concern.INTERFACE)
-def check(control: RobotControl, context: Context, package: Package) -> Findings:
+def check(control: ConfiguredControllers, context: Context, package: Package) -> Findings:
     """Report parameters of ros2_controllers that have no effect.
 
     One that only other distributions know is an info, except `use_stamped_vel: false`. Controllers
@@ -129,7 +129,7 @@ def _for_each_joint(controller: Controller, name: str, names: Iterable[str]) -> 
     return ""
 
 
-def _controller(kind: str, *parameters: str) -> object:
+def _controller(kind: str, *parameters: str) -> dict[str, object]:
     lines = "\n    ".join((f"type: {kind}", *parameters))
     return {
         "@urdf": ros2_control(SHOULDER.replace("position", "velocity")),
@@ -137,7 +137,7 @@ def _controller(kind: str, *parameters: str) -> object:
     }
 
 
-def _arm(parameter: str) -> object:
+def _arm(parameter: str) -> dict[str, object]:
     kind = "diff_drive_controller/DiffDriveController"
     return _controller(kind, "left_wheel_names: [shoulder]", parameter)
 
@@ -154,6 +154,18 @@ def _trajectory(*parameters: str) -> object:
     return _controller(kind, "joints: [shoulder]", *interfaces, *parameters)
 
 
+_NODE = """        Node(package='controller_manager', executable='ros2_control_node', parameters=[
+            get_package_share_directory('acme_arm_bringup') + '/config/arm.yaml']),"""
+
+
+def _unread_robot(parameter: str) -> object:
+    """Return a launched controller of a robot that includes a package which is not available."""
+    hand = '<xacro:include filename="$(find acme_hand)/hand.xacro"/><link name="${hand}"/>'
+    arm = f'<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">{hand}</robot>'
+    controller = _arm(parameter)
+    return {**controller, "@urdf": None, "@ros2": _NODE, "urdf/arm.urdf.xacro": arm}
+
+
 _MARK = "  # ^ R2C011"
 GOOD = [
     _arm("linear.x.max_velocity: 1.0"),
@@ -164,6 +176,7 @@ GOOD = [
 ]
 BAD = [
     _arm(f"wheel_seperation: 0.5{_MARK}"),
+    _unread_robot(f"wheel_seperation: 0.5{_MARK}"),
     _arm(f"use_stamped_vel: false{_MARK}"),
     _arm(f"wheels_per_side: 1{_MARK}"),
     _arm(f"constraints: {{goal_time: 1.0}}{_MARK}"),

@@ -11,7 +11,7 @@ Source: diff_drive_controller, parameter files of the branches Humble and Jazzy.
 """
 
 from checker.ros.ros2_control.distributions import ControllerType, controller_types, distribution_of
-from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.ros2_control.robot_control import ConfiguredControllers
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import SHOULDER, ros2_control
 
@@ -19,7 +19,7 @@ _BOUNDS = ("max", "min")
 
 
 @rule("R2C020", "limit-switched-off", Severity.WARNING, Concern.INTERFACE)
-def check(control: RobotControl, context: Context) -> Findings:
+def check(control: ConfiguredControllers, context: Context) -> Findings:
     """Report one limit of each switch that is not stated."""
     distribution = distribution_of(context)
     for controller in control.controllers:

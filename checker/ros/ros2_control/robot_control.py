@@ -160,6 +160,23 @@ class RobotControl(Record, eq=False, dict=True):
         )
 
 
+class ConfiguredControllers(Record, eq=False, dict=True):
+    """The controllers that files of parameters configure.
+
+    Attributes:
+        files: The files.
+        robot: The robot that they move; None if it cannot be read, and launch files name the files.
+    """
+
+    files: tuple[ControllerFile, ...]
+    robot: Robot | None = None
+
+    @cached_property
+    def controllers(self) -> tuple[Controller, ...]:
+        """Controllers in the files."""
+        return controllers_of(self.files)
+
+
 # Which files of parameters belong to a robot, and reading them.
 
 
@@ -279,6 +296,13 @@ class ControlReader:
             file = ControllerFile(path, tuple(read_blocks(root)), self.launched.get(path))
             if any(_mentions(controller, names) for controller in controllers_of([file])):
                 yield file
+
+    def launched_files(self) -> Iterator[ControllerFile]:
+        """Yield the files of the package that its launch files give to managers and spawners."""
+        for path, span in self.launched.items():
+            root = None if path.startswith("../") else self._yaml(path)[0]
+            if root is not None:
+                yield ControllerFile(path, tuple(read_blocks(root)), span)
 
     def file(self, path: str) -> ControllerFile | None:
         """Return the file at a path as xacro and launch see it; None if it cannot be had."""
