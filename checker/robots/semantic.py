@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import islice
 
@@ -13,7 +13,7 @@ from checker.formats.srdf.names import names_of
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.reader import read_urdf
 from checker.formats.xacro.expanded import ExpandedText
-from checker.formats.xacro.expansion import Expander, Expansions, Wanted
+from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Wanted
 from checker.formats.xacro.files import ROOT, local_path
 from checker.launch.ros2.descriptions import loaded_descriptions
 from checker.launch.ros2.graph import Ros2Launch
@@ -24,6 +24,7 @@ from checker.source.xml import Element, XmlDocument
 from checker.source.yaml import read_root
 
 _ASSISTANT = ".setup_assistant"
+_SRDF = ".srdf.xacro"
 _ROBOTS_LIMIT = 8
 _FILES_LIMIT = 400
 _SRDF_LIMIT = 20
@@ -131,15 +132,21 @@ def semantic_descriptions(
 
 
 def _documents(package: Package, expander: Expander) -> Iterator[tuple[str, XmlDocument]]:
-    for entry in package.index.with_suffix(".srdf"):
-        if isinstance(document := package.xml(entry.path), XmlDocument):
-            yield entry.path, document
-    paths = [entry.path for entry in package.index.with_suffix(".srdf.xacro")][:_SRDF_LIMIT]
+    for path in _own(package, ".srdf"):
+        if isinstance(document := package.xml(path), XmlDocument):
+            yield path, document
+    paths = [*islice(_own(package, _SRDF), _SRDF_LIMIT)]
     wanted = [Wanted(path, {}) for path in paths]
     outcomes = Expansions(package, wanted, expander).outcomes() if wanted else ()
     for path, outcome in zip(paths, outcomes, strict=True):
         if isinstance(outcome, XmlDocument) and not _lacks_includes(outcome):
             yield path, outcome
+
+
+def _own(package: Package, suffix: str) -> Iterator[str]:
+    """Yield the files of a kind that lie in no package below the package's folder."""
+    paths = (entry.path for entry in package.index.with_suffix(suffix))
+    return (path for path in paths if not package.lies_in_unit(path))
 
 
 def _is_named(package: Package, path: str, robot: str) -> bool:
@@ -161,15 +168,24 @@ class _Robots(Record, eq=False):
     def robots(self, path: str, name: str, own: list[UrdfDescription]) -> tuple[Robot, ...]:
         """Return the robots that a file may belong to; none if one of them is not known."""
         wanted = [*self._loaded(), *self._assistants(path)]
+        namesakes = [*islice(self._named(name), _ROBOTS_LIMIT + 1)]
         if not own and not wanted:
-            wanted = [*islice(self._named(name), _ROBOTS_LIMIT + 1)]
+            wanted = namesakes
         unique = list({f"{it.path} {sorted(it.args.items())}": it for it in wanted}.values())
         if len(unique) > _ROBOTS_LIMIT or not name:
             return ()
-        outcomes = Expansions(self.package, unique, self.expander).outcomes() if unique else ()
-        read = [*(it.document for it in own), *outcomes]
+        read = [*(it.document for it in own), *self._expanded(unique)]
         whole = [it for it in read if isinstance(it, XmlDocument) and _is_whole(it)]
-        return tuple(map(read_urdf, whole)) if len(whole) == len(read) else ()
+        if len(whole) < len(read):
+            return ()
+        seen = {*(it.path for it in unique), *(it.document.source.file for it in own)}
+        others = self._expanded([it for it in namesakes if it.path not in seen])
+        whole += [it for it in others if isinstance(it, XmlDocument) and _is_whole(it)]
+        return tuple(map(read_urdf, whole))
+
+    def _expanded(self, wanted: list[Wanted]) -> Sequence[Outcome]:
+        """Return what xacro makes of files."""
+        return Expansions(self.package, wanted, self.expander).outcomes() if wanted else ()
 
     def _loaded(self) -> Iterator[Wanted]:
         """Yield the descriptions that the launch files of ROS 2 load."""
@@ -202,6 +218,7 @@ class _Robots(Record, eq=False):
             (other, file.path)
             for other in self.package.workspace.packages.values()
             for file in other.index.with_suffix(".urdf", ".xacro")
+            if not file.path.endswith(_SRDF)
         )
         for other, path in islice(files, _FILES_LIMIT):
             document = other.xml(path)

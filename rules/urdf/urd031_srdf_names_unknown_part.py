@@ -183,6 +183,12 @@ GOOD = [
         "urdf/arm.urdf.xacro": _PREFIXED,
         "launch/spawn.launch": None,
     },
+    # Another package has a fuller robot of this name.
+    {
+        **_srdf(_group('<joint name="elbow"/>')),
+        "../acme_arm_description/package.xml": "<package><name>acme_arm_description</name></package>",
+        "../acme_arm_description/urdf/arm.urdf": ARM.replace("shoulder", "elbow"),
+    },
 ]
 BAD = [
     _srdf(_group(f'<joint name="sholder"/>{_MARK}')),

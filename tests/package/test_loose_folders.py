@@ -104,3 +104,15 @@ def test_the_robot_of_a_model_within_a_package_is_judged_there(tmp_path: Path) -
     reports = check_package(tmp_path, Settings(trial=False)).packages
     found = {report.name: files_of(report) for report in reports}
     assert found == {"tool": ["arm"], "box": ["box"]}
+
+
+def test_a_srdf_belongs_to_the_package_below_that_has_it(tmp_path: Path) -> None:
+    arm = tmp_path / "src" / "arm_config"
+    arm.mkdir(parents=True)
+    (arm / "package.xml").write_text("<package><name>arm_config</name></package>")
+    group = '<group name="g"><link name="base"/><link name="hand"/></group>'
+    (arm / "arm.srdf").write_text(f'<robot name="arm">{group}</robot>')
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    reports = check_package(tmp_path, Settings(trial=False)).packages
+    assert len(reports) > 1
+    assert not [it for report in reports for it in report.findings if it.rule == "URD031"]
