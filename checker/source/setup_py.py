@@ -77,6 +77,7 @@ class SetupFile(Record, eq=False):
         executables: Entries of `console_scripts` that can be read.
         plain: Whether modules lie where their names say, and no option is set in the file.
         packages: The Python packages that are installed; None if they are not listed by name.
+        has_commands: Whether it has commands of its own, `cmdclass`, which may install otherwise.
     """
 
     data_files: tuple[DataFiles, ...]
@@ -85,6 +86,7 @@ class SetupFile(Record, eq=False):
     executables: tuple[Executable, ...] = ()
     plain: bool = True
     packages: frozenset[str] | None = None
+    has_commands: bool = False
 
 
 class _Unknown(Exception):
@@ -111,7 +113,10 @@ def read_setup(source: SourceText) -> SetupFile | None:
         setup = reader.setup_file(given["data_files"])
     else:
         setup = SetupFile((), None not in given, span_of_node(reader.source, call))
-    return replace(setup, executables=scripts, plain=plain, packages=packages)
+    commands = "cmdclass" in given
+    return replace(
+        setup, executables=scripts, plain=plain, packages=packages, has_commands=commands
+    )
 
 
 def _calls(tree: ast.Module) -> Iterator[ast.Call]:

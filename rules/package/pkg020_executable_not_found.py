@@ -4,7 +4,8 @@ Its module or function does not exist, or `packages` leaves its Python package o
 with an ImportError; or setup.cfg does not install it into `lib/<package>`, the only folder that
 `ros2 run` and launch files search. None of these faults shows before the robot is started, and a
 package that is left out is found after `colcon build --symlink-install`. Where no launch file names
-the executable, it is a warning.
+the executable, it is a warning. The folder is not judged where setup.py has commands of its own
+(`cmdclass`).
 
 Fix: correct the `console_scripts` entry, written `name = package.module:function`; in setup.cfg
 write `install_scripts=$base/lib/<package>` below `[install]` and `script_dir=$base/lib/<package>`
@@ -43,7 +44,7 @@ def check(package: Package) -> Findings:
                 f"executable {executable.name!r} cannot start: {message}",
                 severity=None if is_started else Severity.WARNING,
             )
-    if setup.executables:
+    if setup.executables and not setup.has_commands:
         yield from _misplaced_executables(package, setup)
 
 
@@ -177,6 +178,11 @@ GOOD = [
     # A module of another distribution may be there.
     {**_PACKAGE, "setup.py": _SETUP.replace("acme_arm.talker", "acme_tools.speech")},
     {**_PACKAGE, "setup.py": _SETUP.replace("setup(", 'setup(package_dir={"": "src"}, ', 1)},
+    {
+        **_PACKAGE,
+        "setup.cfg": None,
+        "setup.py": _SETUP.replace("setup(", 'setup(cmdclass={"install": Install}, ', 1),
+    },
 ]
 BAD = [
     {**_DEEP, "setup.py": _listing('["acme_arm"]', "  # ^ PKG020")},

@@ -4,7 +4,8 @@
 after it is not built. Packages that the SolidWorks exporter writes are of ROS 1.
 
 Only a package in the same folder `src` as one of ROS 2, or beside one that is checked too, is
-reported; one that supports both by conditions is right.
+reported; one that supports both by conditions is right. One whose CMakeLists.txt calls nothing of
+catkin is built, whatever package.xml names.
 
 Fix: port package.xml, CMakeLists.txt and the launch files to ROS 2 (`ament_cmake`); or put an empty
 file COLCON_IGNORE into the folder of the package.
@@ -28,6 +29,8 @@ def check(package: Package, papers: Paperwork) -> Findings:
     """Report a package that only catkin builds, in a workspace with one that only ament builds."""
     if papers.manifest is None or built_by_ament(package) or any(map(package.exists, _IGNORED)):
         return
+    if _builds_without_catkin(package):
+        return
     tools = (
         each.package
         for each in papers.manifest.dependencies
@@ -45,6 +48,13 @@ def check(package: Package, papers: Paperwork) -> Findings:
             "is of ROS 2: port the package to ament_cmake, or put an empty file COLCON_IGNORE "
             "into its folder",
         )
+
+
+def _builds_without_catkin(package: Package) -> bool:
+    """Return whether CMakeLists.txt names no catkin in what it calls: colcon runs CMake alone."""
+    calls = package.build.calls if package.build is not None else ()
+    words = (word for call in calls for word in (call.name, *(it.value for it in call.arguments)))
+    return bool(calls) and not any("catkin" in word.lower() for word in words)
 
 
 def _builds_with(package: Package, other: Path) -> bool:
@@ -78,5 +88,11 @@ GOOD = [
     {"@urdf": True, "package.xml": _manifest("ament_cmake"), **_DRIVER},
     {"@urdf": True, "package.xml": _BOTH, **_DRIVER},
     {"@urdf": True, "package.xml": _manifest("catkin"), "COLCON_IGNORE": "", **_DRIVER},
+    {
+        "@urdf": True,
+        "package.xml": _manifest("catkin"),
+        "CMakeLists.txt": "project(acme)\nfind_package(ament_cmake REQUIRED)\nament_package()\n",
+        **_DRIVER,
+    },
 ]
 BAD = [{"@urdf": True, "package.xml": _manifest("catkin", "  <!-- ^ PKG027 -->"), **_DRIVER}]
