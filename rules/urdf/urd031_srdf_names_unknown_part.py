@@ -186,8 +186,8 @@ GOOD = [
     # Another package has a fuller robot of this name.
     {
         **_srdf(_group('<joint name="elbow"/>')),
-        "../acme_arm_description/package.xml": "<package><name>acme_arm_description</name></package>",
-        "../acme_arm_description/urdf/arm.urdf": ARM.replace("shoulder", "elbow"),
+        "../acme_arm/package.xml": "<package><name>acme_arm</name></package>",
+        "../acme_arm/urdf/arm.urdf": ARM.replace("shoulder", "elbow"),
     },
 ]
 BAD = [
