@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.installed import source_of
+from checker.package.target import package_around
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -33,6 +34,9 @@ _PLACEHOLDER = re.compile(
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
+_MODEL = "model://"
+
+
 class Unknown(Record):
     """The target of a URI is unknown; the reason continues a sentence about it.
 
@@ -50,7 +54,7 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
 
     A path below an installed package is that of the file in the source which is installed there,
     also where it names the folder of the installation. A path on its author's machine is that of
-    the same file in the package, if it has one.
+    the same file in the package, if it has one. So is a path below a folder that Gazebo may search.
 
     Args:
         package: The package whose file states it.
@@ -58,7 +62,9 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
         uri: The URI as written.
     """
     if named := _SCHEME.match(uri) or _INSTALLED.fullmatch(uri):
-        return _in_package(package, *named.groups())
+        inside = _in_package(package, *named.groups())
+        below = below_searched_folder(package, uri) if isinstance(inside, Unknown) else None
+        return inside if below is None else _from(package, *below)
     if is_on_fuel(uri):
         on_fuel = path_from_fuel(package, uri)
         return on_fuel or Unknown("is on Fuel, in a model that is not available")
@@ -128,6 +134,34 @@ def _in_package(package: Package, name: str, path: str) -> str | Unknown:
         return _absent(name)
     inside = path if holder.exists(path or ".") else source_of(holder, path) or path
     return posixpath.normpath(inside if holder is package else f"../{holder.name}/{inside}")
+
+
+def below_searched_folder(package: Package, uri: str) -> tuple[Package, str] | None:
+    """Return the package and the file of a `model://` that names neither a package nor a model.
+
+    `model://meshes/arm.stl` is `models/meshes/arm.stl` where Gazebo searches the folder `models`.
+    None if the package of ROS around has no such file, or several.
+
+    Args:
+        package: The package whose file states it.
+        uri: The URI as written.
+    """
+    end = uri.removeprefix(_MODEL)
+    name, _, path = end.partition("/")
+    around = package_around(package) or package
+    if end == uri or not path or package.named(name) or not around.exists("package.xml"):
+        return None
+    found = [*around.index.ending(end), *([end] if around.exists(end) else [])]
+    return (around, found[0]) if len(found) == 1 else None
+
+
+def _from(package: Package, around: Package, path: str) -> str:
+    """Return a path in the package around another one as that one lists it."""
+    if around is package:
+        return path
+    file = around.root / path
+    inside = not package.only and file.is_relative_to(package.root)
+    return file.relative_to(package.root).as_posix() if inside else f"../{around.name}/{path}"
 
 
 def _absent(name: str) -> Unknown:

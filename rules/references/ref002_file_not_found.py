@@ -15,7 +15,9 @@ meshes/ and other usual folders.
 An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone.
 
 The models that a world file contains are checked as well. `model://` of a model that is not there
-may be one of Fuel, or of the user's own, and is not checked.
+may be one of Fuel, or of the user's own, and is not checked. Where it ends as one file of the
+package of ROS does, `model://meshes/arm.stl` as `models/meshes/arm.stl`, Gazebo finds it if the
+folder above is on its search path: a warning if nothing in the workspace names that path.
 
 A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked. One
 that a `.gitignore` keeps out of the repository is a warning: its author has it.
@@ -41,8 +43,15 @@ from checker.package.installed import left_out, resolve_listed
 from checker.package.manifests import Paperwork
 from checker.package.no_package import MESHES
 from checker.package.package import Package
+from checker.package.resource_path import mentions, searched_folders
 from checker.package.target import package_around
-from checker.package.uris import Unknown, is_on_one_machine, own_path_on_machine, path_behind
+from checker.package.uris import (
+    Unknown,
+    below_searched_folder,
+    is_on_one_machine,
+    own_path_on_machine,
+    path_behind,
+)
 from checker.rule import (
     Concern,
     Finding,
@@ -76,15 +85,22 @@ def check(package: Package, files: NamedFiles, paperwork: Paperwork) -> Findings
                 yield _elsewhere(package, uri, uri in files.meshes)
             continue
         if package.exists(path):
-            if own_path_on_machine(package, uri.value):
-                yield _on_machine(uri, posixpath.relpath(path, Robot.folder_of(uri) or "."))
-            if uri.value.startswith("package://"):
-                yield from _not_installed(package, uri, path, uri in files.meshes)
+            yield from _unreached(package, uri, path, uri in files.meshes)
             continue
         if place := downloaded_by(package, path):
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
         yield _missing(package, files, uri, path)
+
+
+def _unreached(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:
+    """Report a file that is there, and that its URI does not lead to."""
+    if own_path_on_machine(package, uri.value):
+        yield _on_machine(uri, posixpath.relpath(path, Robot.folder_of(uri) or "."))
+    if lost := _not_searched(package, uri):
+        yield lost
+    if uri.value.startswith("package://"):
+        yield from _not_installed(package, uri, path, mesh)
 
 
 def _missing(package: Package, files: NamedFiles, uri: Located[str], path: str) -> Finding:
@@ -156,6 +172,32 @@ def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -
         )
 
 
+def _not_searched(package: Package, uri: Located[str]) -> Finding | None:
+    """Report a `model://` whose file is in a folder that is not on Gazebo's search path."""
+    below = below_searched_folder(package, uri.value)
+    if below is None:
+        return None
+    around, path = below
+    folder = path.removesuffix(uri.value.removeprefix("model://")).rstrip("/")
+    every, kinds = (around, *around.other_packages), (True, False)
+    on_path = [
+        it for each in every for kind in kinds for it in searched_folders(each, classic=kind)
+    ]
+    named = any(True for each in every for kind in kinds for _ in mentions(each, classic=kind))
+    share = posixpath.join(around.declared_name, folder).rstrip("/")
+    if named or any(not it.known or it.folder == share for it in on_path):
+        return None
+    prefix = posixpath.join("${prefix}", folder).rstrip("/")
+    return finding(
+        uri,
+        f"Gazebo does not find {uri.value}: it is {path} of {around.declared_name}, and nothing "
+        f"puts {folder or 'that folder'} on its search path; expected "
+        f'<gazebo_ros gazebo_model_path="{prefix}"/> in <export> of package.xml',
+        severity=Severity.WARNING,
+        key=f"not searched {share}",
+    )
+
+
 def _may_be(other: str, path: str) -> bool:
     """Return whether a file may be the missing one: a mesh where a mesh is named."""
     is_mesh = not path.lower().endswith(MESHES) or other.lower().endswith(MESHES)
@@ -202,8 +244,23 @@ _ARM = {
     "shapes/arm.dae": "<COLLADA/>",
     "urdf/arm.urdf": _ROBOT,
 }
+_BELOW_MODELS: dict[str, object] = {
+    "@name": "acme_arm",
+    "@profile": "gazebo-classic",
+    "@ros2": True,
+    "urdf/arm.urdf.xacro": None,
+    "models/shapes/arm.stl": "solid a\nendsolid a\n",
+}
+_VISUAL = """
+<visual name="v"><geometry><mesh><uri>model://shapes/arm.stl</uri>{}</mesh></geometry></visual>
+"""
 _FORMER = _ROBOT.replace("acme_arm/", "old_arm/")
 GOOD = [
+    {
+        **_BELOW_MODELS,
+        "@fragment": _VISUAL.format(""),
+        "README.md": "export GAZEBO_MODEL_PATH=src/acme_arm/models\n",
+    },
     _ARM,
     {**_ARM, "CMakeLists.txt": _BUILD.replace("urdf shapes", "${FOLDERS}")},
     {
@@ -214,6 +271,7 @@ GOOD = [
     },
 ]
 BAD = [
+    {**_BELOW_MODELS, "@fragment": _VISUAL.format("  <!-- ^ REF002 -->")},
     {
         "@fragment": """
 <visual name="v"><geometry><mesh>
