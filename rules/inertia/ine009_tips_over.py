@@ -26,7 +26,7 @@ from checker.model.geometry.placed_shapes import place_shapes
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import Tie
-from checker.physics.mass.leaning import high_parts
+from checker.physics.mass.leaning import HighParts, high_parts
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import spanning_tree_of
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -84,8 +84,12 @@ def check(
     severity = Severity.ERROR if grave else Severity.WARNING
     place, cause = _bodiless(robot, ground) or _top_heavy(masses, centre, ground, least)
     message = f"the robot {standing}{cause}"
-    if leaning := _leaning(masses, centre, ground, least):
-        severity, (place, message) = Severity.WARNING, leaning
+    parts = _high_parts(masses, centre, ground)
+    if parts is not None and parts.tip_angle > max(angle, 0.0):
+        at = math.degrees(parts.tip_angle)
+        grave = context.is_subt and at < error_below_degrees
+        severity = Severity.ERROR if grave else Severity.WARNING
+        place, message = _leaning(robot, parts, least)
     yield finding(
         place,
         message,
@@ -107,19 +111,22 @@ def _top_heavy(
     )
 
 
-def _leaning(
-    masses: MassProperties, centre: Vector, ground: float, least: float
-) -> tuple[Link, str] | None:
-    """Return the first part that a robot rests on once it leans, and what to say of it."""
-    robot, parts = masses.robot, high_parts(masses.robot, centre, ground)
+def _high_parts(masses: MassProperties, centre: Vector, ground: float) -> HighParts | None:
+    """Return the parts that a robot leans onto; None if it lies on its heaviest link."""
+    parts = high_parts(masses.robot, centre, ground)
     heaviest = max(masses.links, key=lambda name: masses.links[name].mass)
-    if parts is None or heaviest in parts.gaps or math.degrees(parts.tip_angle) < least:
-        return None
+    return None if parts is None or heaviest in parts.gaps else parts
+
+
+def _leaning(robot: Robot, parts: HighParts, least: float) -> tuple[Link, str]:
+    """Return the first part that a robot rests on once it leans, and what to say of it."""
     links = {robot.tree.links[name]: gap for name, gap in parts.gaps.items()}
     high = [f"{link.name.value!r} is {gap:.3f} m" for link, gap in links.items()]
+    at = math.degrees(parts.tip_angle)
+    tips = f"; on it, it tips over at {at:.1f}°, expected {least:g}° or more" if at < least else ""
     return next(iter(links)), (
         f"the robot leans up to {math.degrees(parts.lean):.1f}° until it rests on what does not "
-        f"reach the ground: {and_list(high)} above it"
+        f"reach the ground: {and_list(high)} above it{tips}"
     )
 
 
