@@ -1,4 +1,4 @@
-"""A controller that MoveIt's controller manager drops.
+"""A controller that MoveIt's controller manager drops or cannot reach.
 
 `moveit_simple_controller_manager` needs of each controller in `controller_names` its `action_ns`,
 its `type` and its `joints`. Where one is missing it logs "No action namespace specified for
@@ -6,22 +6,38 @@ controller" (type, joints), and goes on without the controller: plans are made, 
 fails with "Unable to identify any set of controllers that can actuate the specified joints". The
 setup assistant leaves `action_ns` out at times, in Humble and in Jazzy.
 
+MoveIt calls the action `<controller>/<action_ns>`. A JointTrajectoryController offers
+`follow_joint_trajectory`, a GripperActionController `gripper_cmd`: with another `action_ns` MoveIt
+logs "Action client not connected to action server", and nothing moves. The type is that of the
+parameter files of all packages, where they agree and a launch file names the controller.
+
 Fix: write `action_ns: follow_joint_trajectory` for a FollowJointTrajectory, `gripper_cmd` for a
 GripperCommand, and the joints of the controller.
 Source: moveit/moveit2#1394, #1506, #3566; MoveIt 2, moveit_simple_controller_manager.cpp.
 """
 
 from collections.abc import Iterator
+from itertools import islice
 
 from checker.base.words import Suggestions, and_list
+from checker.model.controllers import ControllerFile, controllers_of
 from checker.package.package import Package
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.ros.wiring.parameters import blocks_in
+from checker.rule import Concern, Finding, Findings, Severity, finding, rename, rule
 from checker.source.text import Located
 from checker.source.yaml import YamlNode, read_root
 
 _MANAGER = "moveit_simple_controller_manager"
 _NAMES = "controller_names"
 _NEEDED = ("action_ns", "type", "joints")
+_OFFERED = {
+    "joint_trajectory_controller/JointTrajectoryController": "follow_joint_trajectory",
+    "position_controllers/GripperActionController": "gripper_cmd",
+    "effort_controllers/GripperActionController": "gripper_cmd",
+    "parallel_gripper_action_controller/GripperActionController": "gripper_cmd",
+}
+"""The action that a type of controllers offers, below the name of the controller."""
+_FILES_LIMIT = 400
 _ACTIONS = {"FollowJointTrajectory": "follow_joint_trajectory", "GripperCommand": "gripper_cmd"}
 
 
@@ -37,7 +53,9 @@ def check(package: Package) -> Findings:
         if manager is not None and names is not None and not other:
             for item in names.items:
                 if isinstance(item.scalar, str) and "$" not in item.scalar:
-                    yield from _judged(Located(item.scalar, item.span), manager)
+                    name = Located(item.scalar, item.span)
+                    yield from _judged(name, manager)
+                    yield from _unreached(name, manager, package)
 
 
 def _judged(name: Located[str], manager: YamlNode) -> Iterator[Finding]:
@@ -64,6 +82,39 @@ def _judged(name: Located[str], manager: YamlNode) -> Iterator[Finding]:
         )
 
 
+def _unreached(name: Located[str], manager: YamlNode, package: Package) -> Iterator[Finding]:
+    """Report an action that a controller of a known type does not offer."""
+    controller = manager.get(name.value)
+    action = controller.get("action_ns") if controller is not None else None
+    if action is None or not isinstance(action.scalar, str) or not action.scalar.strip("/"):
+        return
+    if not package.workspace.launches_with(name.value):
+        return  # a driver of the gripper may have this name instead
+    types = {it.value: it for it in _types(name.value, package)}
+    offered = {_OFFERED.get(it, "") for it in types}
+    if len(offered) == 1 and offered.isdisjoint(("", action.scalar.strip("/"))):
+        (right,) = offered
+        kind = next(iter(types.values()))
+        yield finding(
+            action,
+            f"controller {name.value!r} offers {right} and no {action.scalar}: MoveIt cannot move "
+            f"its joints; write `action_ns: {right}`",
+            key=name.value,
+            related=[(kind, "its type")],
+            fix=rename(Located(action.scalar, action.span), right),
+        )
+
+
+def _types(name: str, package: Package) -> Iterator[Located[str]]:
+    """Yield the types that the parameter files of all packages give to a controller."""
+    folders = ((package, ""), *((it, f"../{it.name}/") for it in package.other_packages))
+    files = (f"{at}{it.path}" for holder, at in folders for it in holder.index.with_suffix(".yaml"))
+    for path in islice(files, _FILES_LIMIT):
+        blocks = tuple(blocks_in(package, path, name))
+        found = controllers_of([ControllerFile(path, blocks)]) if blocks else ()
+        yield from (it.type for it in found if it.name == name)
+
+
 def _controllers(lines: str, mark: str = "", manager: str = _MANAGER) -> dict[str, object]:
     return {
         "@urdf": True,
@@ -82,8 +133,25 @@ _WHOLE = """  arm_controller:
     joints: [shoulder]
 """
 _MARK = "  # ^ URD036"
+_TYPES = """controller_manager:
+  ros__parameters:
+    arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}
+"""
+_BESIDE = {"@name": "acme_arm_config", "../acme_arm_bringup/config/control.yaml": _TYPES} | {
+    "../acme_arm_bringup/package.xml": "<package><name>acme_arm_bringup</name></package>"
+}
+_SPAWN = {
+    "launch/arm.launch.xml": """<launch>
+<node pkg="controller_manager" exec="spawner" args="arm_controller"/>
+</launch>
+"""
+}
+_OTHER = _WHOLE.replace(": follow_joint_trajectory", ": gripper_cmd")
 GOOD = [
     _controllers(_WHOLE),
+    {**_controllers(_WHOLE), **_BESIDE, **_SPAWN},
+    {**_controllers(_OTHER), **_BESIDE},
+    {**_controllers(_OTHER), **_SPAWN},
     _controllers("", manager="moveit_ros_control_interface"),
 ]
 BAD = [
@@ -91,4 +159,5 @@ BAD = [
     _controllers(_WHOLE.replace("action_ns", "actions_ns"), _MARK),
     _controllers(_WHOLE.replace("    type: FollowJointTrajectory\n", ""), _MARK),
     _controllers(_WHOLE.replace("    joints: [shoulder]\n", ""), _MARK),
+    {**_controllers(_OTHER.replace("gripper_cmd", f"gripper_cmd{_MARK}")), **_BESIDE, **_SPAWN},
 ]
