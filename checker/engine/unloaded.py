@@ -13,8 +13,8 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-_OF_MASSES = "INE"
-"""The group of rules about what a simulator alone reads."""
+_OF_SIMULATION = ("INE", "TRI")
+"""The groups of rules about what a simulator alone reads, and what it makes of it."""
 
 
 def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
@@ -27,7 +27,7 @@ def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
     for value in arguments.values():
         for holder in (value, getattr(value, "robot", None)):
             clause = getattr(holder, "unloaded", "")
-            if group == _OF_MASSES:
+            if group in _OF_SIMULATION:
                 clause = clause or getattr(holder, "never_simulated", "")
             if clause:
                 return str(clause)

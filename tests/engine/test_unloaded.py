@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from checker.engine.unloaded import less_of_unloaded
+from checker.engine.unloaded import less_of_unloaded, unloaded_in
 from checker.finding import Place, Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport, ReportedFinding
@@ -30,7 +31,7 @@ _CHOICE = """<xacro:arg name="tool" default="false"/>
 <xacro:if value="$(arg tool)"><link name="tool">@</link></xacro:if>"""
 
 
-def _check(tmp_path: Path, new: str, old: str = "") -> PackageReport:
+def _check(tmp_path: Path, new: str, old: str = "", rule: str = "INE002") -> PackageReport:
     files = {
         "package.xml": PACKAGE_XML,
         "CMakeLists.txt": CMAKE,
@@ -43,7 +44,7 @@ def _check(tmp_path: Path, new: str, old: str = "") -> PackageReport:
         path = tmp_path / NAME / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    return check_package(tmp_path / NAME, Settings(select=("INE002",), trial=False)).packages[0]
+    return check_package(tmp_path / NAME, Settings(select=(rule,), trial=False)).packages[0]
 
 
 def _faults(report: PackageReport) -> list[ReportedFinding]:
@@ -77,6 +78,36 @@ def test_what_is_hardware_alone_has_warnings(
     (found,) = _faults(_check(tmp_path, _link(_FAULTY) + control))
     assert found.severity is severity
     assert ("starts a simulator" in found.message) is (severity is Severity.WARNING)
+
+
+_ARM = """<link name="base"/><link name="boom"><inertial><origin xyz="0.5 0 0"/>
+<mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="swing" type="revolute"><parent link="base"/><child link="boom"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<ros2_control name="arm" type="system"><hardware><plugin>{}</plugin></hardware>
+<joint name="swing"><command_interface name="position"/></joint></ros2_control>"""
+
+
+@pytest.mark.parametrize(
+    ("plugin", "severity"),
+    [
+        ("mock_components/GenericSystem", Severity.INFO),
+        ("gz_ros2_control/GazeboSimSystem", Severity.WARNING),
+    ],
+)
+def test_a_weak_arm_that_no_simulator_gets_is_an_info(
+    plugin: str, severity: Severity, tmp_path: Path
+) -> None:
+    report = _check(tmp_path, _ARM.format(plugin), rule="INE015")
+    (found,) = (it for it in report.findings if it.rule == "INE015")
+    assert found.severity is severity
+    assert ("starts a simulator" in found.message) is (severity is Severity.INFO)
+
+
+@pytest.mark.parametrize(("group", "counts"), [("INE", True), ("TRI", True), ("URD", False)])
+def test_what_a_simulator_alone_shows_counts_less(group: str, counts: bool) -> None:
+    robot = SimpleNamespace(never_simulated="no launch file starts a simulator")
+    assert bool(unloaded_in({"driven": SimpleNamespace(robot=robot)}, group)) is counts
 
 
 def test_what_rviz_alone_gets_has_warnings(tmp_path: Path) -> None:

@@ -34,6 +34,11 @@ class ArmLoads(Record, eq=False, dict=True):
     unknown: str = ""
 
     @property
+    def robot(self) -> Robot:
+        """The robot."""
+        return self.masses.robot
+
+    @property
     def joints(self) -> tuple[Joint, ...]:
         """The joints with an effort limit."""
         return tuple(
