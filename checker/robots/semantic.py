@@ -144,7 +144,7 @@ def _documents(package: Package, expander: Expander) -> Iterator[tuple[str, XmlD
 
 
 def _own(package: Package, suffix: str) -> Iterator[str]:
-    """Yield the files of a kind that lie in no package below the package's folder."""
+    """Yield the files of a kind that are in no package below the package's folder."""
     paths = (entry.path for entry in package.index.with_suffix(suffix))
     return (path for path in paths if not package.lies_in_unit(path))
 
