@@ -55,6 +55,16 @@ def metal(inside: str) -> str:
 """
 
 
+def spawned(robot: str) -> dict[str, object]:
+    """Return a robot that a launch file puts into Gazebo."""
+    return {
+        "@ros2": """Node(package='robot_state_publisher', executable='robot_state_publisher',
+    parameters=[{'robot_description': Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])}]),
+Node(package='ros_gz_sim', executable='create', arguments=['-topic', 'robot_description']),""",
+        "urdf/arm.urdf.xacro": f'<robot name="arm"><link name="base_link"/>{robot}</robot>',
+    }
+
+
 def friction(inside: str) -> str:
     return f"""
 <collision name="c"><geometry><box><size>1 1 1</size></box></geometry>
@@ -199,6 +209,9 @@ LIFT = """<link name="fork"/>
   <limit lower="0" upper="1" effort="5" velocity="0"/></joint>
 """
 GZ = MOTOR.format(name="gz", plugin="gz_ros2_control/GazeboSimSystem")
+RUNS = """<gazebo><plugin filename="gz_ros2_control-system"
+  name="gz_ros2_control::GazeboSimROS2ControlPlugin"/></gazebo>"""
+OTHERWISE = "<!-- or gz_ros2_control/GazeboSimSystem -->"
 MOCK = MOTOR.format(name="mock", plugin="mock_components/GenericSystem")
 HINGE = """
 <link name="hinge"/>
@@ -270,6 +283,9 @@ CASES: list[tuple[str, Example, str]] = [
     ("DRV002", DRIVE.format(name="DiffDrive", inside=LINEAR), "warning"),
     ("DRV002", DRIVE.format(name="MulticopterVelocityControl", inside=COPTER), "error"),
     ("R2C003", CHOSEN, "warning"),
+    ("R2C005", {"@urdf": LIFT + MOCK + RUNS}, "warning"),
+    ("R2C005", spawned(LIFT + MOCK + RUNS), "error"),
+    ("R2C005", spawned(LIFT + MOCK + RUNS + OTHERWISE), "warning"),
     ("R2C016", {"@urdf": LIFT + MOCK + GZ}, "error"),
     ("R2C016", {"@urdf": LIFT + GZ + MOCK}, "warning"),
     ("BRG002", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/odometry", "Odometry")}, "error"),

@@ -69,6 +69,16 @@ class SpawnedFiles(Record, eq=False, dict=True):
             return _ELSEWHERE
         return _HARDWARE if any(map(_starts_manager, loading)) else ""
 
+    def is_spawned(self, robot: Robot) -> bool:
+        """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""
+        file = robot.document.source.file
+        return any(
+            (node.package.value, node.executable.value) in EVERY_SPAWN and node.starts
+            for graph, loaded in self._graphs
+            if file in map(self._file, loaded)
+            for node in graph.nodes_and_spawns
+        )
+
     def is_in_classic(self, robot: Robot) -> bool | None:
         """Return whether a robot is spawned into Classic alone; None if into others, or neither."""
         file = robot.document.source.file

@@ -2,7 +2,8 @@
 
 Hardware such as `gz_ros2_control/GazeboSimSystem` exists only in Gazebo, and a plugin in `<gazebo>`
 starts the controller manager there: the robot needs both. With the plugin and other hardware, such
-as `mock_components/GenericSystem`, the controllers run and the simulated robot does not move.
+as `mock_components/GenericSystem`, the controllers run and the simulated robot does not move: an
+error where a launch file spawns the robot and its files name no hardware of Gazebo at all.
 Without any `<ros2_control>` tag the plugin stops, and there is no controller manager. The plugin's
 `name` is the class that is loaded from the library; it cannot be chosen freely. An SDF model in the
 workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo. In a
@@ -21,6 +22,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec.structs import replace
 
+from checker.formats.xacro.expanded import ExpandedText
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
@@ -63,17 +65,31 @@ def check(
 ) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
-    Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings. In what
-    Gazebo never gets nothing is an error, and other hardware is none of its faults.
+    Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings, except for
+    hardware that Gazebo gets whatever its launch files are given. In what Gazebo never gets nothing
+    is an error, and other hardware is none of its faults.
     """
     found = [*_found(control, package, context)]
     clause = spawned.without(control.robot) if found else ""
     for each in found:
         if not clause:
-            yield each
+            grave = each.key == _OTHER_HARDWARE and _is_certain(control)
+            certain = grave and spawned.is_spawned(control.robot)
+            yield replace(each, severity=None) if certain else each
         elif each.key != _OTHER_HARDWARE:
             message = f"{each.message} ({clause})"
             yield replace(each, message=message, severity=Severity.WARNING)
+
+
+def _is_certain(control: RobotControl) -> bool:
+    """Return whether the files of a robot name its hardware in full, and none of Gazebo."""
+    source = control.robot.document.source
+    files = source.gathered.sources.values() if isinstance(source, ExpandedText) else (source,)
+    texts = [it.text for it in files]
+    names = [it.plugin.value for it in control.hardware]
+    return all(any(name in text for text in texts) for name in names) and not any(
+        f"{package}/" in text for text in texts for package in _EVERY_PACKAGE
+    )
 
 
 def _found(control: RobotControl, package: Package, context: Context) -> Iterator[Finding]:
