@@ -30,6 +30,8 @@ GENERATES = re.compile(
     re.IGNORECASE,
 )
 """Commands of CMake that make files while it builds."""
+_PROGRAM = re.compile(r"[\w-]+\.(?:c|cc|cpp|cxx|h|hh|hpp)\b")
+"""The source of a program."""
 _MAY_INSTALL = re.compile(r"install|add_subdirectory|\binclude\b", re.IGNORECASE)
 _PYTHON_MODULES = "ament_python_install_package"
 
@@ -144,7 +146,8 @@ def _tells_all(package: Package) -> bool:
 def may_be_made(package: Package, path: str) -> bool:
     """Return whether the build may make a file: it names it, or makes files of unknown names.
 
-    `urdf` in setup.py is the folder of the package, and does not name `rviz/urdf.rviz`.
+    `urdf` in setup.py is the folder of the package, and does not name `rviz/urdf.rviz`. Nor does a
+    source of a program, `src/arm.cpp`, name `rviz/arm.rviz`.
     """
     stem = posixpath.basename(path).partition(".")[0]
     is_folder = package.exists(stem)
@@ -152,7 +155,7 @@ def may_be_made(package: Package, path: str) -> bool:
         source = package.read(file)
         if not isinstance(source, SourceText):
             continue
-        is_named = not is_folder and stem in _WORD.findall(source.text)
+        is_named = not is_folder and stem in _WORD.findall(_PROGRAM.sub("", source.text))
         if is_named or GENERATES.search(source.text):
             return True
     return False

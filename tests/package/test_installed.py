@@ -88,6 +88,12 @@ ALONE = "exists only in the source"
         (("CMakeLists.txt", f"include(x)\n{AUTO}"), "notes.txt", None),
         (("CMakeLists.txt", f"configure_file(a b)\n{AUTO}"), "notes.txt", None),
         (("CMakeLists.txt", f"set(A notes)\n{AUTO}"), "notes.txt", None),
+        # The source of a program makes no other file of its name.
+        (
+            ("CMakeLists.txt", f"add_library(lift src/notes.cpp)\n{AUTO}"),
+            "notes.txt",
+            f"the file {ALONE}",
+        ),
         (("setup.py", SETUP), "description/parts/hook.xacro", f"folder description/parts/ {ALONE}"),
         (("setup.py", SETUP.replace("[(", "x + [(")), "notes.txt", None),
         (("setup.py", SETUP), "absent.txt", None),
