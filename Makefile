@@ -5,8 +5,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 INSTALL := $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt
-# One more than processors: a quarter of the time a test waits for a process that it started.
-WORKERS ?= $(shell $(PYTHON) -c "import os; print((os.cpu_count() or 1) + 1)")
+WORKERS ?= auto
 # A worker takes neighbouring tests, which share fixtures.
 TEST := $(BIN)/pytest -n $(WORKERS) --dist worksteal
 THOROUGH := --hypothesis-profile=thorough
